@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+#
+# sph.h has nothing to build: copy sph.h, sph_ops.h and sph_kernels.h into your code. This file runs what proves them.
+
+CC ?= cc
+CFLAGS ?= -O2
+WARN = -std=c99 -Wall -Wextra -Wpedantic
+LDLIBS = -lm
+BUILD = build
+RESULTS = $(BUILD)/results
+FIGURES = $(BUILD)/figures
+HEADERS = sph.h sph_ops.h sph_kernels.h
+COMMON = $(wildcard examples/common/*.h) $(wildcard examples/papers/*.h)
+
+# The papers and their drivers (examples/papers/<driver>.c). A driver's name starts with its paper's.
+PAPERS = icspm
+DRIVERS_icspm = icspm_uniform icspm_random icspm_dimensions
+DRIVERS = $(foreach p,$(PAPERS),$(DRIVERS_$(p)))
+
+# Tests of the headers are built twice, in double and in float; tests of what the examples share in double only.
+TESTS_DOUBLE = common
+TESTS_OPTIONAL = gsl
+TESTS = $(filter-out $(TESTS_DOUBLE) $(TESTS_OPTIONAL),$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))
+TEST_PROGRAMS = $(TESTS:%=$(BUILD)/tests/%) $(TESTS:%=$(BUILD)/tests/%-float) $(TESTS_DOUBLE:%=$(BUILD)/tests/%)
+TEST_SCRIPTS = tests/compile/strict.sh tests/compile/folding.sh tests/examples.sh tests/known/check.sh tests/gsl.sh
+
+help:
+	@echo "make reproduce        run the papers' benchmarks, published beside measured values, and print a scoreboard"
+	@echo "make reproduce-PAPER  one paper's ($(PAPERS))"
+	@echo "make reproduce-full   with more realisations and finer clouds"
+	@echo "make test             the tests; the last line is 'N passed, N failed'"
+	@echo "make test-sanitize    the tests under the address and undefined-behaviour sanitizers"
+	@echo "make figures          PNG of the figures from the last run (needs gnuplot)"
+	@echo "make clean            remove $(BUILD)/"
+	@echo "There is nothing to build: copy $(HEADERS) into your code."
+
+# ---------------------------------------------------------------- papers
+
+reproduce: run-quick-all
+reproduce-full: run-full-all
+reproduce-%: run-quick-%
+	@:
+
+drivers_of = $(if $(filter all,$(1)),$(DRIVERS),$(DRIVERS_$(1)))
+
+# $(1): paper or all; $(2): options. All drivers run, then the scoreboard tells; the answer is failure if any driver failed.
+define run
+	@if [ -z "$(strip $(call drivers_of,$(1)))" ]; then echo "no paper called '$(1)'; there are: $(PAPERS)"; exit 2; fi
+	@mkdir -p $(RESULTS) $(FIGURES)
+	@$(MAKE) --no-print-directory $(BUILD)/examples/scoreboard $(addprefix $(BUILD)/examples/,$(call drivers_of,$(1)))
+	@rm -f $(patsubst %,$(RESULTS)/%.csv,$(call drivers_of,$(1))); failed=0; \
+	for d in $(call drivers_of,$(1)); do \
+	    echo; echo "======== $$d"; \
+	    $(BUILD)/examples/$$d -out $(RESULTS) -figures $(FIGURES) $(2) || failed=1; \
+	done; \
+	$(MAKE) --no-print-directory figures || failed=1; \
+	echo; $(BUILD)/examples/scoreboard $(patsubst %,$(RESULTS)/%.csv,$(call drivers_of,$(1))) || failed=1; \
+	exit $$failed
+endef
+
+run-quick-%:
+	$(call run,$*,)
+run-full-%:
+	$(call run,$*,-full)
+
+figures:
+	@if ! command -v gnuplot > /dev/null 2>&1; then \
+	    echo "gnuplot is not installed: no PNG; the figures' data are in $(FIGURES)/*.csv"; \
+	else for p in $(PAPERS); do \
+	    if ls $(FIGURES)/$${p}_*.csv > /dev/null 2>&1; then gnuplot -e "dir='$(FIGURES)/'" examples/papers/$$p.gp && echo "figures: $(FIGURES)/$${p}_*.png"; fi || exit 1; \
+	done; fi
+
+$(BUILD)/examples/scoreboard: examples/common/scoreboard.c $(COMMON)
+	@mkdir -p $(@D)
+	$(CC) $(WARN) $(CFLAGS) -o $@ $< $(LDLIBS)
+$(BUILD)/examples/%: examples/papers/%.c $(COMMON) $(HEADERS)
+	@mkdir -p $(@D)
+	$(CC) $(WARN) $(CFLAGS) -o $@ $< $(LDLIBS)
+
+# ---------------------------------------------------------------- tests
+
+test: $(TEST_PROGRAMS) $(DRIVERS:%=$(BUILD)/examples/%) $(BUILD)/examples/scoreboard
+	@CC="$(CC)" BUILD="$(BUILD)" sh tests/run.sh $(TEST_PROGRAMS) $(TEST_SCRIPTS)
+
+test-sanitize:
+	$(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all" TEST_SCRIPTS=tests/examples.sh test
+
+$(BUILD)/tests/%-float: tests/test_%.c $(wildcard tests/*.h) $(COMMON) $(HEADERS)
+	@mkdir -p $(@D)
+	$(CC) $(WARN) $(CFLAGS) -DSPH_SINGLE=1 -I. -o $@ $< $(LDLIBS)
+$(BUILD)/tests/%: tests/test_%.c $(wildcard tests/*.h) $(COMMON) $(HEADERS)
+	@mkdir -p $(@D)
+	$(CC) $(WARN) $(CFLAGS) -I. -o $@ $< $(LDLIBS)
+
+clean:
+	rm -rf $(BUILD)
+
+.PHONY: help reproduce reproduce-full figures test test-sanitize clean

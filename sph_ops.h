@@ -1,0 +1,1506 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sph_ops.h - operators of smoothed particle hydrodynamics on the caller's arrays and the caller's neighbour lists.
+ *
+ * The middle of three headers: it includes sph_kernels.h (kernels, conventions, options, status codes: read its opening first); sph.h adds a neighbour search.
+ *
+ * TWO TIERS
+ *   Pair tier: every formula, once, as a function of values. Hosts with loops of their own, and GPU kernels, call these.
+ *   List tier: the loops over particles and neighbours. No formulas. Each call treats the targets first <= i < last, so that the host's threads can share the work;
+ *   the results do not depend on how. Call with a constant kernel and dim, so that both fold away (SPH_SWITCH_KERNEL turns a run-time kernel into constants).
+ *
+ * DATA
+ *   sph_points    positions where they are: sph_points_separate (x[], y[], z[]), sph_points_interleaved (xyzxyz...), sph_points_strided (array of structs)
+ *   sph_scalars   one number per particle: sph_scalars_array(p), sph_scalars_strided(p, stride), sph_scalars_same(&value) for one value for all
+ *   sph_list      neighbour lists in CSR form: neighbours of target i are index[start[i]] ... index[start[i + 1] - 1]
+ *   All strides count sph_real. Sources are the particles 0 ... n - 1, targets are the first ... last - 1 of them; ghost, boundary and halo particles are
+ *   sources that are not targets, probes (points where a field is wanted) are targets with the volume 0.
+ *   Lists must hold every source with r < support * h_i (more do no harm) and not the particle itself. h is the target's: h_i.
+ *   V is the volume of a particle (m / rho; an area in 2D, a length in 1D). Outputs must not overlap inputs.
+ *   Nothing here allocates memory; nothing is remembered between calls.
+ *
+ * ANSWERS of list-tier functions: the number of targets that are not ok (0: all well), or a negative sph_error, and then nothing was written. The optional array `status`
+ *   says more per particle (sph_status). Outputs of a target that is SPH_TOO_FEW, SPH_SINGULAR, SPH_NOT_AVAILABLE or SPH_NOT_FINITE are 0: never a NaN.
+ *   With SPH_CHECK = 1 every call scans all positions, h and values and its part of the list first, so call it on long ranges, or switch the scan off.
+ *
+ * INDEX   (k: kernel, dim: dimension, ...: first, last, points, list, h, V)
+ *   views          sph_points_separate  sph_points_interleaved  sph_points_strided  sph_scalars_array  sph_scalars_strided  sph_scalars_same
+ *   vectors        sph_dot  sph_scale  sph_subtract  sph_length
+ *   interpolation  sph_shepard_sum(k, dim, ..., out)                                     gamma_i = sum_j V_j W_ij, the particle itself included
+ *                  sph_interpolate_shepard(k, dim, ..., f, out, status)                  sum_j V_j f_j W_ij / gamma_i
+ *   gradients      sph_gradient_difference(k, dim, ..., f, gx, gy, gz)                   sum_j V_j (f_j - f_i) grad_i W_ij; not corrected
+ *                  sph_gradient_cspm(k, dim, ..., f, gx, gy, gz, conditioning, status)   renormalised: exact for linear fields
+ *                  sph_gradient_rows_cspm(k, dim, ..., wx, wy, wz, conditioning, status) the same as stencil rows
+ *   Laplacians     sph_laplacian_brookshaw(k, dim, ..., f, out)                          sum_j 2 V_j (f_i - f_j) F_ij
+ *                  sph_laplacian_rows_brookshaw(k, dim, ..., row)
+ *                  sph_laplacian_kernel(k, dim, ..., f, out)                             sum_j V_j (f_j - f_i) lap W_ij; for comparison
+ *                  sph_laplacian_rows_kernel(k, dim, ..., row)
+ *   second         sph_derivatives_cspm(k, dim, ..., f, conditioning_min, out)           gradient, Hessian, Laplacian by CSPM
+ *   derivatives    sph_derivatives_icspm(k, dim, ..., f, conditioning_min, fallback_wls, out)   improved CSPM: exact for quadratic fields
+ *                  sph_derivatives_wls(k, dim, ..., f, conditioning_min, out)            weighted least squares: exact for quadratic fields, robust
+ *                  sph_derivative_rows_cspm(k, dim, ..., d, out)                         stencil rows of a combination d of first and second derivatives
+ *                  sph_derivative_rows_icspm(k, dim, ..., d, out)                        with the factor kappa of the right-hand side
+ *                  sph_derivative_rows_wls(k, dim, ..., d, out)
+ *                  sph_second_derivative_bim(k, ..., f, left, right, out, status)        1D, with boundary integrals
+ *                  sph_second_derivative_rows_bim(k, ..., left, right, row, status)
+ *   pair tier      sph_gradient_pair_difference  sph_laplacian_weight_brookshaw  sph_laplacian_weight_kernel  sph_boundary_weight_bim
+ *                  sph_moment_weight_gradient  sph_test_weights_cspm  sph_test_weights_wls  sph_moments_zero  sph_moments_add  sph_moments_add_value
+ *                  sph_solve_gradient  sph_solve_cspm  sph_solve_block  sph_row_cspm  sph_row_block  sph_row_weight  sph_jet_laplacian
+ */
+#ifndef SPH_OPS_H
+#define SPH_OPS_H
+
+#include "sph_kernels.h"
+#if SPH_VERSION != 100
+#  error "sph_ops.h and sph_kernels.h are of different releases"
+#endif
+
+/* ================================================================ vectors */
+
+typedef struct sph_vec {
+    sph_real x, y, z; /* components beyond dim are 0 */
+} sph_vec;
+
+/* a symmetric tensor */
+typedef struct sph_sym {
+    sph_real xx, xy, yy, xz, yz, zz;
+} sph_sym;
+
+SPH_FN sph_real sph_dot(int dim, sph_vec a, sph_vec b)
+{
+    sph_real s = a.x * b.x;
+    if (dim > 1) s += a.y * b.y;
+    if (dim > 2) s += a.z * b.z;
+    return s;
+}
+SPH_FN sph_vec sph_scale(sph_real a, sph_vec v)
+{
+    v.x *= a;
+    v.y *= a;
+    v.z *= a;
+    return v;
+}
+SPH_FN sph_vec sph_subtract(int dim, sph_vec a, sph_vec b)
+{
+    a.x -= b.x;
+    if (dim > 1) a.y -= b.y;
+    if (dim > 2) a.z -= b.z;
+    return a;
+}
+SPH_FN sph_real sph_length(int dim, sph_vec v) { return SPHI_SQRT(sph_dot(dim, v, v)); }
+
+/* ================================================================ pair tier: interpolation, gradients, Laplacians
+   Interpolation needs no formula beyond V_j W_ij and V_j f_j W_ij. */
+
+/* V_j (f_j - f_i) grad_i W_ij: exact for constants; error O(h^2) in the interior where the particles are regular, O(1) at a boundary.
+   Monaghan 1992, ARA&A 30, 543, in difference form. */
+SPH_FN sph_vec sph_gradient_pair_difference(sph_kernel k, int dim, sph_vec x_ij, sph_real r, sph_real h, sph_real V_j, sph_real f_i, sph_real f_j)
+{
+    return sph_scale(V_j * (f_j - f_i) * sph_kernel_f(k, dim, r, h), x_ij);
+}
+
+/* Weight of (f_j - f_i) in Brookshaw's Laplacian: -2 V_j F_ij >= 0. L f_i = sum_j weight (f_j - f_i) = sum_j 2 V_j (f_i - f_j) F_ij.
+   Brookshaw 1985, Proc. ASA 6, 207. Error O(h^2) in the interior of a regular cloud, O(1/h) at a boundary and O(1) or worse in disorder. */
+SPH_FN sph_real sph_laplacian_weight_brookshaw(sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j) { return SPH_R(-2) * V_j * sph_kernel_f(k, dim, r, h); }
+
+/* Weight of (f_j - f_i) in the oldest SPH Laplacian, V_j lap W_ij = V_j (d2W/dr2 + (dim - 1) F). Changes sign inside the support and is very sensitive to disorder
+   (Monaghan 2005, Rep. Prog. Phys. 68, 1703, section 2): here to compare with. */
+SPH_FN sph_real sph_laplacian_weight_kernel(sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j)
+{
+    return V_j * (sph_kernel_d2wdr2(k, dim, r, h) + SPH_R(dim - 1) * sph_kernel_f(k, dim, r, h));
+}
+
+/* 1D, BIM: weight of (f_b - f_i) for the end b of the domain at x_b, whose outer normal is `normal` (+1 right, -1 left):  2 normal W(x_i - x_b) / (x_b - x_i).
+   Macia, Gonzalez, Cercos-Pita & Souto-Iglesias 2012, Prog. Theor. Phys. 128, 439; (4.9) of the ICSPM paper, where the braces are lost in print: the factor 2/gamma
+   multiplies the boundary terms, too. Undefined (0/0) at the end itself: do not call it there. */
+SPH_FN sph_real sph_boundary_weight_bim(sph_kernel k, sph_real x_i, sph_real x_b, sph_real normal, sph_real h)
+{
+    const sph_real e = x_b - x_i;
+    return SPH_R(2) * normal * sph_kernel_w(k, 1, SPHI_ABS(e), h) / e;
+}
+
+/* ================================================================ pair tier: corrected first and second derivatives
+ *
+ * One system serves CSPM, ICSPM and weighted least squares. With e = (x_j - x_i) / h = -x_ij / h and df = f_j - f_i, Taylor's series
+ *     df = e . (h grad f) + e_a e_b (h^2/2 d_a d_b f) + ...
+ * is summed against the test functions  g e_a  (dim of them) and  w e_a e_b, a <= b  (dim (dim + 1) / 2 of them):
+ *     [ K  B ] [ h grad f ]   [ sum g e df   ]        K = sum g e e,  B = sum g e ee,
+ *     [ A  M ] [ h^2 hess ] = [ sum w e e df ]        A = sum w ee e, M = sum w ee ee.
+ *   CSPM   g = -V_j F_ij, w = V_j W_ij / r^2.  grad = K^-1 (...) as if B were 0; then hess = M^-1 (... - A grad). In 1D: (3.5), (5.15).
+ *   ICSPM  the same tests, solved as the coupled system it is. In 1D: (5.17), hess = hess_CSPM / kappa with kappa = 1 - A B / (K M).
+ *   WLS    g = w = V_j W_ij: the normal equations of a weighted least-squares fit of a quadratic (moving least squares at the particle).
+ * CSPM: Chen, Beraun & Carney 1999, IJNME 46, 231. ICSPM: Korzilius, Schilders & Anthonissen 2017, J. Appl. Math. Phys. 5, 168, in 1D; the n-dimensional
+ * form with the matrix kappa = 1 - M^-1 A K^-1 B is its natural extension and reduces to it exactly.
+ * Misprints there that are corrected here: (4.14), (5.17) print kappa with a plus sign; the list under (5.17) prints W instead of W' in <f'>;
+ * section II prints dW/dy, which is -dW/dx. tests/test_derivatives.c shows that the printed forms fail.
+ * Exact for:  CSPM gradient: linear fields. CSPM Hessian: quadratic fields in the interior of symmetric clouds only. ICSPM, WLS: quadratic fields, for any positions and volumes.
+ * Errors:     interior, regular: O(h^2) all. At a boundary: CSPM gradient O(h), Hessian O(1); ICSPM and WLS gradient O(h^2), Hessian O(h).
+ * kappa:      det(kappa) is 1 in the interior, negative for one-sided neighbours, and so 0 somewhere in between (in 1D at 0.30 h from the end of the domain for
+ *             wendland-c4-1d). There ICSPM amplifies rounding and truncation; its conditioning number tells, and WLS, whose matrix is definite, is the fallback.
+ */
+
+/* Weights of the test functions */
+typedef struct sph_test_weights {
+    sph_real g, w;
+} sph_test_weights;
+
+/* q = r / h. The normalisation of the kernel cancels and is left out. */
+SPH_FN sph_test_weights sph_test_weights_cspm(sph_kernel k, int dim, sph_real q, sph_real V_j)
+{
+    sph_test_weights t;
+    t.g = -V_j * sph_kernel_shape_f(k, dim, q);
+    t.w = V_j * sphi_over_q(sph_kernel_shape(k, dim, q), q * q);
+    return t;
+}
+SPH_FN sph_test_weights sph_test_weights_wls(sph_kernel k, int dim, sph_real q, sph_real V_j)
+{
+    sph_test_weights t;
+    t.g = t.w = V_j * sph_kernel_shape(k, dim, q);
+    return t;
+}
+
+/* The sums: name and contribution of a neighbour at e = (x, y, z). Y is what 2D adds to 1D, Z what 3D adds to 2D. */
+#define SPHI_MATRIX_X(X) X(gxx, g * x * x) X(gxxx, g * x * x * x) X(wxxx, w * x * x * x) X(wxxxx, w * x * x * x * x)
+#define SPHI_MATRIX_Y(X) \
+    X(gxy, g * x * y) X(gyy, g * y * y) X(gxxy, g * x * x * y) X(gxyy, g * x * y * y) X(gyyy, g * y * y * y) \
+    X(wxxy, w * x * x * y) X(wxyy, w * x * y * y) X(wyyy, w * y * y * y) \
+    X(wxxxy, w * x * x * x * y) X(wxxyy, w * x * x * y * y) X(wxyyy, w * x * y * y * y) X(wyyyy, w * y * y * y * y)
+#define SPHI_MATRIX_Z(X) \
+    X(gxz, g * x * z) X(gyz, g * y * z) X(gzz, g * z * z) X(gxxz, g * x * x * z) X(gxyz, g * x * y * z) X(gyyz, g * y * y * z) \
+    X(gxzz, g * x * z * z) X(gyzz, g * y * z * z) X(gzzz, g * z * z * z) X(wxxz, w * x * x * z) X(wxyz, w * x * y * z) X(wyyz, w * y * y * z) \
+    X(wxzz, w * x * z * z) X(wyzz, w * y * z * z) X(wzzz, w * z * z * z) X(wxxxz, w * x * x * x * z) X(wxxyz, w * x * x * y * z) \
+    X(wxyyz, w * x * y * y * z) X(wyyyz, w * y * y * y * z) X(wxxzz, w * x * x * z * z) X(wxyzz, w * x * y * z * z) X(wyyzz, w * y * y * z * z) \
+    X(wxzzz, w * x * z * z * z) X(wyzzz, w * y * z * z * z) X(wzzzz, w * z * z * z * z)
+#define SPHI_VALUE_X(X) X(gfx, g * df * x) X(wfxx, w * df * x * x)
+#define SPHI_VALUE_Y(X) X(gfy, g * df * y) X(wfxy, w * df * x * y) X(wfyy, w * df * y * y)
+#define SPHI_VALUE_Z(X) X(gfz, g * df * z) X(wfxz, w * df * x * z) X(wfyz, w * df * y * z) X(wfzz, w * df * z * z)
+#define SPHI_MATRIX(dim, X) SPHI_MATRIX_X(X) if (dim > 1) { SPHI_MATRIX_Y(X) } if (dim > 2) { SPHI_MATRIX_Z(X) }
+#define SPHI_VALUE(dim, X) SPHI_VALUE_X(X) if (dim > 1) { SPHI_VALUE_Y(X) } if (dim > 2) { SPHI_VALUE_Z(X) }
+
+#define SPHI_FIELD(name, formula) sph_real name;
+typedef struct sph_moments {
+    SPHI_MATRIX_X(SPHI_FIELD) SPHI_MATRIX_Y(SPHI_FIELD) SPHI_MATRIX_Z(SPHI_FIELD)
+    SPHI_VALUE_X(SPHI_FIELD) SPHI_VALUE_Y(SPHI_FIELD) SPHI_VALUE_Z(SPHI_FIELD)
+} sph_moments;
+
+#define SPHI_ZERO(name, formula) s.name = SPH_R(0);
+SPH_FN sph_moments sph_moments_zero(int dim)
+{
+    sph_moments s;
+    SPHI_MATRIX(dim, SPHI_ZERO)
+    SPHI_VALUE(dim, SPHI_ZERO)
+    return s;
+}
+
+/* Adds a neighbour's part of the matrix (and, with the second function, of the right-hand side): e = (x_j - x_i) / h_i, t from sph_test_weights_*, df = f_j - f_i. */
+#define SPHI_ADD(name, formula) s->name += formula;
+SPH_FN void sph_moments_add(int dim, sph_moments *s, sph_vec e, sph_test_weights t)
+{
+    const sph_real x = e.x, y = e.y, z = e.z, g = t.g, w = t.w;
+    (void)y;
+    (void)z;
+    SPHI_MATRIX(dim, SPHI_ADD)
+}
+SPH_FN void sph_moments_add_value(int dim, sph_moments *s, sph_vec e, sph_test_weights t, sph_real df)
+{
+    const sph_real x = e.x, y = e.y, z = e.z, g = t.g, w = t.w;
+    (void)y;
+    (void)z;
+    SPHI_VALUE(dim, SPHI_ADD)
+}
+
+/* First and second derivatives: as a result, the derivatives of f; as an operator, the coefficients of D f = sum gradient_a d_a f + sum_{a <= b} hessian_ab d_a d_b f
+   (so hessian.xx = hessian.yy = hessian.zz = 1 and the rest 0 is the Laplacian, and each mixed derivative counts once). */
+typedef struct sph_jet {
+    sph_vec gradient;
+    sph_sym hessian;
+} sph_jet;
+
+/* the operator D = Laplacian */
+SPH_FN sph_jet sph_jet_laplacian(int dim)
+{
+    sph_jet d;
+    d.gradient.x = d.gradient.y = d.gradient.z = d.hessian.xy = d.hessian.xz = d.hessian.yz = SPH_R(0);
+    d.hessian.xx = SPH_R(1);
+    d.hessian.yy = dim > 1 ? SPH_R(1) : SPH_R(0);
+    d.hessian.zz = dim > 2 ? SPH_R(1) : SPH_R(0);
+    return d;
+}
+
+/* -------- small dense systems, at most 6 x 6. Rows are stored 6 apart. */
+
+enum { SPHI_MAX = 6 };
+typedef struct sphi_lu {
+    sph_real a[SPHI_MAX][SPHI_MAX];
+    int row[SPHI_MAX];
+    sph_real pivot_min; /* smallest |pivot|: a measure of singularity, because the matrices come scaled to a unit diagonal */
+    sph_real sign;      /* sign of the determinant */
+} sphi_lu;
+
+/* A pivot below this is round-off of a matrix whose entries are of order one. */
+#define SPHI_PIVOT_MIN (SPH_R(64) * SPH_EPSILON)
+
+/* LU with partial pivoting. A pivot below SPHI_PIVOT_MIN is replaced by it, so that solutions stay finite and show the null direction. */
+SPH_FN void sphi_lu_factor(int n, sphi_lu *s)
+{
+    int i, j, c;
+    s->pivot_min = SPH_R(1);
+    s->sign = SPH_R(1);
+    for (c = 0; c < n; c++) {
+        int best = c;
+        sph_real p;
+        for (i = c + 1; i < n; i++)
+            if (SPHI_ABS(s->a[i][c]) > SPHI_ABS(s->a[best][c])) best = i;
+        s->row[c] = best;
+        if (best != c) {
+            s->sign = -s->sign;
+            for (j = 0; j < n; j++) {
+                const sph_real t = s->a[c][j];
+                s->a[c][j] = s->a[best][j];
+                s->a[best][j] = t;
+            }
+        }
+        p = SPHI_ABS(s->a[c][c]);
+        if (!(p >= s->pivot_min)) s->pivot_min = p;
+        if (s->a[c][c] < SPH_R(0)) s->sign = -s->sign;
+        if (!(p >= SPHI_PIVOT_MIN)) s->a[c][c] = s->a[c][c] < SPH_R(0) ? -SPHI_PIVOT_MIN : SPHI_PIVOT_MIN;
+        p = SPH_R(1) / s->a[c][c];
+        for (i = c + 1; i < n; i++) {
+            const sph_real m = s->a[i][c] *= p;
+            for (j = c + 1; j < n; j++) s->a[i][j] -= m * s->a[c][j];
+        }
+    }
+}
+SPH_FN void sphi_lu_solve(int n, const sphi_lu *s, sph_real *b)
+{
+    int i, j;
+    for (i = 0; i < n; i++) {
+        const int p = s->row[i];
+        const sph_real t = b[p];
+        b[p] = b[i];
+        b[i] = t;
+    }
+    for (i = 1; i < n; i++)
+        for (j = 0; j < i; j++) b[i] -= s->a[i][j] * b[j];
+    for (i = n - 1; i >= 0; i--) {
+        for (j = i + 1; j < n; j++) b[i] -= s->a[i][j] * b[j];
+        b[i] /= s->a[i][i];
+    }
+}
+/* y = m x, and y = m^T x; m is rows x cols */
+SPH_FN void sphi_multiply(int rows, int cols, sph_real (*m)[SPHI_MAX], const sph_real *x, sph_real *y)
+{
+    int i, j;
+    for (i = 0; i < rows; i++) {
+        y[i] = SPH_R(0);
+        for (j = 0; j < cols; j++) y[i] += m[i][j] * x[j];
+    }
+}
+SPH_FN void sphi_multiply_transposed(int rows, int cols, sph_real (*m)[SPHI_MAX], const sph_real *x, sph_real *y)
+{
+    int i, j;
+    for (j = 0; j < cols; j++) {
+        y[j] = SPH_R(0);
+        for (i = 0; i < rows; i++) y[j] += m[i][j] * x[i];
+    }
+}
+
+/* -------- the block system. Unknowns in the order (x, y, z) and (xx, xy, yy, xz, yz, zz), so that lower dimensions are the leading parts; as second unknown the
+   coefficient of e_a e_b (half the derivative for a = b). Rows and columns are scaled to unit diagonals of K and M: conditioning then does not depend on units. */
+
+SPH_FN int sphi_unknowns(int dim) { return dim * (dim + 1) / 2; } /* of the Hessian */
+
+typedef struct sphi_blocks {
+    sph_real K[SPHI_MAX][SPHI_MAX], B[SPHI_MAX][SPHI_MAX], A[SPHI_MAX][SPHI_MAX], M[SPHI_MAX][SPHI_MAX];
+    sph_real s[SPHI_MAX], d[SPHI_MAX]; /* scales of the gradient's and the Hessian's unknowns */
+} sphi_blocks;
+
+#define SPHI_SET(m, i, j, value) b->m[i][j] = b->m[j][i] = (value);
+/* Returns 0 where a diagonal entry is not positive: no neighbour in that direction (or negative volumes). */
+SPH_FN int sphi_blocks_fill(int dim, const sph_moments *m, sphi_blocks *b)
+{
+    const int nh = sphi_unknowns(dim);
+    int i, j;
+    b->K[0][0] = m->gxx;
+    b->B[0][0] = m->gxxx;
+    b->A[0][0] = m->wxxx;
+    b->M[0][0] = m->wxxxx;
+    if (dim > 1) {
+        SPHI_SET(K, 0, 1, m->gxy)
+        b->K[1][1] = m->gyy;
+        b->B[0][1] = b->B[1][0] = m->gxxy;
+        b->B[0][2] = b->B[1][1] = m->gxyy;
+        b->B[1][2] = m->gyyy;
+        b->A[1][0] = b->A[0][1] = m->wxxy;
+        b->A[2][0] = b->A[1][1] = m->wxyy;
+        b->A[2][1] = m->wyyy;
+        SPHI_SET(M, 0, 1, m->wxxxy)
+        SPHI_SET(M, 0, 2, m->wxxyy)
+        b->M[1][1] = m->wxxyy;
+        SPHI_SET(M, 1, 2, m->wxyyy)
+        b->M[2][2] = m->wyyyy;
+    }
+    if (dim > 2) {
+        SPHI_SET(K, 0, 2, m->gxz)
+        SPHI_SET(K, 1, 2, m->gyz)
+        b->K[2][2] = m->gzz;
+        b->B[0][3] = b->B[2][0] = m->gxxz;
+        b->B[0][4] = b->B[1][3] = b->B[2][1] = m->gxyz;
+        b->B[0][5] = b->B[2][3] = m->gxzz;
+        b->B[1][4] = b->B[2][2] = m->gyyz;
+        b->B[1][5] = b->B[2][4] = m->gyzz;
+        b->B[2][5] = m->gzzz;
+        b->A[3][0] = b->A[0][2] = m->wxxz;
+        b->A[4][0] = b->A[3][1] = b->A[1][2] = m->wxyz;
+        b->A[5][0] = b->A[3][2] = m->wxzz;
+        b->A[4][1] = b->A[2][2] = m->wyyz;
+        b->A[5][1] = b->A[4][2] = m->wyzz;
+        b->A[5][2] = m->wzzz;
+        SPHI_SET(M, 0, 3, m->wxxxz)
+        SPHI_SET(M, 0, 4, m->wxxyz)
+        SPHI_SET(M, 0, 5, m->wxxzz)
+        SPHI_SET(M, 1, 3, m->wxxyz)
+        SPHI_SET(M, 1, 4, m->wxyyz)
+        SPHI_SET(M, 1, 5, m->wxyzz)
+        SPHI_SET(M, 2, 3, m->wxyyz)
+        SPHI_SET(M, 2, 4, m->wyyyz)
+        SPHI_SET(M, 2, 5, m->wyyzz)
+        b->M[3][3] = m->wxxzz;
+        SPHI_SET(M, 3, 4, m->wxyzz)
+        SPHI_SET(M, 3, 5, m->wxzzz)
+        b->M[4][4] = m->wyyzz;
+        SPHI_SET(M, 4, 5, m->wyzzz)
+        b->M[5][5] = m->wzzzz;
+    }
+    for (i = 0; i < dim; i++) {
+        if (!(b->K[i][i] > SPH_R(0))) return 0;
+        b->s[i] = SPH_R(1) / SPHI_SQRT(b->K[i][i]);
+    }
+    for (i = 0; i < nh; i++) {
+        if (!(b->M[i][i] > SPH_R(0))) return 0;
+        b->d[i] = SPH_R(1) / SPHI_SQRT(b->M[i][i]);
+    }
+    for (i = 0; i < dim; i++) {
+        for (j = 0; j < dim; j++) b->K[i][j] *= b->s[i] * b->s[j];
+        for (j = 0; j < nh; j++) {
+            b->B[i][j] *= b->s[i] * b->d[j];
+            b->A[j][i] *= b->s[i] * b->d[j];
+        }
+    }
+    for (i = 0; i < nh; i++)
+        for (j = 0; j < nh; j++) b->M[i][j] *= b->d[i] * b->d[j];
+    return 1;
+}
+#undef SPHI_SET
+
+/* the right-hand side, scaled like the rows */
+SPH_FN void sphi_blocks_values(int dim, const sph_moments *m, const sphi_blocks *b, sph_real *u, sph_real *v)
+{
+    u[0] = m->gfx * b->s[0];
+    v[0] = m->wfxx * b->d[0];
+    if (dim > 1) {
+        u[1] = m->gfy * b->s[1];
+        v[1] = m->wfxy * b->d[1];
+        v[2] = m->wfyy * b->d[2];
+    }
+    if (dim > 2) {
+        u[2] = m->gfz * b->s[2];
+        v[3] = m->wfxz * b->d[3];
+        v[4] = m->wfyz * b->d[4];
+        v[5] = m->wfzz * b->d[5];
+    }
+}
+
+/* Between scaled unknowns and derivatives. values = 1: unknowns to derivatives; values = 0: the coefficients of an operator to those of the unknowns. */
+SPH_FN sph_jet sphi_jet_unscaled(int dim, const sphi_blocks *b, sph_real h, const sph_real *u, const sph_real *v)
+{
+    const sph_real a = SPH_R(1) / h, c = a * a;
+    sph_jet j = sph_jet_laplacian(dim);
+    j.gradient.x = u[0] * b->s[0] * a;
+    j.hessian.xx = SPH_R(2) * v[0] * b->d[0] * c;
+    if (dim > 1) {
+        j.gradient.y = u[1] * b->s[1] * a;
+        j.hessian.xy = v[1] * b->d[1] * c;
+        j.hessian.yy = SPH_R(2) * v[2] * b->d[2] * c;
+    }
+    if (dim > 2) {
+        j.gradient.z = u[2] * b->s[2] * a;
+        j.hessian.xz = v[3] * b->d[3] * c;
+        j.hessian.yz = v[4] * b->d[4] * c;
+        j.hessian.zz = SPH_R(2) * v[5] * b->d[5] * c;
+    }
+    return j;
+}
+SPH_FN void sphi_operator_scaled(int dim, const sphi_blocks *b, sph_real h, sph_jet op, sph_real *u, sph_real *v)
+{
+    const sph_real a = SPH_R(1) / h, c = a * a;
+    u[0] = op.gradient.x * b->s[0] * a;
+    v[0] = SPH_R(2) * op.hessian.xx * b->d[0] * c;
+    if (dim > 1) {
+        u[1] = op.gradient.y * b->s[1] * a;
+        v[1] = op.hessian.xy * b->d[1] * c;
+        v[2] = SPH_R(2) * op.hessian.yy * b->d[2] * c;
+    }
+    if (dim > 2) {
+        u[2] = op.gradient.z * b->s[2] * a;
+        v[3] = op.hessian.xz * b->d[3] * c;
+        v[4] = op.hessian.yz * b->d[4] * c;
+        v[5] = SPH_R(2) * op.hessian.zz * b->d[5] * c;
+    }
+}
+
+SPH_FN void sphi_lu_load(int n, sphi_lu *s, sph_real (*m)[SPHI_MAX])
+{
+    int i, j;
+    for (i = 0; i < n; i++)
+        for (j = 0; j < n; j++) s->a[i][j] = m[i][j];
+    sphi_lu_factor(n, s);
+}
+
+/* the Schur complement S = M - A K^-1 B, or its transpose, factored */
+SPH_FN void sphi_schur(int dim, const sphi_blocks *b, const sphi_lu *K, int transposed, sphi_lu *S)
+{
+    const int nh = sphi_unknowns(dim);
+    int i, j, c;
+    for (j = 0; j < nh; j++) {
+        sph_real x[SPHI_MAX];
+        for (i = 0; i < dim; i++) x[i] = b->B[i][j];
+        sphi_lu_solve(dim, K, x);
+        for (i = 0; i < nh; i++) {
+            sph_real y = b->M[i][j];
+            for (c = 0; c < dim; c++) y -= b->A[i][c] * x[c];
+            S->a[transposed ? j : i][transposed ? i : j] = y;
+        }
+    }
+    sphi_lu_factor(nh, S);
+}
+
+/* sign(det kappa) / |kappa^-1|, kappa^-1 = S^-1 M, in the norm of the largest row sum: 1 in the interior, in 1D just kappa */
+SPH_FN sph_real sphi_conditioning(int dim, const sphi_blocks *b, const sphi_lu *S)
+{
+    const int nh = sphi_unknowns(dim);
+    sph_real sum[SPHI_MAX], largest = SPH_R(0);
+    int i, j;
+    for (i = 0; i < nh; i++) sum[i] = SPH_R(0);
+    for (j = 0; j < nh; j++) {
+        sph_real x[SPHI_MAX];
+        for (i = 0; i < nh; i++) x[i] = b->M[i][j];
+        sphi_lu_solve(nh, S, x);
+        for (i = 0; i < nh; i++) sum[i] += SPHI_ABS(x[i]);
+    }
+    for (i = 0; i < nh; i++)
+        if (!(sum[i] <= largest)) largest = sum[i];
+    return S->sign / largest;
+}
+
+/* Gradient and Hessian by CSPM from the moments. Returns SPH_OK or SPH_SINGULAR (nothing written). *conditioning, if wanted, is the smallest pivot of the scaled K and
+   M, in [0, 1]: 1 for isotropic K, 0 where the neighbours do not determine the answer. */
+SPH_FN int sph_solve_cspm(int dim, const sph_moments *m, sph_real h, sph_jet *jet, sph_real *conditioning)
+{
+    const int nh = sphi_unknowns(dim);
+    sphi_blocks b;
+    sphi_lu K, M;
+    sph_real u[SPHI_MAX], v[SPHI_MAX], t[SPHI_MAX];
+    int i;
+    if (!sphi_blocks_fill(dim, m, &b)) return SPH_SINGULAR;
+    sphi_lu_load(dim, &K, b.K);
+    sphi_lu_load(nh, &M, b.M);
+    if (K.pivot_min < SPHI_PIVOT_MIN || M.pivot_min < SPHI_PIVOT_MIN) return SPH_SINGULAR;
+    sphi_blocks_values(dim, m, &b, u, v);
+    sphi_lu_solve(dim, &K, u);
+    sphi_multiply(nh, dim, b.A, u, t);
+    for (i = 0; i < nh; i++) v[i] -= t[i];
+    sphi_lu_solve(nh, &M, v);
+    *jet = sphi_jet_unscaled(dim, &b, h, u, v);
+    if (conditioning) *conditioning = K.pivot_min < M.pivot_min ? K.pivot_min : M.pivot_min;
+    return SPH_OK;
+}
+
+/* Gradient and Hessian by ICSPM or WLS (the moments tell which). Returns SPH_OK or SPH_SINGULAR (nothing written). *conditioning, if wanted, is kappa in 1D and
+   sign(det kappa) / |kappa^-1| in general: what ICSPM multiplies the errors of CSPM by is 1 / |conditioning|. */
+SPH_FN int sph_solve_block(int dim, const sph_moments *m, sph_real h, sph_jet *jet, sph_real *conditioning)
+{
+    const int nh = sphi_unknowns(dim);
+    sphi_blocks b;
+    sphi_lu K, M, S;
+    sph_real u[SPHI_MAX], v[SPHI_MAX], x[SPHI_MAX], t[SPHI_MAX];
+    int i;
+    if (!sphi_blocks_fill(dim, m, &b)) return SPH_SINGULAR;
+    sphi_lu_load(dim, &K, b.K);
+    sphi_lu_load(nh, &M, b.M);
+    if (K.pivot_min < SPHI_PIVOT_MIN || M.pivot_min < SPHI_PIVOT_MIN) return SPH_SINGULAR;
+    sphi_schur(dim, &b, &K, 0, &S);
+    if (S.pivot_min < SPHI_PIVOT_MIN) return SPH_SINGULAR;
+    sphi_blocks_values(dim, m, &b, u, v);
+    for (i = 0; i < dim; i++) x[i] = u[i];
+    sphi_lu_solve(dim, &K, x);
+    sphi_multiply(nh, dim, b.A, x, t);
+    for (i = 0; i < nh; i++) v[i] -= t[i];
+    sphi_lu_solve(nh, &S, v);
+    sphi_multiply(dim, nh, b.B, v, t);
+    for (i = 0; i < dim; i++) u[i] -= t[i];
+    sphi_lu_solve(dim, &K, u);
+    *jet = sphi_jet_unscaled(dim, &b, h, u, v);
+    if (conditioning) *conditioning = sphi_conditioning(dim, &b, &S);
+    return SPH_OK;
+}
+
+/* -------- rows. The weight of (f_j - f_i) in the operator D is  g c.first . e + w c.second : ee  with coefficients c that depend on i only. */
+
+typedef struct sph_row_coefficients {
+    sph_vec first;
+    sph_sym second;
+    sph_real factor; /* sum_j weight (f_j - f_i) = factor * D f: 1, or kappa for ICSPM */
+} sph_row_coefficients;
+
+SPH_FN sph_real sph_row_weight(int dim, sph_row_coefficients c, sph_vec e, sph_test_weights t)
+{
+    sph_real second = c.second.xx * e.x * e.x;
+    if (dim > 1) second += (c.second.xy * e.x + c.second.yy * e.y) * e.y;
+    if (dim > 2) second += (c.second.xz * e.x + c.second.yz * e.y + c.second.zz * e.z) * e.z;
+    return t.g * sph_dot(dim, c.first, e) + t.w * second;
+}
+
+SPH_FN sph_row_coefficients sphi_row_unscaled(int dim, const sphi_blocks *b, const sph_real *u, const sph_real *v, sph_real factor)
+{
+    sph_row_coefficients c;
+    c.first.x = u[0] * b->s[0];
+    c.second.xx = v[0] * b->d[0];
+    c.first.y = c.first.z = c.second.xy = c.second.yy = c.second.xz = c.second.yz = c.second.zz = SPH_R(0);
+    if (dim > 1) {
+        c.first.y = u[1] * b->s[1];
+        c.second.xy = v[1] * b->d[1];
+        c.second.yy = v[2] * b->d[2];
+    }
+    if (dim > 2) {
+        c.first.z = u[2] * b->s[2];
+        c.second.xz = v[3] * b->d[3];
+        c.second.yz = v[4] * b->d[4];
+        c.second.zz = v[5] * b->d[5];
+    }
+    c.factor = factor;
+    return c;
+}
+
+/* Row of the operator op by CSPM. Returns SPH_OK or SPH_SINGULAR (nothing written). *conditioning as for sph_solve_cspm. */
+SPH_FN int sph_row_cspm(int dim, const sph_moments *m, sph_real h, sph_jet op, sph_row_coefficients *c, sph_real *conditioning)
+{
+    const int nh = sphi_unknowns(dim);
+    sphi_blocks b;
+    sphi_lu K, M;
+    sph_real u[SPHI_MAX], v[SPHI_MAX], t[SPHI_MAX];
+    int i;
+    if (!sphi_blocks_fill(dim, m, &b)) return SPH_SINGULAR;
+    sphi_lu_load(dim, &K, b.K);
+    sphi_lu_load(nh, &M, b.M);
+    if (K.pivot_min < SPHI_PIVOT_MIN || M.pivot_min < SPHI_PIVOT_MIN) return SPH_SINGULAR;
+    sphi_operator_scaled(dim, &b, h, op, u, v);
+    sphi_lu_solve(nh, &M, v); /* K and M are symmetric */
+    sphi_multiply_transposed(nh, dim, b.A, v, t);
+    for (i = 0; i < dim; i++) u[i] -= t[i];
+    sphi_lu_solve(dim, &K, u);
+    *c = sphi_row_unscaled(dim, &b, u, v, SPH_R(1));
+    if (conditioning) *conditioning = K.pivot_min < M.pivot_min ? K.pivot_min : M.pivot_min;
+    return SPH_OK;
+}
+
+/* Row of the operator op by ICSPM (icspm = 1) or WLS (icspm = 0). Returns SPH_OK or SPH_SINGULAR (nothing written).
+   ICSPM rows are never divided by kappa: they are scaled to the size of the CSPM row, and the factor goes to the right-hand side. In 1D the row is the CSPM row
+   and the factor is kappa, as published; in general row and factor are those of (op row) * factor with |M^T second| the same as in CSPM, so that both stay finite
+   where kappa is singular (factor 0 then: the row still annihilates what it must). *conditioning is the same as for sph_solve_block. */
+SPH_FN int sph_row_block(int dim, int icspm, const sph_moments *m, sph_real h, sph_jet op, sph_row_coefficients *c, sph_real *conditioning)
+{
+    const int nh = sphi_unknowns(dim);
+    sphi_blocks b;
+    sphi_lu K, M, S;
+    sph_real u[SPHI_MAX], v[SPHI_MAX], y[SPHI_MAX], t[SPHI_MAX], factor = SPH_R(1);
+    int i;
+    if (!sphi_blocks_fill(dim, m, &b)) return SPH_SINGULAR;
+    sphi_lu_load(dim, &K, b.K);
+    sphi_lu_load(nh, &M, b.M);
+    if (K.pivot_min < SPHI_PIVOT_MIN || M.pivot_min < SPHI_PIVOT_MIN) return SPH_SINGULAR;
+    if (conditioning || !icspm) {
+        sphi_schur(dim, &b, &K, 0, &S);
+        if (!icspm && S.pivot_min < SPHI_PIVOT_MIN) return SPH_SINGULAR;
+        if (conditioning) *conditioning = sphi_conditioning(dim, &b, &S);
+    }
+    sphi_operator_scaled(dim, &b, h, op, u, y);
+    for (i = 0; i < dim; i++) t[i] = u[i];
+    sphi_lu_solve(dim, &K, t);
+    sphi_multiply_transposed(dim, nh, b.B, t, v);
+    for (i = 0; i < nh; i++) y[i] = v[i] = y[i] - v[i];
+    sphi_schur(dim, &b, &K, 1, &S);
+    sphi_lu_solve(nh, &S, v);
+    if (icspm) { /* |y|: what M^T v is in CSPM; t = M v: what it is here (M is symmetric) */
+        sph_real yy = SPH_R(0), tt = SPH_R(0), yt = SPH_R(0);
+        sphi_multiply(nh, nh, b.M, v, t);
+        for (i = 0; i < nh; i++) {
+            yy += y[i] * y[i];
+            tt += t[i] * t[i];
+            yt += y[i] * t[i];
+        }
+        if (yy > SPH_R(0) && tt > SPH_R(0)) factor = yt < SPH_R(0) ? -SPHI_SQRT(yy / tt) : SPHI_SQRT(yy / tt);
+        for (i = 0; i < nh; i++) v[i] *= factor;
+        for (i = 0; i < dim; i++) u[i] *= factor;
+    }
+    sphi_multiply_transposed(nh, dim, b.A, v, t);
+    for (i = 0; i < dim; i++) u[i] -= t[i];
+    sphi_lu_solve(dim, &K, u);
+    *c = sphi_row_unscaled(dim, &b, u, v, factor);
+    return SPH_OK;
+}
+
+/* The gradient alone needs K only:  sum weight e_a e_b  with the weight  -V_j F_ij  (h cancels against the e of the right-hand side), grad = K^-1 sum weight e df. */
+SPH_FN sph_real sph_moment_weight_gradient(sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j) { return -V_j * sph_kernel_f(k, dim, r, h); }
+
+/* Inverse of the symmetric K, scaled to a unit diagonal for the test of singularity. Returns SPH_OK or SPH_SINGULAR (nothing written); *conditioning, if wanted, is the
+   smallest pivot in [0, 1]. */
+SPH_FN int sph_solve_gradient(int dim, sph_sym K, sph_sym *inverse, sph_real *conditioning)
+{
+    sph_sym m;
+    sph_real a, b, c, det, least;
+    if (dim < 3) K.zz = SPH_R(1), K.xz = K.yz = SPH_R(0);
+    if (dim < 2) K.yy = SPH_R(1), K.xy = SPH_R(0);
+    if (!(K.xx > SPH_R(0)) || !(K.yy > SPH_R(0)) || !(K.zz > SPH_R(0))) return SPH_SINGULAR;
+    a = SPH_R(1) / SPHI_SQRT(K.xx);
+    b = SPH_R(1) / SPHI_SQRT(K.yy);
+    c = SPH_R(1) / SPHI_SQRT(K.zz);
+    K.xy *= a * b;
+    K.xz *= a * c;
+    K.yz *= b * c;
+    least = SPH_R(1) - K.xy * K.xy; /* pivots: 1, least, det / least */
+    m.xx = SPH_R(1) - K.yz * K.yz;
+    m.xy = K.xz * K.yz - K.xy;
+    m.xz = K.xy * K.yz - K.xz;
+    det = m.xx + K.xy * m.xy + K.xz * m.xz;
+    if (!(least > SPHI_PIVOT_MIN) || !(det > SPHI_PIVOT_MIN * least)) return SPH_SINGULAR;
+    m.yy = SPH_R(1) - K.xz * K.xz;
+    m.yz = K.xy * K.xz - K.yz;
+    m.zz = least;
+    inverse->xx = m.xx * a * a / det;
+    inverse->xy = m.xy * a * b / det;
+    inverse->xz = m.xz * a * c / det;
+    inverse->yy = m.yy * b * b / det;
+    inverse->yz = m.yz * b * c / det;
+    inverse->zz = m.zz * c * c / det;
+    if (conditioning) *conditioning = det / least < least ? det / least : least;
+    return SPH_OK;
+}
+
+SPH_FN sph_vec sphi_sym_times(int dim, sph_sym s, sph_vec v)
+{
+    sph_vec u;
+    u.x = s.xx * v.x;
+    u.y = u.z = SPH_R(0);
+    if (dim > 1) {
+        u.x += s.xy * v.y;
+        u.y = s.xy * v.x + s.yy * v.y;
+    }
+    if (dim > 2) {
+        u.x += s.xz * v.z;
+        u.y += s.yz * v.z;
+        u.z = s.xz * v.x + s.yz * v.y + s.zz * v.z;
+    }
+    return u;
+}
+
+/* ================================================================ list tier: views */
+
+typedef struct sph_points {
+    const SPH_GLOBAL sph_real *x, *y, *z; /* y, z are not read below dim 2, 3 */
+    size_t stride;                        /* from one particle to the next, in sph_real */
+    sph_index n;                          /* number of particles, all sources */
+} sph_points;
+
+typedef struct sph_scalars {
+    const SPH_GLOBAL sph_real *p;
+    size_t stride; /* 0: one value for all */
+} sph_scalars;
+
+typedef struct sph_list {
+    const SPH_GLOBAL sph_index *start, *index;
+} sph_list;
+
+SPH_FN sph_points sph_points_strided(sph_index n, const SPH_GLOBAL sph_real *x, const SPH_GLOBAL sph_real *y, const SPH_GLOBAL sph_real *z, size_t stride)
+{
+    sph_points p;
+    p.x = x;
+    p.y = y;
+    p.z = z;
+    p.stride = stride;
+    p.n = n;
+    return p;
+}
+SPH_FN sph_points sph_points_separate(sph_index n, const SPH_GLOBAL sph_real *x, const SPH_GLOBAL sph_real *y, const SPH_GLOBAL sph_real *z)
+{
+    return sph_points_strided(n, x, y, z, 1);
+}
+/* xyzxyz... (dim numbers per particle) */
+SPH_FN sph_points sph_points_interleaved(sph_index n, int dim, const SPH_GLOBAL sph_real *xyz)
+{
+    return sph_points_strided(n, xyz, dim > 1 && xyz ? xyz + 1 : xyz, dim > 2 && xyz ? xyz + 2 : xyz, (size_t)(dim > 0 ? dim : 0));
+}
+SPH_FN sph_scalars sph_scalars_strided(const SPH_GLOBAL sph_real *p, size_t stride)
+{
+    sph_scalars s;
+    s.p = p;
+    s.stride = stride;
+    return s;
+}
+SPH_FN sph_scalars sph_scalars_array(const SPH_GLOBAL sph_real *p) { return sph_scalars_strided(p, 1); }
+SPH_FN sph_scalars sph_scalars_same(const SPH_GLOBAL sph_real *value) { return sph_scalars_strided(value, 0); }
+
+/* Where the derivatives go: separate arrays or members of structs, `stride` sph_real apart (0 counts as 1); a null pointer is not wanted. */
+typedef struct sph_derivative_out {
+    SPH_GLOBAL sph_real *gx, *gy, *gz, *hxx, *hxy, *hyy, *hxz, *hyz, *hzz, *laplacian, *conditioning;
+    size_t stride;
+    SPH_GLOBAL unsigned char *status; /* sph_status, contiguous */
+} sph_derivative_out;
+
+/* Where stencil rows go: D f_i * factor[i] = diagonal[i] f_i + sum_p row[p] f_index[p], p from start[i] to start[i + 1] - 1; diagonal = -sum row. All but row may be null. */
+typedef struct sph_row_out {
+    SPH_GLOBAL sph_real *row, *diagonal, *factor, *conditioning;
+    SPH_GLOBAL unsigned char *status;
+} sph_row_out;
+
+SPH_FN sph_real sphi_at(sph_scalars a, sph_index i) { return a.p[(size_t)i * a.stride]; }
+SPH_FN sph_vec sphi_point(int dim, sph_points p, sph_index i)
+{
+    const size_t o = (size_t)i * p.stride;
+    sph_vec v;
+    v.x = p.x[o];
+    v.y = dim > 1 ? p.y[o] : SPH_R(0);
+    v.z = dim > 2 ? p.z[o] : SPH_R(0);
+    return v;
+}
+SPH_FN void sphi_put(SPH_GLOBAL sph_real *p, size_t stride, sph_index i, sph_real value)
+{
+    if (p) p[(size_t)i * stride] = value;
+}
+
+/* ================================================================ list tier: checks */
+
+/* By the bits, because -ffast-math compiles comparisons with NaN away. */
+SPH_FN int sphi_finite(sph_real x)
+{
+#if SPH_OPENCL
+    return isfinite(x);
+#elif SPH_SINGLE
+    union { float f; uint32_t u; } v;
+    v.f = x;
+    return (v.u & 0x7f800000u) != 0x7f800000u;
+#else
+    union { double f; uint64_t u; } v;
+    v.f = x;
+    return (v.u & 0x7ff0000000000000u) != 0x7ff0000000000000u;
+#endif
+}
+/* Stores a sum, or 0 if it overflowed; returns 1 then. */
+SPH_FN int sphi_store_finite(SPH_GLOBAL sph_real *out, sph_index i, sph_real value)
+{
+    const int ok = sphi_finite(value);
+    out[i] = ok ? value : SPH_R(0);
+    return !ok;
+}
+/* The same for the entries first ... last - 1 of a row: all 0 if one overflowed. */
+SPH_FN int sphi_row_finite(SPH_GLOBAL sph_real *row, sph_index first, sph_index last)
+{
+    sph_index p;
+    int lost = 0;
+    for (p = first; p < last; p++) lost |= !sphi_finite(row[p]);
+    if (lost)
+        for (p = first; p < last; p++) row[p] = SPH_R(0);
+    return lost;
+}
+SPH_FN int sphi_jet_finite(int dim, sph_jet j)
+{
+    int ok = sphi_finite(j.gradient.x) && sphi_finite(j.hessian.xx);
+    if (dim > 1) ok = ok && sphi_finite(j.gradient.y) && sphi_finite(j.hessian.xy) && sphi_finite(j.hessian.yy);
+    if (dim > 2) ok = ok && sphi_finite(j.gradient.z) && sphi_finite(j.hessian.xz) && sphi_finite(j.hessian.yz) && sphi_finite(j.hessian.zz);
+    return ok;
+}
+SPH_FN int sphi_all_finite(sph_scalars a, sph_index n)
+{
+    const sph_index count = a.stride ? n : 1;
+    sph_index i;
+    int bad = 0;
+    for (i = 0; i < count; i++) bad |= !sphi_finite(sphi_at(a, i));
+    return !bad;
+}
+
+/* the arguments that all sweeps share; h, V and list as sweeps use them */
+SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V)
+{
+    if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
+    if ((int)k < 0 || (int)k >= (int)SPH_KERNEL_COUNT) return SPH_ERROR_KERNEL;
+    if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z) || !list.start || !h.p || !V.p) return SPH_ERROR_NULL;
+    if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
+    if (first < 0 || first > last || last > x.n) return SPH_ERROR_RANGE;
+    if (!SPH_CHECK) return 0;
+    {
+        const sph_index h_count = h.stride ? x.n : 1;
+        sph_index i, p;
+        for (i = 0; i < h_count; i++)
+            if (!sphi_finite(sphi_at(h, i)) || !(sphi_at(h, i) > SPH_R(0))) return SPH_ERROR_H;
+        if (!sphi_all_finite(sph_scalars_strided(x.x, x.stride), x.n)) return SPH_ERROR_POSITION;
+        if (dim > 1 && !sphi_all_finite(sph_scalars_strided(x.y, x.stride), x.n)) return SPH_ERROR_POSITION;
+        if (dim > 2 && !sphi_all_finite(sph_scalars_strided(x.z, x.stride), x.n)) return SPH_ERROR_POSITION;
+        if (!sphi_all_finite(V, x.n)) return SPH_ERROR_VALUE;
+        if (first == last) return 0;
+        if (list.start[first] < 0) return SPH_ERROR_LIST;
+        for (i = first; i < last; i++)
+            if (list.start[i + 1] < list.start[i]) return SPH_ERROR_LIST;
+        if (list.start[last] > list.start[first] && !list.index) return SPH_ERROR_NULL;
+        for (p = list.start[first]; p < list.start[last]; p++)
+            if (list.index[p] < 0 || list.index[p] >= x.n) return SPH_ERROR_LIST;
+        for (i = first; i < last; i++)
+            for (p = list.start[i]; p < list.start[i + 1]; p++)
+                if (list.index[p] == i) return SPH_ERROR_SELF;
+    }
+    return 0;
+}
+SPH_FN int sphi_check_field(sph_scalars f, sph_index n)
+{
+    if (!f.p) return SPH_ERROR_NULL;
+    return SPH_CHECK && !sphi_all_finite(f, n) ? SPH_ERROR_VALUE : 0;
+}
+/* after the checks of the sweep: an output vector of dim arrays */
+SPH_FN int sphi_check_vector(int dim, const SPH_GLOBAL sph_real *x, const SPH_GLOBAL sph_real *y, const SPH_GLOBAL sph_real *z)
+{
+    return !x || (dim > 1 && !y) || (dim > 2 && !z) ? SPH_ERROR_NULL : 0;
+}
+
+/* Only asked for where a system was singular: was it for want of neighbours? */
+SPH_FN int sphi_singular_status(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list, sph_real h, int needed)
+{
+    const sph_vec x_i = sphi_point(dim, x, i);
+    const sph_real support = sph_kernel_support(k) * h;
+    sph_index p;
+    int count = 0;
+    for (p = list.start[i]; p < list.start[i + 1]; p++) {
+        const sph_real r = sph_length(dim, sph_subtract(dim, x_i, sphi_point(dim, x, list.index[p])));
+        count += r > SPH_R(0) && r < support;
+        if (count >= needed) return SPH_SINGULAR;
+    }
+    return SPH_TOO_FEW;
+}
+
+/* ================================================================ list tier: interpolation */
+
+/* gamma_i = sum_j V_j W_ij, the particle itself included: 1 in the interior of a regular cloud, about 1/2 at a plane boundary. Shepard 1968; (4.10) of the ICSPM paper. */
+SPH_FN sph_index sph_shepard_sum(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, SPH_GLOBAL sph_real *out)
+{
+    const int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    sph_index i, p, failed = 0;
+    if (error) return error;
+    if (!out) return SPH_ERROR_NULL;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        const sph_real h_i = sphi_at(h, i);
+        sph_real sum = sphi_at(V, i) * sph_kernel_w(k, dim, SPH_R(0), h_i);
+        SPH_SUM(sum)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            sum += sphi_at(V, j) * sph_kernel_w(k, dim, sph_length(dim, sph_subtract(dim, x_i, sphi_point(dim, x, j))), h_i);
+        }
+        failed += sphi_store_finite(out, i, sum);
+    }
+    return failed;
+}
+
+/* f_i = sum_j V_j f_j W_ij / sum_j V_j W_ij, the particle itself included: exact for constants, O(h^2) in the interior, O(h) at a boundary.
+   A target of volume 0 is a probe. SPH_TOO_FEW where the sum of weights is not positive. */
+SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
+                                         SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
+{
+    int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_field(f, x.n);
+    if (!error && !out) error = SPH_ERROR_NULL;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        const sph_real h_i = sphi_at(h, i), own = sphi_at(V, i) * sph_kernel_w(k, dim, SPH_R(0), h_i);
+        sph_real sum = own, sum_f = own * sphi_at(f, i);
+        int state = SPH_OK;
+        SPH_SUM(sum, sum_f)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sph_real w = sphi_at(V, j) * sph_kernel_w(k, dim, sph_length(dim, sph_subtract(dim, x_i, sphi_point(dim, x, j))), h_i);
+            sum += w;
+            sum_f += w * sphi_at(f, j);
+        }
+        if (!(sum > SPH_R(0))) state = SPH_TOO_FEW;
+        else if (!sphi_finite(sum_f / sum)) state = SPH_NOT_FINITE;
+        out[i] = state ? SPH_R(0) : sum_f / sum;
+        if (status) status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* ================================================================ list tier: gradients */
+
+/* grad f_i = sum_j V_j (f_j - f_i) grad_i W_ij, not corrected */
+SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
+                                         SPH_GLOBAL sph_real *gx, SPH_GLOBAL sph_real *gy, SPH_GLOBAL sph_real *gz)
+{
+    int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_field(f, x.n);
+    if (!error) error = sphi_check_vector(dim, gx, gy, gz);
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        const sph_real h_i = sphi_at(h, i), f_i = sphi_at(f, i);
+        sph_real sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
+        SPH_SUM(sx, sy, sz)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sph_vec x_ij = sph_subtract(dim, x_i, sphi_point(dim, x, j));
+            const sph_vec g = sph_gradient_pair_difference(k, dim, x_ij, sph_length(dim, x_ij), h_i, sphi_at(V, j), f_i, sphi_at(f, j));
+            sx += g.x;
+            sy += g.y;
+            sz += g.z;
+        }
+        {
+            int lost = sphi_store_finite(gx, i, sx);
+            if (dim > 1) lost |= sphi_store_finite(gy, i, sy);
+            if (dim > 2) lost |= sphi_store_finite(gz, i, sz);
+            failed += lost;
+        }
+    }
+    return failed;
+}
+
+/* K = sum weight e e and, if asked for, D = sum weight e df, with e = x_j - x_i */
+SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list, sph_real h_i, sph_scalars V, int with_f, sph_scalars f, sph_sym *K, sph_vec *D)
+{
+    const sph_vec x_i = sphi_point(dim, x, i);
+    const sph_real f_i = with_f ? sphi_at(f, i) : SPH_R(0);
+    sph_real xx = SPH_R(0), xy = SPH_R(0), yy = SPH_R(0), xz = SPH_R(0), yz = SPH_R(0), zz = SPH_R(0), sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
+    sph_index p;
+    SPH_SUM(xx, xy, yy, xz, yz, zz, sx, sy, sz)
+    for (p = list.start[i]; p < list.start[i + 1]; p++) {
+        const sph_index j = list.index[p];
+        const sph_vec e = sph_subtract(dim, sphi_point(dim, x, j), x_i);
+        const sph_vec we = sph_scale(sph_moment_weight_gradient(k, dim, sph_length(dim, e), h_i, sphi_at(V, j)), e);
+        const sph_real df = with_f ? sphi_at(f, j) - f_i : SPH_R(0);
+        xx += we.x * e.x;
+        if (dim > 1) {
+            xy += we.x * e.y;
+            yy += we.y * e.y;
+        }
+        if (dim > 2) {
+            xz += we.x * e.z;
+            yz += we.y * e.z;
+            zz += we.z * e.z;
+        }
+        if (with_f) {
+            sx += we.x * df;
+            if (dim > 1) sy += we.y * df;
+            if (dim > 2) sz += we.z * df;
+        }
+    }
+    K->xx = xx;
+    K->xy = xy;
+    K->yy = yy;
+    K->xz = xz;
+    K->yz = yz;
+    K->zz = zz;
+    D->x = sx;
+    D->y = sy;
+    D->z = sz;
+}
+
+/* grad f_i = K^-1 sum_j V_j (-F_ij) e (f_j - f_i), K = sum_j V_j (-F_ij) e e^T, e = x_j - x_i: exact for linear fields at any particle; error O(h^2) inside, O(h) at a
+   boundary. Randles & Libersky 1996, CMAME 139, 375; CSPM (3.5) of the ICSPM paper in 1D (with W', where its list under (5.17) prints W).
+   conditioning (may be null): smallest pivot of K scaled to a unit diagonal. Needs dim neighbours that are not on a line or in a plane. */
+SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
+                                   SPH_GLOBAL sph_real *gx, SPH_GLOBAL sph_real *gy, SPH_GLOBAL sph_real *gz, SPH_GLOBAL sph_real *conditioning, SPH_GLOBAL unsigned char *status)
+{
+    int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    sph_index i, failed = 0;
+    if (!error) error = sphi_check_field(f, x.n);
+    if (!error) error = sphi_check_vector(dim, gx, gy, gz);
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_real h_i = sphi_at(h, i);
+        sph_sym K, C;
+        sph_vec D;
+        sph_real pivot = SPH_R(0);
+        int state;
+        sphi_gradient_moments(k, dim, i, x, list, h_i, V, 1, f, &K, &D);
+        state = sph_solve_gradient(dim, K, &C, &pivot);
+        if (state) {
+            state = sphi_singular_status(k, dim, i, x, list, h_i, dim);
+            D = sph_scale(SPH_R(0), D);
+        } else {
+            D = sphi_sym_times(dim, C, D);
+            if (!sphi_finite(D.x) || !sphi_finite(D.y) || !sphi_finite(D.z)) state = SPH_NOT_FINITE;
+        }
+        gx[i] = state ? SPH_R(0) : D.x;
+        if (dim > 1) gy[i] = state ? SPH_R(0) : D.y;
+        if (dim > 2) gz[i] = state ? SPH_R(0) : D.z;
+        if (conditioning) conditioning[i] = pivot;
+        if (status) status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* The same as rows: grad f_i = sum_p (wx[p], wy[p], wz[p]) (f_j - f_i), p along the list. */
+SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                        SPH_GLOBAL sph_real *SPH_RESTRICT wx, SPH_GLOBAL sph_real *SPH_RESTRICT wy, SPH_GLOBAL sph_real *SPH_RESTRICT wz,
+                                        SPH_GLOBAL sph_real *conditioning, SPH_GLOBAL unsigned char *status)
+{
+    int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_vector(dim, wx, wy, wz);
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        const sph_real h_i = sphi_at(h, i);
+        sph_sym K, C;
+        sph_vec D;
+        sph_real pivot = SPH_R(0);
+        int state;
+        sphi_gradient_moments(k, dim, i, x, list, h_i, V, 0, V, &K, &D);
+        state = sph_solve_gradient(dim, K, &C, &pivot);
+        if (state) state = sphi_singular_status(k, dim, i, x, list, h_i, dim);
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_vec e = sph_subtract(dim, sphi_point(dim, x, list.index[p]), x_i);
+            sph_vec w = sph_scale(SPH_R(0), e);
+            if (!state) w = sphi_sym_times(dim, C, sph_scale(sph_moment_weight_gradient(k, dim, sph_length(dim, e), h_i, sphi_at(V, list.index[p])), e));
+            wx[p] = w.x;
+            if (dim > 1) wy[p] = w.y;
+            if (dim > 2) wz[p] = w.z;
+        }
+        {
+            int lost = sphi_row_finite(wx, list.start[i], list.start[i + 1]);
+            if (dim > 1) lost |= sphi_row_finite(wy, list.start[i], list.start[i + 1]);
+            if (dim > 2) lost |= sphi_row_finite(wz, list.start[i], list.start[i + 1]);
+            if (lost) state = SPH_NOT_FINITE;
+        }
+        if (conditioning) conditioning[i] = pivot;
+        if (status) status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* ================================================================ list tier: two-point Laplacians */
+
+enum { SPHI_BROOKSHAW, SPHI_KERNEL_LAPLACIAN };
+SPH_FN sph_real sphi_laplacian_weight(int which, sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j)
+{
+    return which == SPHI_BROOKSHAW ? sph_laplacian_weight_brookshaw(k, dim, r, h, V_j) : sph_laplacian_weight_kernel(k, dim, r, h, V_j);
+}
+SPH_FN sph_index sphi_laplacian(int which, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
+                                SPH_GLOBAL sph_real *out)
+{
+    int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_field(f, x.n);
+    if (!error && !out) error = SPH_ERROR_NULL;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        const sph_real h_i = sphi_at(h, i), f_i = sphi_at(f, i);
+        sph_real sum = SPH_R(0);
+        SPH_SUM(sum)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            sum += sphi_laplacian_weight(which, k, dim, sph_length(dim, sph_subtract(dim, x_i, sphi_point(dim, x, j))), h_i, sphi_at(V, j)) * (sphi_at(f, j) - f_i);
+        }
+        failed += sphi_store_finite(out, i, sum);
+    }
+    return failed;
+}
+SPH_FN sph_index sphi_laplacian_rows(int which, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                     SPH_GLOBAL sph_real *SPH_RESTRICT row)
+{
+    const int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    sph_index i, p, failed = 0;
+    if (error) return error;
+    if (!row) return SPH_ERROR_NULL;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        const sph_real h_i = sphi_at(h, i);
+        SPH_EACH
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            row[p] = sphi_laplacian_weight(which, k, dim, sph_length(dim, sph_subtract(dim, x_i, sphi_point(dim, x, j))), h_i, sphi_at(V, j));
+        }
+        failed += sphi_row_finite(row, list.start[i], list.start[i + 1]);
+    }
+    return failed;
+}
+
+/* L f_i = sum_j 2 V_j (f_i - f_j) F_ij; see sph_laplacian_weight_brookshaw */
+SPH_FN sph_index sph_laplacian_brookshaw(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
+                                         SPH_GLOBAL sph_real *out)
+{
+    return sphi_laplacian(SPHI_BROOKSHAW, k, dim, first, last, x, list, h, V, f, out);
+}
+SPH_FN sph_index sph_laplacian_rows_brookshaw(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                              SPH_GLOBAL sph_real *SPH_RESTRICT row)
+{
+    return sphi_laplacian_rows(SPHI_BROOKSHAW, k, dim, first, last, x, list, h, V, row);
+}
+
+/* L f_i = sum_j V_j (f_j - f_i) lap W_ij, for comparison; see sph_laplacian_weight_kernel */
+SPH_FN sph_index sph_laplacian_kernel(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
+                                      SPH_GLOBAL sph_real *out)
+{
+    return sphi_laplacian(SPHI_KERNEL_LAPLACIAN, k, dim, first, last, x, list, h, V, f, out);
+}
+SPH_FN sph_index sph_laplacian_rows_kernel(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                           SPH_GLOBAL sph_real *SPH_RESTRICT row)
+{
+    return sphi_laplacian_rows(SPHI_KERNEL_LAPLACIAN, k, dim, first, last, x, list, h, V, row);
+}
+
+/* ================================================================ list tier: second derivatives */
+
+enum { SPHI_CSPM, SPHI_ICSPM, SPHI_WLS };
+SPH_FN sph_test_weights sphi_test_weights(int method, sph_kernel k, int dim, sph_real q, sph_real V_j)
+{
+    return method == SPHI_WLS ? sph_test_weights_wls(k, dim, q, V_j) : sph_test_weights_cspm(k, dim, q, V_j);
+}
+
+/* Fifty sums do not stay in registers one pair at a time: neighbours are gathered into tiles and summed in lanes, which vectorises without a flag. Rows are filled up with a
+   neighbour out of reach, whose weights are 0. */
+enum { SPHI_TILE = 64, SPHI_LANES = 8 };
+typedef struct sphi_tile {
+    sph_real x[SPHI_TILE], y[SPHI_TILE], z[SPHI_TILE], q[SPHI_TILE], V[SPHI_TILE], df[SPHI_TILE];
+} sphi_tile;
+
+/* e = (x_j - x_i) / h_i, q = |e|, V_j and f_j - f_i of up to SPHI_TILE neighbours; returns their number rounded up to whole lanes */
+SPH_FN int sphi_tile_gather(int dim, int with_f, sphi_tile *t, sph_vec x_i, sph_real h_i, sph_real f_i, sph_points x, sph_scalars V, sph_scalars f,
+                            const SPH_GLOBAL sph_index *index, int n)
+{
+    const int full = (n + SPHI_LANES - 1) / SPHI_LANES * SPHI_LANES;
+    const sph_real u = SPH_R(1) / h_i;
+    int c, l;
+    for (c = 0; c < n; c++) {
+        const sph_index j = index[c];
+        const sph_vec e = sph_scale(u, sph_subtract(dim, sphi_point(dim, x, j), x_i));
+        t->x[c] = e.x;
+        if (dim > 1) t->y[c] = e.y;
+        if (dim > 2) t->z[c] = e.z;
+        t->V[c] = sphi_at(V, j);
+        if (with_f) t->df[c] = sphi_at(f, j) - f_i;
+    }
+    for (c = n; c < full; c++) {
+        t->x[c] = SPH_R(64);
+        if (dim > 1) t->y[c] = SPH_R(0);
+        if (dim > 2) t->z[c] = SPH_R(0);
+        t->V[c] = t->df[c] = SPH_R(0);
+    }
+    for (c = 0; c < full; c += SPHI_LANES)
+        for (l = 0; l < SPHI_LANES; l++) {
+            sph_real s = t->x[c + l] * t->x[c + l];
+            if (dim > 1) s += t->y[c + l] * t->y[c + l];
+            if (dim > 2) s += t->z[c + l] * t->z[c + l];
+            t->q[c + l] = SPHI_SQRT(s);
+        }
+    return full;
+}
+
+#define SPHI_LANE_FIELD(name, formula) sph_real name[SPHI_LANES];
+typedef struct sphi_lanes {
+    SPHI_MATRIX_X(SPHI_LANE_FIELD) SPHI_MATRIX_Y(SPHI_LANE_FIELD) SPHI_MATRIX_Z(SPHI_LANE_FIELD)
+    SPHI_VALUE_X(SPHI_LANE_FIELD) SPHI_VALUE_Y(SPHI_LANE_FIELD) SPHI_VALUE_Z(SPHI_LANE_FIELD)
+} sphi_lanes;
+#define SPHI_LANE_ZERO(name, formula) s.name[l] = SPH_R(0);
+#define SPHI_LANE_ADD(name, formula) s.name[l] += formula;
+#define SPHI_LANE_SUM(name, formula) \
+    for (l = 1; l < SPHI_LANES; l++) s.name[0] += s.name[l]; \
+    m->name = s.name[0];
+
+/* the moments of target i, as sph_moments_add and sph_moments_add_value make them */
+SPH_FN void sphi_moments(int method, sph_kernel k, int dim, int with_f, sph_index i, sph_points pos, sph_list list, sph_real h_i, sph_scalars V, sph_scalars f, sph_moments *m)
+{
+    const sph_vec x_i = sphi_point(dim, pos, i);
+    const sph_real f_i = with_f ? sphi_at(f, i) : SPH_R(0);
+    const sph_index end = list.start[i + 1];
+    sphi_tile t;
+    sphi_lanes s;
+    sph_index p;
+    int l, c;
+    for (l = 0; l < SPHI_LANES; l++) {
+        SPHI_MATRIX(dim, SPHI_LANE_ZERO)
+        if (with_f) { SPHI_VALUE(dim, SPHI_LANE_ZERO) }
+    }
+    for (p = list.start[i]; p < end; p += SPHI_TILE) {
+        const int full = sphi_tile_gather(dim, with_f, &t, x_i, h_i, f_i, pos, V, f, list.index + p, end - p < SPHI_TILE ? (int)(end - p) : (int)SPHI_TILE);
+        for (c = 0; c < full; c += SPHI_LANES)
+            for (l = 0; l < SPHI_LANES; l++) {
+                const sph_test_weights tw = sphi_test_weights(method, k, dim, t.q[c + l], t.V[c + l]);
+                const sph_real x = t.x[c + l], y = dim > 1 ? t.y[c + l] : SPH_R(0), z = dim > 2 ? t.z[c + l] : SPH_R(0), g = tw.g, w = tw.w;
+                (void)y;
+                (void)z;
+                SPHI_MATRIX(dim, SPHI_LANE_ADD)
+                if (with_f) {
+                    const sph_real df = t.df[c + l];
+                    SPHI_VALUE(dim, SPHI_LANE_ADD)
+                }
+            }
+    }
+    SPHI_MATRIX(dim, SPHI_LANE_SUM)
+    if (with_f) { SPHI_VALUE(dim, SPHI_LANE_SUM) }
+}
+
+/* unknowns that the neighbours must determine: CSPM solves for gradient and Hessian one after the other, the others at once */
+SPH_FN int sphi_neighbours_needed(int method, int dim) { return method == SPHI_CSPM ? sphi_unknowns(dim) : dim + sphi_unknowns(dim); }
+
+SPH_FN int sphi_solve(int method, int dim, const sph_moments *m, sph_real h, sph_jet *jet, sph_real *conditioning)
+{
+    return method == SPHI_CSPM ? sph_solve_cspm(dim, m, h, jet, conditioning) : sph_solve_block(dim, m, h, jet, conditioning);
+}
+
+SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
+                                  sph_real conditioning_min, int fallback_wls, sph_derivative_out out)
+{
+    const size_t stride = out.stride ? out.stride : 1;
+    const int want_conditioning = out.conditioning || conditioning_min > SPH_R(0);
+    int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    sph_index i, failed = 0;
+    if (!error) error = sphi_check_field(f, x.n);
+    if (!error && (!sphi_finite(conditioning_min) || conditioning_min < SPH_R(0))) error = SPH_ERROR_VALUE;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_real h_i = sphi_at(h, i);
+        sph_moments m;
+        sph_jet j;
+        sph_real conditioning = SPH_R(0);
+        int state;
+        sphi_moments(method, k, dim, 1, i, x, list, h_i, V, f, &m);
+        state = sphi_solve(method, dim, &m, h_i, &j, want_conditioning ? &conditioning : 0);
+        if (state) state = sphi_singular_status(k, dim, i, x, list, h_i, sphi_neighbours_needed(method, dim));
+        else if (want_conditioning && SPHI_ABS(conditioning) < conditioning_min) state = SPH_ILL_CONDITIONED;
+        if (fallback_wls && (state == SPH_SINGULAR || state == SPH_ILL_CONDITIONED)) {
+            sphi_moments(SPHI_WLS, k, dim, 1, i, x, list, h_i, V, f, &m);
+            if (sph_solve_block(dim, &m, h_i, &j, 0) == SPH_OK) state = SPH_FELL_BACK;
+        }
+        if ((state == SPH_OK || state == SPH_ILL_CONDITIONED || state == SPH_FELL_BACK) && !sphi_jet_finite(dim, j)) state = SPH_NOT_FINITE;
+        if (state == SPH_TOO_FEW || state == SPH_SINGULAR || state == SPH_NOT_FINITE) {
+            j = sph_jet_laplacian(dim);
+            j.hessian.xx = j.hessian.yy = j.hessian.zz = SPH_R(0);
+        }
+        sphi_put(out.gx, stride, i, j.gradient.x);
+        sphi_put(out.hxx, stride, i, j.hessian.xx);
+        if (dim > 1) {
+            sphi_put(out.gy, stride, i, j.gradient.y);
+            sphi_put(out.hxy, stride, i, j.hessian.xy);
+            sphi_put(out.hyy, stride, i, j.hessian.yy);
+        }
+        if (dim > 2) {
+            sphi_put(out.gz, stride, i, j.gradient.z);
+            sphi_put(out.hxz, stride, i, j.hessian.xz);
+            sphi_put(out.hyz, stride, i, j.hessian.yz);
+            sphi_put(out.hzz, stride, i, j.hessian.zz);
+        }
+        sphi_put(out.laplacian, stride, i, j.hessian.xx + (dim > 1 ? j.hessian.yy : SPH_R(0)) + (dim > 2 ? j.hessian.zz : SPH_R(0)));
+        sphi_put(out.conditioning, stride, i, conditioning);
+        if (out.status) out.status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* Gradient, Hessian and Laplacian by CSPM: (3.5), (5.15) of the ICSPM paper in 1D. The Hessian has an error O(1) at boundaries: in 1D it is kappa f''.
+   conditioning: smallest pivot of the scaled matrices, in [0, 1]; a target below conditioning_min (>= 0) is reported SPH_ILL_CONDITIONED, its value kept. */
+SPH_FN sph_index sph_derivatives_cspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
+                                      sph_real conditioning_min, sph_derivative_out out)
+{
+    return sphi_derivatives(SPHI_CSPM, k, dim, first, last, x, list, h, V, f, conditioning_min, 0, out);
+}
+
+/* Gradient, Hessian and Laplacian by ICSPM: (5.17) of the ICSPM paper in 1D. Exact for quadratic fields wherever it is not singular.
+   conditioning: kappa in 1D, sign(det kappa) / |kappa^-1| in general. Targets whose |conditioning| is below conditioning_min (>= 0; where there are boundaries and
+   disorder 0.2 is a good value in 1D and 0.02 in 2D and 3D; 0 is the published method) are SPH_ILL_CONDITIONED and keep their value, or, with fallback_wls = 1, get the least-squares one and are SPH_FELL_BACK. */
+SPH_FN sph_index sph_derivatives_icspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
+                                       sph_real conditioning_min, int fallback_wls, sph_derivative_out out)
+{
+    return sphi_derivatives(SPHI_ICSPM, k, dim, first, last, x, list, h, V, f, conditioning_min, fallback_wls, out);
+}
+
+/* Gradient, Hessian and Laplacian by weighted least squares: the robust sibling. Exact for quadratic fields; the matrix is definite wherever the neighbours determine a
+   quadratic. conditioning: as for ICSPM, here in [0, 1]. */
+SPH_FN sph_index sph_derivatives_wls(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
+                                     sph_real conditioning_min, sph_derivative_out out)
+{
+    return sphi_derivatives(SPHI_WLS, k, dim, first, last, x, list, h, V, f, conditioning_min, 0, out);
+}
+
+SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_jet d,
+                                      sph_row_out out)
+{
+    const int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    sph_index i, p, failed = 0;
+    if (error) return error;
+    if (!out.row) return SPH_ERROR_NULL;
+    if (!sphi_jet_finite(dim, d)) return SPH_ERROR_VALUE;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        const sph_real h_i = sphi_at(h, i), u = SPH_R(1) / h_i;
+        SPH_GLOBAL sph_real *const row = out.row;
+        sph_moments m;
+        sph_row_coefficients c;
+        sph_real conditioning = SPH_R(0), sum = SPH_R(0);
+        int state;
+        c.factor = SPH_R(0);
+        sphi_moments(method, k, dim, 0, i, x, list, h_i, V, V, &m);
+        state = method == SPHI_CSPM ? sph_row_cspm(dim, &m, h_i, d, &c, out.conditioning ? &conditioning : 0)
+                                    : sph_row_block(dim, method == SPHI_ICSPM, &m, h_i, d, &c, out.conditioning ? &conditioning : 0);
+        if (state) state = sphi_singular_status(k, dim, i, x, list, h_i, sphi_neighbours_needed(method, dim));
+        else {
+            for (p = list.start[i]; p < list.start[i + 1]; p++) {
+                const sph_index j = list.index[p];
+                const sph_vec e = sph_scale(u, sph_subtract(dim, sphi_point(dim, x, j), x_i));
+                row[p] = sph_row_weight(dim, c, e, sphi_test_weights(method, k, dim, sph_length(dim, e), sphi_at(V, j)));
+                sum += row[p];
+            }
+            if (!sphi_finite(sum)) state = SPH_NOT_FINITE;
+        }
+        if (state) {
+            for (p = list.start[i]; p < list.start[i + 1]; p++) row[p] = SPH_R(0);
+            c.factor = sum = SPH_R(0);
+        }
+        if (out.diagonal) out.diagonal[i] = -sum;
+        if (out.factor) out.factor[i] = c.factor;
+        if (out.conditioning) out.conditioning[i] = conditioning;
+        if (out.status) out.status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* Stencil rows of the operator d (see sph_jet): sum_p row[p] (f_j - f_i) = factor_i D f_i. The rows of a target that is not ok are 0, and so is its factor. */
+SPH_FN sph_index sph_derivative_rows_cspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_jet d, sph_row_out out)
+{
+    return sphi_derivative_rows(SPHI_CSPM, k, dim, first, last, x, list, h, V, d, out);
+}
+
+/* ICSPM: factor is the kappa of the paper (in 1D the rows are those of CSPM and the boundary value problem is  sum_p row[p] (u_j - u_i) = kappa_i f''(x_i)): nothing is
+   ever divided by kappa, so a target where kappa is 0 is ok here. */
+SPH_FN sph_index sph_derivative_rows_icspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_jet d, sph_row_out out)
+{
+    return sphi_derivative_rows(SPHI_ICSPM, k, dim, first, last, x, list, h, V, d, out);
+}
+SPH_FN sph_index sph_derivative_rows_wls(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_jet d, sph_row_out out)
+{
+    return sphi_derivative_rows(SPHI_WLS, k, dim, first, last, x, list, h, V, d, out);
+}
+
+/* ---------------------------------------------------------------- BIM, one dimension */
+
+SPH_FN int sphi_check_ends(sph_points x, sph_index left, sph_index right)
+{
+    if (left < 0 || left >= x.n || right < 0 || right >= x.n) return SPH_ERROR_RANGE;
+    return x.x[(size_t)left * x.stride] < x.x[(size_t)right * x.stride] ? 0 : SPH_ERROR_POSITION;
+}
+/* not available at (or beyond) the ends; too few without a neighbour in the support, because the sum would then be a silent 0 */
+SPH_FN int sphi_bim_status(sph_kernel k, sph_index i, sph_points x, sph_list list, sph_real h, sph_real x_left, sph_real x_right)
+{
+    const sph_real x_i = sphi_point(1, x, i).x;
+    if (!(x_i > x_left && x_i < x_right)) return SPH_NOT_AVAILABLE;
+    return sphi_singular_status(k, 1, i, x, list, h, 1) == SPH_TOO_FEW ? SPH_TOO_FEW : SPH_OK;
+}
+
+/* f''_i = (1/gamma_i) { sum_j 2 V_j (f_i - f_j) F_ij + boundary terms at the particles `left` and `right` }, gamma_i the Shepard sum. (5.16) of the ICSPM paper.
+   First order near a boundary if h grows against the spacing, as the integrals demand. Not available (SPH_NOT_AVAILABLE, 0) at the ends themselves. */
+SPH_FN sph_index sph_second_derivative_bim(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f, sph_index left,
+                                           sph_index right, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
+{
+    int error = sphi_check_sweep(k, 1, first, last, x, list, h, V);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_field(f, x.n);
+    if (!error && !out) error = SPH_ERROR_NULL;
+    if (!error) error = sphi_check_ends(x, left, right);
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_real x_i = sphi_point(1, x, i).x, x_l = sphi_point(1, x, left).x, x_r = sphi_point(1, x, right).x, h_i = sphi_at(h, i), f_i = sphi_at(f, i);
+        int state = sphi_bim_status(k, i, x, list, h_i, x_l, x_r);
+        sph_real value = SPH_R(0);
+        if (!state) {
+            sph_real sum = SPH_R(0), gamma = sphi_at(V, i) * sph_kernel_w(k, 1, SPH_R(0), h_i);
+            SPH_SUM(sum, gamma)
+            for (p = list.start[i]; p < list.start[i + 1]; p++) {
+                const sph_index j = list.index[p];
+                const sph_real r = SPHI_ABS(x_i - sphi_point(1, x, j).x);
+                sum += sph_laplacian_weight_brookshaw(k, 1, r, h_i, sphi_at(V, j)) * (sphi_at(f, j) - f_i);
+                gamma += sphi_at(V, j) * sph_kernel_w(k, 1, r, h_i);
+            }
+            sum += sph_boundary_weight_bim(k, x_i, x_r, SPH_R(1), h_i) * (sphi_at(f, right) - f_i) +
+                   sph_boundary_weight_bim(k, x_i, x_l, SPH_R(-1), h_i) * (sphi_at(f, left) - f_i);
+            value = sum / gamma;
+            if (!sphi_finite(value)) {
+                value = SPH_R(0);
+                state = SPH_NOT_FINITE;
+            }
+        }
+        out[i] = value;
+        if (status) status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* The same as rows: f''_i = sum_p row[p] (f_j - f_i). The ends must be in the lists of the targets that reach them. */
+SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_index left, sph_index right,
+                                                SPH_GLOBAL sph_real *SPH_RESTRICT row, SPH_GLOBAL unsigned char *status)
+{
+    int error = sphi_check_sweep(k, 1, first, last, x, list, h, V);
+    sph_index i, p, failed = 0;
+    if (!error && !row) error = SPH_ERROR_NULL;
+    if (!error) error = sphi_check_ends(x, left, right);
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_real x_i = sphi_point(1, x, i).x, x_l = sphi_point(1, x, left).x, x_r = sphi_point(1, x, right).x, h_i = sphi_at(h, i);
+        int state = sphi_bim_status(k, i, x, list, h_i, x_l, x_r);
+        sph_real gamma = sphi_at(V, i) * sph_kernel_w(k, 1, SPH_R(0), h_i), scale;
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sph_real r = SPHI_ABS(x_i - sphi_point(1, x, j).x);
+            row[p] = state ? SPH_R(0) : sph_laplacian_weight_brookshaw(k, 1, r, h_i, sphi_at(V, j));
+            if (!state && j == right) row[p] += sph_boundary_weight_bim(k, x_i, x_r, SPH_R(1), h_i);
+            if (!state && j == left) row[p] += sph_boundary_weight_bim(k, x_i, x_l, SPH_R(-1), h_i);
+            gamma += sphi_at(V, j) * sph_kernel_w(k, 1, r, h_i);
+        }
+        scale = state ? SPH_R(0) : SPH_R(1) / gamma;
+        for (p = list.start[i]; p < list.start[i + 1]; p++) row[p] *= scale;
+        if (sphi_row_finite(row, list.start[i], list.start[i + 1])) state = SPH_NOT_FINITE;
+        if (status) status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+#endif /* SPH_OPS_H */
+
+/*
+ * MIT License
+ *
+ * Copyright (c) 2026 the sph.h authors
+ *
+ * Permission is hereby granted, free of charge, to any person obtaining a copy
+ * of this software and associated documentation files (the "Software"), to deal
+ * in the Software without restriction, including without limitation the rights
+ * to use, copy, modify, merge, publish, distribute, sublicense, and/or sell
+ * copies of the Software, and to permit persons to whom the Software is
+ * furnished to do so, subject to the following conditions:
+ *
+ * The above copyright notice and this permission notice shall be included in all
+ * copies or substantial portions of the Software.
+ *
+ * THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR
+ * IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY,
+ * FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
+ * AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER
+ * LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+ * OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
+ * SOFTWARE.
+ */

@@ -1,0 +1,33 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Runs test programs and scripts, each of which prints 'name: N passed, N failed', and prints the sum as its last line. One that ends with an error without
+# having counted a failure (a crash, a missing program) counts as one.
+#     tests/run.sh PROGRAM_OR_SCRIPT ...          from the root of the repository
+BUILD=${BUILD:-build}
+export BUILD
+passed=0 failed=0
+for t in "$@"; do
+    case $t in
+    *.sh) output=$(sh "$t" 2>&1) ;;
+    *) output=$("$t" 2>&1) ;;
+    esac
+    status=$?
+    [ -n "$output" ] && printf '%s\n' "$output"
+    counts=$(printf '%s\n' "$output" | sed -n 's/^.*: \([0-9][0-9]*\) passed, \([0-9][0-9]*\) failed$/\1 \2/p' | awk '{ p += $1; f += $2 } END { print p + 0, f + 0 }')
+    passed=$((passed + ${counts% *}))
+    failed=$((failed + ${counts#* }))
+    if [ $status -ne 0 ] && [ "${counts#* }" -eq 0 ]; then
+        echo "$t: ended with status $status"
+        failed=$((failed + 1))
+    elif [ "$counts" = "0 0" ]; then
+        case $output in
+        *skipped*) ;;
+        *)
+            echo "$t: checked nothing"
+            failed=$((failed + 1))
+            ;;
+        esac
+    fi
+done
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]
