@@ -22,7 +22,7 @@ TESTS_DOUBLE = common
 TESTS_OPTIONAL = gsl
 TESTS = $(filter-out $(TESTS_DOUBLE) $(TESTS_OPTIONAL),$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))
 TEST_PROGRAMS = $(TESTS:%=$(BUILD)/tests/%) $(TESTS:%=$(BUILD)/tests/%-float) $(TESTS_DOUBLE:%=$(BUILD)/tests/%)
-TEST_SCRIPTS = tests/compile/strict.sh tests/compile/folding.sh tests/examples.sh tests/known/check.sh tests/gsl.sh
+TEST_SCRIPTS = tests/index.sh tests/readme.sh tests/compile/strict.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/examples.sh tests/known/derivation.sh tests/gsl.sh
 
 help:
 	@echo "make reproduce        run the papers' benchmarks, published beside measured values, and print a scoreboard"

@@ -53,10 +53,10 @@ SPH_FN size_t sphi_cell(int dim, const sphi_grid *g, sph_vec p)
     return c;
 }
 
-/* cells along an axis: as many as fit, but no more than `most` */
+/* cells along an axis: as many as fit, but no more than `most`. A little wider than `radius`, by the rounding of a cell's number, so that no pair is two cells apart. */
 SPH_FN sph_index sphi_axis(sph_real low, sph_real high, sph_real radius, sph_index most, sph_real *inverse_width)
 {
-    const sph_real fit = (high - low) / radius;
+    const sph_real ratio = (high - low) / radius, fit = ratio / (SPH_R(1) + SPH_R(8) * SPH_EPSILON * ratio);
     const sph_index cells = fit < (sph_real)most ? (fit < SPH_R(1) ? 1 : (sph_index)fit) : most;
     *inverse_width = high > low ? (sph_real)cells / (high - low) : SPH_R(0);
     return cells;

@@ -411,7 +411,7 @@ SPH_FN void sphi_blocks_values(int dim, const sph_moments *m, const sphi_blocks 
     }
 }
 
-/* Between scaled unknowns and derivatives. values = 1: unknowns to derivatives; values = 0: the coefficients of an operator to those of the unknowns. */
+/* From scaled unknowns to derivatives, and from the coefficients of an operator on derivatives to those on the unknowns. */
 SPH_FN sph_jet sphi_jet_unscaled(int dim, const sphi_blocks *b, sph_real h, const sph_real *u, const sph_real *v)
 {
     const sph_real a = SPH_R(1) / h, c = a * a;
@@ -455,6 +455,15 @@ SPH_FN void sphi_lu_load(int n, sphi_lu *s, sph_real (*m)[SPHI_MAX])
     for (i = 0; i < n; i++)
         for (j = 0; j < n; j++) s->a[i][j] = m[i][j];
     sphi_lu_factor(n, s);
+}
+
+/* The blocks, and K and M factored: SPH_OK, or SPH_SINGULAR if the neighbours do not determine a gradient or a Hessian at all. */
+SPH_FN int sphi_blocks_factor(int dim, const sph_moments *m, sphi_blocks *b, sphi_lu *K, sphi_lu *M)
+{
+    if (!sphi_blocks_fill(dim, m, b)) return SPH_SINGULAR;
+    sphi_lu_load(dim, K, b->K);
+    sphi_lu_load(sphi_unknowns(dim), M, b->M);
+    return K->pivot_min < SPHI_PIVOT_MIN || M->pivot_min < SPHI_PIVOT_MIN ? SPH_SINGULAR : SPH_OK;
 }
 
 /* the Schur complement S = M - A K^-1 B, or its transpose, factored */
@@ -502,10 +511,7 @@ SPH_FN int sph_solve_cspm(int dim, const sph_moments *m, sph_real h, sph_jet *je
     sphi_lu K, M;
     sph_real u[SPHI_MAX], v[SPHI_MAX], t[SPHI_MAX];
     int i;
-    if (!sphi_blocks_fill(dim, m, &b)) return SPH_SINGULAR;
-    sphi_lu_load(dim, &K, b.K);
-    sphi_lu_load(nh, &M, b.M);
-    if (K.pivot_min < SPHI_PIVOT_MIN || M.pivot_min < SPHI_PIVOT_MIN) return SPH_SINGULAR;
+    if (sphi_blocks_factor(dim, m, &b, &K, &M)) return SPH_SINGULAR;
     sphi_blocks_values(dim, m, &b, u, v);
     sphi_lu_solve(dim, &K, u);
     sphi_multiply(nh, dim, b.A, u, t);
@@ -525,10 +531,7 @@ SPH_FN int sph_solve_block(int dim, const sph_moments *m, sph_real h, sph_jet *j
     sphi_lu K, M, S;
     sph_real u[SPHI_MAX], v[SPHI_MAX], x[SPHI_MAX], t[SPHI_MAX];
     int i;
-    if (!sphi_blocks_fill(dim, m, &b)) return SPH_SINGULAR;
-    sphi_lu_load(dim, &K, b.K);
-    sphi_lu_load(nh, &M, b.M);
-    if (K.pivot_min < SPHI_PIVOT_MIN || M.pivot_min < SPHI_PIVOT_MIN) return SPH_SINGULAR;
+    if (sphi_blocks_factor(dim, m, &b, &K, &M)) return SPH_SINGULAR;
     sphi_schur(dim, &b, &K, 0, &S);
     if (S.pivot_min < SPHI_PIVOT_MIN) return SPH_SINGULAR;
     sphi_blocks_values(dim, m, &b, u, v);
@@ -590,10 +593,7 @@ SPH_FN int sph_row_cspm(int dim, const sph_moments *m, sph_real h, sph_jet op, s
     sphi_lu K, M;
     sph_real u[SPHI_MAX], v[SPHI_MAX], t[SPHI_MAX];
     int i;
-    if (!sphi_blocks_fill(dim, m, &b)) return SPH_SINGULAR;
-    sphi_lu_load(dim, &K, b.K);
-    sphi_lu_load(nh, &M, b.M);
-    if (K.pivot_min < SPHI_PIVOT_MIN || M.pivot_min < SPHI_PIVOT_MIN) return SPH_SINGULAR;
+    if (sphi_blocks_factor(dim, m, &b, &K, &M)) return SPH_SINGULAR;
     sphi_operator_scaled(dim, &b, h, op, u, v);
     sphi_lu_solve(nh, &M, v); /* K and M are symmetric */
     sphi_multiply_transposed(nh, dim, b.A, v, t);
@@ -615,10 +615,7 @@ SPH_FN int sph_row_block(int dim, int icspm, const sph_moments *m, sph_real h, s
     sphi_lu K, M, S;
     sph_real u[SPHI_MAX], v[SPHI_MAX], y[SPHI_MAX], t[SPHI_MAX], factor = SPH_R(1);
     int i;
-    if (!sphi_blocks_fill(dim, m, &b)) return SPH_SINGULAR;
-    sphi_lu_load(dim, &K, b.K);
-    sphi_lu_load(nh, &M, b.M);
-    if (K.pivot_min < SPHI_PIVOT_MIN || M.pivot_min < SPHI_PIVOT_MIN) return SPH_SINGULAR;
+    if (sphi_blocks_factor(dim, m, &b, &K, &M)) return SPH_SINGULAR;
     if (conditioning || !icspm) {
         sphi_schur(dim, &b, &K, 0, &S);
         if (!icspm && S.pivot_min < SPHI_PIVOT_MIN) return SPH_SINGULAR;
@@ -812,6 +809,7 @@ SPH_FN int sphi_row_finite(SPH_GLOBAL sph_real *row, sph_index first, sph_index 
         for (p = first; p < last; p++) row[p] = SPH_R(0);
     return lost;
 }
+SPH_FN sph_real sphi_trace(int dim, sph_sym s) { return s.xx + (dim > 1 ? s.yy : SPH_R(0)) + (dim > 2 ? s.zz : SPH_R(0)); }
 SPH_FN int sphi_jet_finite(int dim, sph_jet j)
 {
     int ok = sphi_finite(j.gradient.x) && sphi_finite(j.hessian.xx);
@@ -840,6 +838,7 @@ SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_index first, sph_index la
     {
         const sph_index h_count = h.stride ? x.n : 1;
         sph_index i, p;
+        int outside = 0, self = 0;
         for (i = 0; i < h_count; i++)
             if (!sphi_finite(sphi_at(h, i)) || !(sphi_at(h, i) > SPH_R(0))) return SPH_ERROR_H;
         if (!sphi_all_finite(sph_scalars_strided(x.x, x.stride), x.n)) return SPH_ERROR_POSITION;
@@ -851,11 +850,14 @@ SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_index first, sph_index la
         for (i = first; i < last; i++)
             if (list.start[i + 1] < list.start[i]) return SPH_ERROR_LIST;
         if (list.start[last] > list.start[first] && !list.index) return SPH_ERROR_NULL;
-        for (p = list.start[first]; p < list.start[last]; p++)
-            if (list.index[p] < 0 || list.index[p] >= x.n) return SPH_ERROR_LIST;
         for (i = first; i < last; i++)
-            for (p = list.start[i]; p < list.start[i + 1]; p++)
-                if (list.index[p] == i) return SPH_ERROR_SELF;
+            for (p = list.start[i]; p < list.start[i + 1]; p++) {
+                const sph_index j = list.index[p];
+                outside |= (j < 0) | (j >= x.n);
+                self |= j == i;
+            }
+        if (outside) return SPH_ERROR_LIST;
+        if (self) return SPH_ERROR_SELF;
     }
     return 0;
 }
@@ -1284,7 +1286,7 @@ SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_index f
             sphi_moments(SPHI_WLS, k, dim, 1, i, x, list, h_i, V, f, &m);
             if (sph_solve_block(dim, &m, h_i, &j, 0) == SPH_OK) state = SPH_FELL_BACK;
         }
-        if ((state == SPH_OK || state == SPH_ILL_CONDITIONED || state == SPH_FELL_BACK) && !sphi_jet_finite(dim, j)) state = SPH_NOT_FINITE;
+        if ((state == SPH_OK || state == SPH_ILL_CONDITIONED || state == SPH_FELL_BACK) && !(sphi_jet_finite(dim, j) && sphi_finite(sphi_trace(dim, j.hessian)))) state = SPH_NOT_FINITE;
         if (state == SPH_TOO_FEW || state == SPH_SINGULAR || state == SPH_NOT_FINITE) {
             j = sph_jet_laplacian(dim);
             j.hessian.xx = j.hessian.yy = j.hessian.zz = SPH_R(0);
@@ -1302,7 +1304,7 @@ SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_index f
             sphi_put(out.hyz, stride, i, j.hessian.yz);
             sphi_put(out.hzz, stride, i, j.hessian.zz);
         }
-        sphi_put(out.laplacian, stride, i, j.hessian.xx + (dim > 1 ? j.hessian.yy : SPH_R(0)) + (dim > 2 ? j.hessian.zz : SPH_R(0)));
+        sphi_put(out.laplacian, stride, i, sphi_trace(dim, j.hessian));
         sphi_put(out.conditioning, stride, i, conditioning);
         if (out.status) out.status[i] = (unsigned char)state;
         failed += state != SPH_OK;

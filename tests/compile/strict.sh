@@ -2,58 +2,36 @@
 # SPDX-License-Identifier: MIT
 # Every header alone and all together, in C99 and C++11, double and float, with warnings as errors; every test and example under the same warnings; the operators as
 # OpenCL C 1.2. Compilers that are not installed are skipped aloud.
-BUILD=${BUILD:-build}
-dir=$BUILD/strict
-mkdir -p "$dir"
-warn="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror"
-passed=0 failed=0
-
-try() { # what, command ...
-    what=$1
-    shift
-    if "$@" > "$dir/log" 2>&1; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "strict: failed: $what: $*"
-        head -n 5 "$dir/log"
-    fi
-}
+. tests/check.sh
+warn="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror -I. -fsyntax-only"
 has() {
-    command -v "$1" > /dev/null 2>&1 && return 0
-    echo "strict: $1 skipped, it is not installed"
+    command -v "$1" > /dev/null 2>&1 && return
+    skip "strict warnings of $1" "not installed"
     return 1
 }
 
-for h in sph_kernels.h sph_ops.h sph.h; do printf '#include "%s"\nint main(void) { return 0; }\n' "$h" > "$dir/only_$h.c"; done
-printf '#include "sph.h"\n#include "sph_kernels.h"\n#include "sph_ops.h"\n#include "sph.h"\nint main(void) { return 0; }\n' > "$dir/only_all.c"
+for h in sph_kernels.h sph_ops.h sph.h; do printf '#include "%s"\nint main(void) { return 0; }\n' "$h" > "$scratch/only_$h.c"; done
+printf '#include "sph.h"\n#include "sph_kernels.h"\n#include "sph_ops.h"\n#include "sph.h"\nint main(void) { return 0; }\n' > "$scratch/only_all.c"
+both_precisions="$scratch/only_*.c $(ls tests/test_*.c | grep -v -e test_gsl -e test_common)"
 
 for cc in gcc clang; do
     has $cc || continue
-    for single in 0 1; do
-        for f in "$dir"/only_*.c; do
-            try "$cc C99 float=$single $(basename "$f")" $cc -std=c99 $warn -DSPH_SINGLE=$single -I. -fsyntax-only "$f"
-        done
-        for f in tests/test_*.c; do
-            [ "$f" = tests/test_gsl.c ] && continue
-            [ $single = 1 ] && [ "$f" = tests/test_common.c ] && continue
-            try "$cc C99 float=$single $f" $cc -std=c99 $warn -DSPH_SINGLE=$single -I. -fsyntax-only "$f"
-        done
+    for f in $both_precisions; do
+        check "C99, double" $cc -std=c99 $warn "$f"
+        check "C99, float" $cc -std=c99 $warn -DSPH_SINGLE=1 "$f"
     done
-    for f in examples/papers/*.c examples/common/*.c; do try "$cc $f" $cc -std=c99 $warn -fsyntax-only "$f"; done
+    for f in tests/test_common.c examples/papers/*.c examples/common/*.c; do check "C99" $cc -std=c99 $warn "$f"; done
 done
 for cxx in g++ clang++; do
     has $cxx || continue
-    for single in 0 1; do
-        for f in "$dir"/only_*.c; do
-            try "$cxx C++11 float=$single $(basename "$f")" $cxx -x c++ -std=c++11 $warn -DSPH_SINGLE=$single -I. -fsyntax-only "$f"
-        done
+    for f in "$scratch"/only_*.c; do
+        check "C++11, double" $cxx -x c++ -std=c++11 $warn "$f"
+        check "C++11, float" $cxx -x c++ -std=c++11 $warn -DSPH_SINGLE=1 "$f"
     done
 done
 if has clang; then
     for single in 0 1; do
-        try "OpenCL C 1.2 float=$single" clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -Werror -DSPH_SINGLE=$single -I. -include sph_ops.h -fsyntax-only /dev/null
+        check "OpenCL C 1.2" clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -Werror -DSPH_SINGLE=$single -I. -include sph_ops.h -fsyntax-only /dev/null
     done
 fi
-echo "strict: $passed passed, $failed failed"
-[ $failed -eq 0 ]
+finish strict

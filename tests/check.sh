@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+# Sourced by the test scripts: counts checks.
+#     check WHAT COMMAND ...      passes if the command succeeds; its output is shown if it fails
+#     skip WHAT WHY               says aloud what is not tested
+#     finish NAME                 prints 'NAME: N passed, N failed' and ends with 1 if a check failed
+BUILD=${BUILD:-build}
+CC=${CC:-cc}
+scratch=$BUILD/scratch/$(basename "$0" .sh)
+mkdir -p "$scratch" || exit 2
+passed=0
+failed=0
+check() {
+    what=$1
+    shift
+    if "$@" > "$scratch/log" 2>&1; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "failed: $what: $*"
+        head -n 5 "$scratch/log"
+    fi
+}
+skip() { echo "skipped: $1: $2"; }
+finish() {
+    echo "$1: $passed passed, $failed failed"
+    [ $failed -eq 0 ]
+    exit
+}

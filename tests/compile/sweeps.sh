@@ -1,0 +1,63 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Reads the assembly of the sweeps of sph_ops.h, called with a constant kernel and dimension: nothing but memset and memcpy (of the small matrices, once a row) may be called,
+# nothing may jump through a table, and square roots must be packed: in clang without a flag, in gcc with -fopenmp-simd -DSPH_SIMD=1, and in the sweeps with many sums with
+# plain -O3. x86-64 only.
+. tests/check.sh
+
+{
+    echo '#include "sph_ops.h"'
+    for dim in 1 2 3; do
+        for sweep in 'shepard|sph_shepard_sum(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, a)' \
+            'interpolate|sph_interpolate_shepard(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, a, s)' \
+            'difference|sph_gradient_difference(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, a, b, c)' \
+            'gradient|sph_gradient_cspm(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, a, b, c, 0, s)' \
+            'brookshaw|sph_laplacian_brookshaw(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, a)' \
+            'brookshawrows|sph_laplacian_rows_brookshaw(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, a)' \
+            'tilecspm|sph_derivatives_cspm(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, 0, out)' \
+            'tileicspm|sph_derivatives_icspm(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, 0, 0, out)' \
+            'tilewls|sph_derivatives_wls(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, 0, out)'; do
+            name=sweep_${sweep%%|*}_$dim
+            arguments='sph_points x, sph_list l, sph_scalars h, sph_scalars V, sph_scalars f, sph_real *a, sph_real *b, sph_real *c, unsigned char *s, sph_derivative_out out'
+            echo "sph_index $name($arguments);"
+            echo "sph_index $name($arguments) { (void)f, (void)a, (void)b, (void)c, (void)s, (void)out; return $(printf '%s' "${sweep#*|}" | sed "s/D,/$dim,/"); }"
+        done
+    done
+} > "$scratch/sweeps.c"
+
+# name, calls other than memset and memcpy, jumps through a table, packed square roots
+count() {
+    awk '/^sweep_[a-z_0-9]*:/ { name = $1; sub(/:/, "", name); names[name] = 1 }
+        $1 ~ /^callq?$/ && $2 !~ /memset|memcpy/ { calls[name]++ }
+        ($1 ~ /^jmpq?$/ && $2 ~ /^\*/) || ($1 == "notrack") { jumps[name]++ }
+        $1 ~ /^v?sqrtpd$/ { packed[name]++ }
+        END { for (n in names) print n, calls[n] + 0, jumps[n] + 0, packed[n] + 0 }' "$1" | sort
+}
+# every function obeys: awk condition on $2, $3, $4
+obeys() { awk "!($2) { print; bad = 1 } END { exit bad || NR == 0 }" "$1"; }
+
+for cc in gcc clang; do
+    if ! command -v $cc > /dev/null 2>&1 || [ "$($cc -dumpmachine | cut -d- -f1)" != x86_64 ]; then
+        skip "assembly of the sweeps by $cc" "not installed, or not for x86-64"
+        continue
+    fi
+    simd=
+    [ $cc = gcc ] && simd="-fopenmp-simd -DSPH_SIMD=1"
+    check "$cc" $cc -std=c99 -O2 $simd -I. -S "$scratch/sweeps.c" -o "$scratch/sweeps.s"
+    count "$scratch/sweeps.s" > "$scratch/counts"
+    check "$cc: 27 sweeps" test "$(wc -l < "$scratch/counts")" -eq 27
+    check "$cc: no call" obeys "$scratch/counts" '$2 == 0'
+    check "$cc: no jump table" obeys "$scratch/counts" '$3 == 0'
+    grep -v -e _1 "$scratch/counts" > "$scratch/counts_nd" # |x| needs no square root in 1D
+    check "$cc: packed square roots" obeys "$scratch/counts_nd" '$4 > 0'
+    [ $cc = gcc ] || continue
+    check "gcc -O3" gcc -std=c99 -O3 -I. -S "$scratch/sweeps.c" -o "$scratch/sweeps.s"
+    count "$scratch/sweeps.s" | grep _tile > "$scratch/counts"
+    check "gcc -O3: packed square roots of the tiles" obeys "$scratch/counts" '$4 > 0'
+done
+# the detector sees what it must object to: a kernel that is not constant
+printf '#include "sph_ops.h"\nsph_real sweep_control(sph_kernel k, const sph_real *r, int n);\nsph_real sweep_control(sph_kernel k, const sph_real *r, int n) { sph_real s = 0; int i; for (i = 0; i < n; i++) s += sph_kernel_f(k, 3, r[i], 1); return s; }\n' > "$scratch/control.c"
+check "control" gcc -std=c99 -O2 -I. -S "$scratch/control.c" -o "$scratch/control.s"
+count "$scratch/control.s" > "$scratch/counts"
+check "the control jumps" obeys "$scratch/counts" '$2 + $3 > 0'
+finish sweeps
