@@ -20,7 +20,7 @@
 
 #include "sph_ops.h"
 #if SPH_VERSION != 100
-#  error "sph.h and sph_ops.h are of different releases"
+#error "sph.h and sph_ops.h are of different releases"
 #endif
 
 #if !SPH_OPENCL
@@ -78,7 +78,8 @@ SPH_FN int sphi_check_neighbors(int dim, sph_points x, sph_real radius, const vo
 }
 
 /* Calls nothing and stores nothing but, if index is not null, the neighbours of i; returns how many there are. */
-SPH_FN sph_index sphi_neighbors_row(int dim, sph_points x, sph_real radius, const sphi_grid *g, const sph_index *first, const sph_index *member, sph_index i, sph_index *index)
+SPH_FN sph_index sphi_neighbors_row(int dim, sph_points x, sph_real radius, const sphi_grid *g, const sph_index *first, const sph_index *member, sph_index i,
+                                    sph_index *index)
 {
     const sph_vec p = sphi_point(dim, x, i);
     const sph_index cx = sphi_cell_of(p.x, g->low.x, g->inverse_width.x, g->cells[0]);

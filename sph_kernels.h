@@ -59,6 +59,7 @@
 
 /* ================================================================ portability */
 
+/* clang-format off */
 #if defined(__OPENCL_VERSION__) || defined(__OPENCL_C_VERSION__)
 #  define SPH_OPENCL 1
 #  define SPH_GLOBAL __global
@@ -166,6 +167,7 @@ typedef SPH_INDEX sph_index;
 #  define SPHI_ABS(x) fabs(x)
 #  define SPHI_EXP(x) exp(x)
 #endif
+/* clang-format on */
 
 /* Unit round-off, and a length ratio so short that its square is still a normal number but nothing nearer to a particle matters. */
 #define SPH_EPSILON (SPH_SINGLE ? SPH_R(1.1920928955078125e-7) : SPH_R(2.220446049250313e-16))
@@ -203,6 +205,7 @@ typedef enum sph_status {
 
 /* All kernels, one X(A, identifier, name, support / h, recommended h / dx) each; A is passed on.
    h / dx: M4..M6 and the Wendland family as Phantom sets them (Price et al. 2018, PASA 35, e031); the clustering kernels as the papers that propose them. */
+/* clang-format off */
 #define SPH_KERNELS(X, A) \
     X(A, SPH_CUBIC_SPLINE, "cubic-spline", 2.0, 1.2) \
     X(A, SPH_QUARTIC_SPLINE, "quartic-spline", 2.5, 1.1) \
@@ -224,23 +227,27 @@ typedef enum sph_status {
     X(A, SPH_CONVEX_WENDLAND_C2, "convex-wendland-c2", 2.0, 1.5) \
     X(A, SPH_CONVEX_WENDLAND_C4, "convex-wendland-c4", 2.0, 1.5) \
     X(A, SPH_CORE_TRIANGLE, "core-triangle", 2.0, 1.5)
+/* clang-format on */
 
+/* clang-format off */
 #define SPHI_KERNEL_ENUM(A, id, name, support, h_over_dx) id,
 typedef enum sph_kernel {
     SPH_KERNELS(SPHI_KERNEL_ENUM, 0) SPH_KERNEL_COUNT,
     SPH_LUCY = SPH_WENDLAND_C2_1D /* the same function, see sph_kernel_shape */
 } sph_kernel;
+/* clang-format on */
 
 /* A kernel chosen at run time: one switch around the whole sweep. CALL(K) is a macro (or function) that is given the constant. */
+/* clang-format off */
 #define SPHI_KERNEL_CASE(CALL, id, name, support, h_over_dx) case id: CALL(id); break;
 #define SPH_SWITCH_KERNEL(k, CALL) \
     switch (k) { \
     SPH_KERNELS(SPHI_KERNEL_CASE, CALL) \
     case SPH_KERNEL_COUNT: default: break; \
     }
+/* clang-format on */
 
-/* Positive part, minimum and maximum without a branch: gcc leaves control flow in a loop for `x > 0 ? x : 0`, and then does not vectorise it. All are exact up to
-   one rounding for finite x; the positive part is exact. */
+/* Positive part without a branch: gcc leaves control flow in a loop for `x > 0 ? x : 0`, and then does not vectorise it. Exact for finite x. */
 SPH_FN sph_real sphi_pos(sph_real x) { return SPH_R(0.5) * (x + SPHI_ABS(x)); }
 SPH_FN sph_real sphi_by_dim(int dim, sph_real one, sph_real two, sph_real three) { return dim == 1 ? one : dim == 2 ? two : three; }
 SPH_FN sph_real sphi_power(sph_real x, int dim) { return sphi_by_dim(dim, x, x * x, x * x * x); }
@@ -255,10 +262,14 @@ SPH_FN sph_real sphi_over_q(sph_real slope, sph_real q)
 /* support radius / h */
 SPH_FN sph_real sph_kernel_support(sph_kernel k)
 {
-#define SPHI_KERNEL_SUPPORT(A, id, name, support, h_over_dx) case id: return SPH_R(support);
+#define SPHI_KERNEL_SUPPORT(A, id, name, support, h_over_dx) \
+    case id: \
+        return SPH_R(support);
     switch (k) {
-    SPH_KERNELS(SPHI_KERNEL_SUPPORT, 0)
-    case SPH_KERNEL_COUNT: default: return SPH_R(0);
+        SPH_KERNELS(SPHI_KERNEL_SUPPORT, 0)
+    case SPH_KERNEL_COUNT:
+    default:
+        return SPH_R(0);
     }
 #undef SPHI_KERNEL_SUPPORT
 }
@@ -266,10 +277,14 @@ SPH_FN sph_real sph_kernel_support(sph_kernel k)
 /* recommended h / dx: a default for programs, not a law. */
 SPH_FN sph_real sph_kernel_h_over_dx(sph_kernel k)
 {
-#define SPHI_KERNEL_H_OVER_DX(A, id, name, support, h_over_dx) case id: return SPH_R(h_over_dx);
+#define SPHI_KERNEL_H_OVER_DX(A, id, name, support, h_over_dx) \
+    case id: \
+        return SPH_R(h_over_dx);
     switch (k) {
-    SPH_KERNELS(SPHI_KERNEL_H_OVER_DX, 0)
-    case SPH_KERNEL_COUNT: default: return SPH_R(0);
+        SPH_KERNELS(SPHI_KERNEL_H_OVER_DX, 0)
+    case SPH_KERNEL_COUNT:
+    default:
+        return SPH_R(0);
     }
 #undef SPHI_KERNEL_H_OVER_DX
 }
@@ -321,7 +336,9 @@ SPH_FN sph_real sph_kernel_sigma(sph_kernel k, int dim)
         return sphi_by_dim(dim, SPH_R(1.3333333333333333333), SPH_R(1.4589203116757072445), SPH_R(1.500603749152156023));
     case SPH_CORE_TRIANGLE: /* 54/85, 162/(115 pi), 3645/(3661 pi) */
         return sphi_by_dim(dim, SPH_R(0.63529411764705882353), SPH_R(0.44840175271107903295), SPH_R(0.31691874764816088439));
-    case SPH_KERNEL_COUNT: default: return SPH_R(0);
+    case SPH_KERNEL_COUNT:
+    default:
+        return SPH_R(0);
     }
 }
 
@@ -388,7 +405,8 @@ SPH_FN sph_real sph_kernel_shape(sph_kernel k, int dim, sph_real q)
         const sph_real e = sphi_pos(SPH_R(0.666666666666666667) - q);
         return SPH_R(0.25) * a * a * a - c * c * c + SPH_R(0.75) * e * e * e;
     }
-    case SPH_KERNEL_COUNT: default:
+    case SPH_KERNEL_COUNT:
+    default:
         return SPH_R(0);
     }
 }
@@ -453,7 +471,8 @@ SPH_FN sph_real sph_kernel_shape_f(sph_kernel k, int dim, sph_real q)
         const sph_real e = sphi_pos(SPH_R(0.666666666666666667) - q);
         return sphi_over_q(SPH_R(3) * c * c - SPH_R(0.75) * a * a - SPH_R(2.25) * e * e, q);
     }
-    case SPH_KERNEL_COUNT: default:
+    case SPH_KERNEL_COUNT:
+    default:
         return SPH_R(0);
     }
 }
@@ -513,7 +532,8 @@ SPH_FN sph_real sph_kernel_shape_d2(sph_kernel k, int dim, sph_real q)
         return SPH_R(-1.6875) * q * sph_kernel_shape_f(SPH_WENDLAND_C4, dim, q);
     case SPH_CORE_TRIANGLE:
         return SPH_R(1.5) * a - SPH_R(6) * c + SPH_R(4.5) * sphi_pos(SPH_R(0.666666666666666667) - q);
-    case SPH_KERNEL_COUNT: default:
+    case SPH_KERNEL_COUNT:
+    default:
         return SPH_R(0);
     }
 }
@@ -571,8 +591,13 @@ SPH_FN sph_real sph_kernel_dwdh(sph_kernel k, int dim, sph_real r, sph_real h)
 SPH_FN int sph_kernel_has_cusp(sph_kernel k)
 {
     switch (k) {
-    case SPH_SCHUESSLER_SCHMITT: case SPH_JOHNSON_BEISSEL: case SPH_CONVEX: case SPH_CONVEX_CUBIC_SPLINE:
-    case SPH_CONVEX_WENDLAND_C2: case SPH_CONVEX_WENDLAND_C4: case SPH_CORE_TRIANGLE:
+    case SPH_SCHUESSLER_SCHMITT:
+    case SPH_JOHNSON_BEISSEL:
+    case SPH_CONVEX:
+    case SPH_CONVEX_CUBIC_SPLINE:
+    case SPH_CONVEX_WENDLAND_C2:
+    case SPH_CONVEX_WENDLAND_C4:
+    case SPH_CORE_TRIANGLE:
         return 1;
     default:
         return 0;
@@ -597,10 +622,14 @@ SPH_FN int sph_kernel_may_convexify(sph_kernel k, int dim)
 
 SPH_FN const char *sph_kernel_name(sph_kernel k)
 {
-#define SPHI_KERNEL_NAME(A, id, name, support, h_over_dx) case id: return name;
+#define SPHI_KERNEL_NAME(A, id, name, support, h_over_dx) \
+    case id: \
+        return name;
     switch (k) {
-    SPH_KERNELS(SPHI_KERNEL_NAME, 0)
-    case SPH_KERNEL_COUNT: default: return "unknown kernel";
+        SPH_KERNELS(SPHI_KERNEL_NAME, 0)
+    case SPH_KERNEL_COUNT:
+    default:
+        return "unknown kernel";
     }
 #undef SPHI_KERNEL_NAME
 }
@@ -617,6 +646,7 @@ SPH_FN int sphi_same_name(const char *a, const char *b)
     }
 }
 
+/* clang-format off */
 #define SPHI_KERNEL_ALIASES(X) \
     X("m4", SPH_CUBIC_SPLINE) X("cubic", SPH_CUBIC_SPLINE) \
     X("m5", SPH_QUARTIC_SPLINE) X("quartic", SPH_QUARTIC_SPLINE) \
@@ -626,12 +656,15 @@ SPH_FN int sphi_same_name(const char *a, const char *b)
     X("w6", SPH_WENDLAND_C6) X("c6", SPH_WENDLAND_C6) X("wendlandc6", SPH_WENDLAND_C6) \
     X("lucy", SPH_WENDLAND_C2_1D) X("w2-1d", SPH_WENDLAND_C2_1D) X("w4-1d", SPH_WENDLAND_C4_1D) X("w6-1d", SPH_WENDLAND_C6_1D) \
     X("gauss", SPH_GAUSSIAN) X("supergaussian", SPH_SUPER_GAUSSIAN) X("liu", SPH_LIU_QUARTIC) X("read", SPH_CORE_TRIANGLE) X("ct", SPH_CORE_TRIANGLE)
+/* clang-format on */
 
 /* the kernel of a name or alias, or -1 (also for a null pointer) */
 SPH_FN int sph_kernel_from_name(const char *name)
 {
-#define SPHI_KERNEL_MATCH(A, id, text, support, h_over_dx) if (sphi_same_name(name, text)) return (int)id;
-#define SPHI_ALIAS_MATCH(text, id) if (sphi_same_name(name, text)) return (int)id;
+#define SPHI_KERNEL_MATCH(A, id, text, support, h_over_dx) \
+    if (sphi_same_name(name, text)) return (int)id;
+#define SPHI_ALIAS_MATCH(text, id) \
+    if (sphi_same_name(name, text)) return (int)id;
     if (!name) return -1;
     SPH_KERNELS(SPHI_KERNEL_MATCH, 0)
     SPHI_KERNEL_ALIASES(SPHI_ALIAS_MATCH)
@@ -644,25 +677,44 @@ SPH_FN int sph_kernel_from_name(const char *name)
 SPH_FN const char *sph_status_text(int status)
 {
     switch (status) {
-    case SPH_ERROR_NULL: return "a pointer is null";
-    case SPH_ERROR_DIM: return "dim must be 1, 2 or 3 (1 for a one-dimensional operator)";
-    case SPH_ERROR_KERNEL: return "no such kernel";
-    case SPH_ERROR_COUNT: return "at least one particle and a stride of at least 1 are needed";
-    case SPH_ERROR_RANGE: return "the range must obey 0 <= first <= last <= n";
-    case SPH_ERROR_H: return "h must be finite and positive";
-    case SPH_ERROR_POSITION: return "a position is not finite";
-    case SPH_ERROR_VALUE: return "a value is not finite, or a parameter is out of range";
-    case SPH_ERROR_LIST: return "the neighbour list has descending rows or an entry that is no particle";
-    case SPH_ERROR_SELF: return "a list row holds its own particle; this operator adds that term itself";
-    case SPH_ERROR_CAPACITY: return "the memory is too small; the size that is needed has been reported";
-    case SPH_OK: return "ok";
-    case SPH_TOO_FEW: return "too few neighbours inside the support";
-    case SPH_SINGULAR: return "singular: the neighbours do not determine the derivative";
-    case SPH_ILL_CONDITIONED: return "ill-conditioned: the conditioning number is below the limit";
-    case SPH_FELL_BACK: return "ill-conditioned: replaced by the fallback";
-    case SPH_NOT_AVAILABLE: return "the operator is not available at this particle";
-    case SPH_NOT_FINITE: return "the result is not finite";
-    default: return "unknown status";
+    case SPH_ERROR_NULL:
+        return "a pointer is null";
+    case SPH_ERROR_DIM:
+        return "dim must be 1, 2 or 3 (1 for a one-dimensional operator)";
+    case SPH_ERROR_KERNEL:
+        return "no such kernel";
+    case SPH_ERROR_COUNT:
+        return "at least one particle and a stride of at least 1 are needed";
+    case SPH_ERROR_RANGE:
+        return "the range must obey 0 <= first <= last <= n";
+    case SPH_ERROR_H:
+        return "h must be finite and positive";
+    case SPH_ERROR_POSITION:
+        return "a position is not finite";
+    case SPH_ERROR_VALUE:
+        return "a value is not finite, or a parameter is out of range";
+    case SPH_ERROR_LIST:
+        return "the neighbour list has descending rows or an entry that is no particle";
+    case SPH_ERROR_SELF:
+        return "a list row holds its own particle; this operator adds that term itself";
+    case SPH_ERROR_CAPACITY:
+        return "the memory is too small; the size that is needed has been reported";
+    case SPH_OK:
+        return "ok";
+    case SPH_TOO_FEW:
+        return "too few neighbours inside the support";
+    case SPH_SINGULAR:
+        return "singular: the neighbours do not determine the derivative";
+    case SPH_ILL_CONDITIONED:
+        return "ill-conditioned: the conditioning number is below the limit";
+    case SPH_FELL_BACK:
+        return "ill-conditioned: replaced by the fallback";
+    case SPH_NOT_AVAILABLE:
+        return "the operator is not available at this particle";
+    case SPH_NOT_FINITE:
+        return "the result is not finite";
+    default:
+        return "unknown status";
     }
 }
 

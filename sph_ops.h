@@ -52,7 +52,7 @@
 
 #include "sph_kernels.h"
 #if SPH_VERSION != 100
-#  error "sph_ops.h and sph_kernels.h are of different releases"
+#error "sph_ops.h and sph_kernels.h are of different releases"
 #endif
 
 /* ================================================================ vectors */
@@ -101,7 +101,10 @@ SPH_FN sph_vec sph_gradient_pair_difference(sph_kernel k, int dim, sph_vec x_ij,
 
 /* Weight of (f_j - f_i) in Brookshaw's Laplacian: -2 V_j F_ij >= 0. L f_i = sum_j weight (f_j - f_i) = sum_j 2 V_j (f_i - f_j) F_ij.
    Brookshaw 1985, Proc. ASA 6, 207. Error O(h^2) in the interior of a regular cloud, O(1/h) at a boundary and O(1) or worse in disorder. */
-SPH_FN sph_real sph_laplacian_weight_brookshaw(sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j) { return SPH_R(-2) * V_j * sph_kernel_f(k, dim, r, h); }
+SPH_FN sph_real sph_laplacian_weight_brookshaw(sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j)
+{
+    return SPH_R(-2) * V_j * sph_kernel_f(k, dim, r, h);
+}
 
 /* Weight of (f_j - f_i) in the oldest SPH Laplacian, V_j lap W_ij = V_j (d2W/dr2 + (dim - 1) F). Changes sign inside the support and is very sensitive to disorder
    (Monaghan 2005, Rep. Prog. Phys. 68, 1703, section 2): here to compare with. */
@@ -160,6 +163,7 @@ SPH_FN sph_test_weights sph_test_weights_wls(sph_kernel k, int dim, sph_real q, 
 }
 
 /* The sums: name and contribution of a neighbour at e = (x, y, z). Y is what 2D adds to 1D, Z what 3D adds to 2D. */
+/* clang-format off */
 #define SPHI_MATRIX_X(X) X(gxx, g * x * x) X(gxxx, g * x * x * x) X(wxxx, w * x * x * x) X(wxxxx, w * x * x * x * x)
 #define SPHI_MATRIX_Y(X) \
     X(gxy, g * x * y) X(gyy, g * y * y) X(gxxy, g * x * x * y) X(gxyy, g * x * y * y) X(gyyy, g * y * y * y) \
@@ -176,12 +180,15 @@ SPH_FN sph_test_weights sph_test_weights_wls(sph_kernel k, int dim, sph_real q, 
 #define SPHI_VALUE_Z(X) X(gfz, g * df * z) X(wfxz, w * df * x * z) X(wfyz, w * df * y * z) X(wfzz, w * df * z * z)
 #define SPHI_MATRIX(dim, X) SPHI_MATRIX_X(X) if (dim > 1) { SPHI_MATRIX_Y(X) } if (dim > 2) { SPHI_MATRIX_Z(X) }
 #define SPHI_VALUE(dim, X) SPHI_VALUE_X(X) if (dim > 1) { SPHI_VALUE_Y(X) } if (dim > 2) { SPHI_VALUE_Z(X) }
+/* clang-format on */
 
 #define SPHI_FIELD(name, formula) sph_real name;
+/* clang-format off */
 typedef struct sph_moments {
     SPHI_MATRIX_X(SPHI_FIELD) SPHI_MATRIX_Y(SPHI_FIELD) SPHI_MATRIX_Z(SPHI_FIELD)
     SPHI_VALUE_X(SPHI_FIELD) SPHI_VALUE_Y(SPHI_FIELD) SPHI_VALUE_Z(SPHI_FIELD)
 } sph_moments;
+/* clang-format on */
 
 #define SPHI_ZERO(name, formula) s.name = SPH_R(0);
 SPH_FN sph_moments sph_moments_zero(int dim)
@@ -783,11 +790,17 @@ SPH_FN int sphi_finite(sph_real x)
 #if SPH_OPENCL
     return isfinite(x);
 #elif SPH_SINGLE
-    union { float f; uint32_t u; } v;
+    union {
+        float f;
+        uint32_t u;
+    } v;
     v.f = x;
     return (v.u & 0x7f800000u) != 0x7f800000u;
 #else
-    union { double f; uint64_t u; } v;
+    union {
+        double f;
+        uint64_t u;
+    } v;
     v.f = x;
     return (v.u & 0x7ff0000000000000u) != 0x7ff0000000000000u;
 #endif
@@ -890,7 +903,8 @@ SPH_FN int sphi_singular_status(sph_kernel k, int dim, sph_index i, sph_points x
 /* ================================================================ list tier: interpolation */
 
 /* gamma_i = sum_j V_j W_ij, the particle itself included: 1 in the interior of a regular cloud, about 1/2 at a plane boundary. Shepard 1968; (4.10) of the ICSPM paper. */
-SPH_FN sph_index sph_shepard_sum(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, SPH_GLOBAL sph_real *out)
+SPH_FN sph_index sph_shepard_sum(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                 SPH_GLOBAL sph_real *out)
 {
     const int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
     sph_index i, p, failed = 0;
@@ -912,8 +926,8 @@ SPH_FN sph_index sph_shepard_sum(sph_kernel k, int dim, sph_index first, sph_ind
 
 /* f_i = sum_j V_j f_j W_ij / sum_j V_j W_ij, the particle itself included: exact for constants, O(h^2) in the interior, O(h) at a boundary.
    A target of volume 0 is a probe. SPH_TOO_FEW where the sum of weights is not positive. */
-SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
-                                         SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                         sph_scalars f, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
 {
     int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
     sph_index i, p, failed = 0;
@@ -944,8 +958,8 @@ SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_index first,
 /* ================================================================ list tier: gradients */
 
 /* grad f_i = sum_j V_j (f_j - f_i) grad_i W_ij, not corrected */
-SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
-                                         SPH_GLOBAL sph_real *gx, SPH_GLOBAL sph_real *gy, SPH_GLOBAL sph_real *gz)
+SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                         sph_scalars f, SPH_GLOBAL sph_real *gx, SPH_GLOBAL sph_real *gy, SPH_GLOBAL sph_real *gz)
 {
     int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
     sph_index i, p, failed = 0;
@@ -976,7 +990,8 @@ SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_index first,
 }
 
 /* K = sum weight e e and, if asked for, D = sum weight e df, with e = x_j - x_i */
-SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list, sph_real h_i, sph_scalars V, int with_f, sph_scalars f, sph_sym *K, sph_vec *D)
+SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list, sph_real h_i, sph_scalars V, int with_f, sph_scalars f,
+                                  sph_sym *K, sph_vec *D)
 {
     const sph_vec x_i = sphi_point(dim, x, i);
     const sph_real f_i = with_f ? sphi_at(f, i) : SPH_R(0);
@@ -1018,8 +1033,9 @@ SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points
 /* grad f_i = K^-1 sum_j V_j (-F_ij) e (f_j - f_i), K = sum_j V_j (-F_ij) e e^T, e = x_j - x_i: exact for linear fields at any particle; error O(h^2) inside, O(h) at a
    boundary. Randles & Libersky 1996, CMAME 139, 375; CSPM (3.5) of the ICSPM paper in 1D (with W', where its list under (5.17) prints W).
    conditioning (may be null): smallest pivot of K scaled to a unit diagonal. Needs dim neighbours that are not on a line or in a plane. */
-SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
-                                   SPH_GLOBAL sph_real *gx, SPH_GLOBAL sph_real *gy, SPH_GLOBAL sph_real *gz, SPH_GLOBAL sph_real *conditioning, SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                   sph_scalars f, SPH_GLOBAL sph_real *gx, SPH_GLOBAL sph_real *gy, SPH_GLOBAL sph_real *gz, SPH_GLOBAL sph_real *conditioning,
+                                   SPH_GLOBAL unsigned char *status)
 {
     int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
     sph_index i, failed = 0;
@@ -1098,8 +1114,8 @@ SPH_FN sph_real sphi_laplacian_weight(int which, sph_kernel k, int dim, sph_real
 {
     return which == SPHI_BROOKSHAW ? sph_laplacian_weight_brookshaw(k, dim, r, h, V_j) : sph_laplacian_weight_kernel(k, dim, r, h, V_j);
 }
-SPH_FN sph_index sphi_laplacian(int which, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
-                                SPH_GLOBAL sph_real *out)
+SPH_FN sph_index sphi_laplacian(int which, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                sph_scalars f, SPH_GLOBAL sph_real *out)
 {
     int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
     sph_index i, p, failed = 0;
@@ -1113,14 +1129,15 @@ SPH_FN sph_index sphi_laplacian(int which, sph_kernel k, int dim, sph_index firs
         SPH_SUM(sum)
         for (p = list.start[i]; p < list.start[i + 1]; p++) {
             const sph_index j = list.index[p];
-            sum += sphi_laplacian_weight(which, k, dim, sph_length(dim, sph_subtract(dim, x_i, sphi_point(dim, x, j))), h_i, sphi_at(V, j)) * (sphi_at(f, j) - f_i);
+            sum += sphi_laplacian_weight(which, k, dim, sph_length(dim, sph_subtract(dim, x_i, sphi_point(dim, x, j))), h_i, sphi_at(V, j)) *
+                   (sphi_at(f, j) - f_i);
         }
         failed += sphi_store_finite(out, i, sum);
     }
     return failed;
 }
-SPH_FN sph_index sphi_laplacian_rows(int which, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                     SPH_GLOBAL sph_real *SPH_RESTRICT row)
+SPH_FN sph_index sphi_laplacian_rows(int which, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
+                                     sph_scalars V, SPH_GLOBAL sph_real *SPH_RESTRICT row)
 {
     const int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
     sph_index i, p, failed = 0;
@@ -1140,8 +1157,8 @@ SPH_FN sph_index sphi_laplacian_rows(int which, sph_kernel k, int dim, sph_index
 }
 
 /* L f_i = sum_j 2 V_j (f_i - f_j) F_ij; see sph_laplacian_weight_brookshaw */
-SPH_FN sph_index sph_laplacian_brookshaw(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
-                                         SPH_GLOBAL sph_real *out)
+SPH_FN sph_index sph_laplacian_brookshaw(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                         sph_scalars f, SPH_GLOBAL sph_real *out)
 {
     return sphi_laplacian(SPHI_BROOKSHAW, k, dim, first, last, x, list, h, V, f, out);
 }
@@ -1152,8 +1169,8 @@ SPH_FN sph_index sph_laplacian_rows_brookshaw(sph_kernel k, int dim, sph_index f
 }
 
 /* L f_i = sum_j V_j (f_j - f_i) lap W_ij, for comparison; see sph_laplacian_weight_kernel */
-SPH_FN sph_index sph_laplacian_kernel(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
-                                      SPH_GLOBAL sph_real *out)
+SPH_FN sph_index sph_laplacian_kernel(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                      sph_scalars f, SPH_GLOBAL sph_real *out)
 {
     return sphi_laplacian(SPHI_KERNEL_LAPLACIAN, k, dim, first, last, x, list, h, V, f, out);
 }
@@ -1211,10 +1228,12 @@ SPH_FN int sphi_tile_gather(int dim, int with_f, sphi_tile *t, sph_vec x_i, sph_
 }
 
 #define SPHI_LANE_FIELD(name, formula) sph_real name[SPHI_LANES];
+/* clang-format off */
 typedef struct sphi_lanes {
     SPHI_MATRIX_X(SPHI_LANE_FIELD) SPHI_MATRIX_Y(SPHI_LANE_FIELD) SPHI_MATRIX_Z(SPHI_LANE_FIELD)
     SPHI_VALUE_X(SPHI_LANE_FIELD) SPHI_VALUE_Y(SPHI_LANE_FIELD) SPHI_VALUE_Z(SPHI_LANE_FIELD)
 } sphi_lanes;
+/* clang-format on */
 #define SPHI_LANE_ZERO(name, formula) s.name[l] = SPH_R(0);
 #define SPHI_LANE_ADD(name, formula) s.name[l] += formula;
 #define SPHI_LANE_SUM(name, formula) \
@@ -1222,7 +1241,8 @@ typedef struct sphi_lanes {
     m->name = s.name[0];
 
 /* the moments of target i, as sph_moments_add and sph_moments_add_value make them */
-SPH_FN void sphi_moments(int method, sph_kernel k, int dim, int with_f, sph_index i, sph_points pos, sph_list list, sph_real h_i, sph_scalars V, sph_scalars f, sph_moments *m)
+SPH_FN void sphi_moments(int method, sph_kernel k, int dim, int with_f, sph_index i, sph_points pos, sph_list list, sph_real h_i, sph_scalars V, sph_scalars f,
+                         sph_moments *m)
 {
     const sph_vec x_i = sphi_point(dim, pos, i);
     const sph_real f_i = with_f ? sphi_at(f, i) : SPH_R(0);
@@ -1262,8 +1282,8 @@ SPH_FN int sphi_solve(int method, int dim, const sph_moments *m, sph_real h, sph
     return method == SPHI_CSPM ? sph_solve_cspm(dim, m, h, jet, conditioning) : sph_solve_block(dim, m, h, jet, conditioning);
 }
 
-SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
-                                  sph_real conditioning_min, int fallback_wls, sph_derivative_out out)
+SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                  sph_scalars f, sph_real conditioning_min, int fallback_wls, sph_derivative_out out)
 {
     const size_t stride = out.stride ? out.stride : 1;
     const int want_conditioning = out.conditioning || conditioning_min > SPH_R(0);
@@ -1286,7 +1306,9 @@ SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_index f
             sphi_moments(SPHI_WLS, k, dim, 1, i, x, list, h_i, V, f, &m);
             if (sph_solve_block(dim, &m, h_i, &j, 0) == SPH_OK) state = SPH_FELL_BACK;
         }
-        if ((state == SPH_OK || state == SPH_ILL_CONDITIONED || state == SPH_FELL_BACK) && !(sphi_jet_finite(dim, j) && sphi_finite(sphi_trace(dim, j.hessian)))) state = SPH_NOT_FINITE;
+        if ((state == SPH_OK || state == SPH_ILL_CONDITIONED || state == SPH_FELL_BACK) &&
+            !(sphi_jet_finite(dim, j) && sphi_finite(sphi_trace(dim, j.hessian))))
+            state = SPH_NOT_FINITE;
         if (state == SPH_TOO_FEW || state == SPH_SINGULAR || state == SPH_NOT_FINITE) {
             j = sph_jet_laplacian(dim);
             j.hessian.xx = j.hessian.yy = j.hessian.zz = SPH_R(0);
@@ -1314,8 +1336,8 @@ SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_index f
 
 /* Gradient, Hessian and Laplacian by CSPM: (3.5), (5.15) of the ICSPM paper in 1D. The Hessian has an error O(1) at boundaries: in 1D it is kappa f''.
    conditioning: smallest pivot of the scaled matrices, in [0, 1]; a target below conditioning_min (>= 0) is reported SPH_ILL_CONDITIONED, its value kept. */
-SPH_FN sph_index sph_derivatives_cspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
-                                      sph_real conditioning_min, sph_derivative_out out)
+SPH_FN sph_index sph_derivatives_cspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                      sph_scalars f, sph_real conditioning_min, sph_derivative_out out)
 {
     return sphi_derivatives(SPHI_CSPM, k, dim, first, last, x, list, h, V, f, conditioning_min, 0, out);
 }
@@ -1323,22 +1345,22 @@ SPH_FN sph_index sph_derivatives_cspm(sph_kernel k, int dim, sph_index first, sp
 /* Gradient, Hessian and Laplacian by ICSPM: (5.17) of the ICSPM paper in 1D. Exact for quadratic fields wherever it is not singular.
    conditioning: kappa in 1D, sign(det kappa) / |kappa^-1| in general. Targets whose |conditioning| is below conditioning_min (>= 0; where there are boundaries and
    disorder 0.2 is a good value in 1D and 0.02 in 2D and 3D; 0 is the published method) are SPH_ILL_CONDITIONED and keep their value, or, with fallback_wls = 1, get the least-squares one and are SPH_FELL_BACK. */
-SPH_FN sph_index sph_derivatives_icspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
-                                       sph_real conditioning_min, int fallback_wls, sph_derivative_out out)
+SPH_FN sph_index sph_derivatives_icspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                       sph_scalars f, sph_real conditioning_min, int fallback_wls, sph_derivative_out out)
 {
     return sphi_derivatives(SPHI_ICSPM, k, dim, first, last, x, list, h, V, f, conditioning_min, fallback_wls, out);
 }
 
 /* Gradient, Hessian and Laplacian by weighted least squares: the robust sibling. Exact for quadratic fields; the matrix is definite wherever the neighbours determine a
    quadratic. conditioning: as for ICSPM, here in [0, 1]. */
-SPH_FN sph_index sph_derivatives_wls(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f,
-                                     sph_real conditioning_min, sph_derivative_out out)
+SPH_FN sph_index sph_derivatives_wls(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                     sph_scalars f, sph_real conditioning_min, sph_derivative_out out)
 {
     return sphi_derivatives(SPHI_WLS, k, dim, first, last, x, list, h, V, f, conditioning_min, 0, out);
 }
 
-SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_jet d,
-                                      sph_row_out out)
+SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
+                                      sph_scalars V, sph_jet d, sph_row_out out)
 {
     const int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
     sph_index i, p, failed = 0;
@@ -1381,18 +1403,21 @@ SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_ind
 }
 
 /* Stencil rows of the operator d (see sph_jet): sum_p row[p] (f_j - f_i) = factor_i D f_i. The rows of a target that is not ok are 0, and so is its factor. */
-SPH_FN sph_index sph_derivative_rows_cspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_jet d, sph_row_out out)
+SPH_FN sph_index sph_derivative_rows_cspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                          sph_jet d, sph_row_out out)
 {
     return sphi_derivative_rows(SPHI_CSPM, k, dim, first, last, x, list, h, V, d, out);
 }
 
 /* ICSPM: factor is the kappa of the paper (in 1D the rows are those of CSPM and the boundary value problem is  sum_p row[p] (u_j - u_i) = kappa_i f''(x_i)): nothing is
    ever divided by kappa, so a target where kappa is 0 is ok here. */
-SPH_FN sph_index sph_derivative_rows_icspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_jet d, sph_row_out out)
+SPH_FN sph_index sph_derivative_rows_icspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                           sph_jet d, sph_row_out out)
 {
     return sphi_derivative_rows(SPHI_ICSPM, k, dim, first, last, x, list, h, V, d, out);
 }
-SPH_FN sph_index sph_derivative_rows_wls(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_jet d, sph_row_out out)
+SPH_FN sph_index sph_derivative_rows_wls(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                         sph_jet d, sph_row_out out)
 {
     return sphi_derivative_rows(SPHI_WLS, k, dim, first, last, x, list, h, V, d, out);
 }
@@ -1414,8 +1439,8 @@ SPH_FN int sphi_bim_status(sph_kernel k, sph_index i, sph_points x, sph_list lis
 
 /* f''_i = (1/gamma_i) { sum_j 2 V_j (f_i - f_j) F_ij + boundary terms at the particles `left` and `right` }, gamma_i the Shepard sum. (5.16) of the ICSPM paper.
    First order near a boundary if h grows against the spacing, as the integrals demand. Not available (SPH_NOT_AVAILABLE, 0) at the ends themselves. */
-SPH_FN sph_index sph_second_derivative_bim(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars f, sph_index left,
-                                           sph_index right, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_second_derivative_bim(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                           sph_scalars f, sph_index left, sph_index right, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
 {
     int error = sphi_check_sweep(k, 1, first, last, x, list, h, V);
     sph_index i, p, failed = 0;
@@ -1452,8 +1477,8 @@ SPH_FN sph_index sph_second_derivative_bim(sph_kernel k, sph_index first, sph_in
 }
 
 /* The same as rows: f''_i = sum_p row[p] (f_j - f_i). The ends must be in the lists of the targets that reach them. */
-SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_index left, sph_index right,
-                                                SPH_GLOBAL sph_real *SPH_RESTRICT row, SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                                sph_index left, sph_index right, SPH_GLOBAL sph_real *SPH_RESTRICT row, SPH_GLOBAL unsigned char *status)
 {
     int error = sphi_check_sweep(k, 1, first, last, x, list, h, V);
     sph_index i, p, failed = 0;

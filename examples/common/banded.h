@@ -35,22 +35,17 @@ typedef struct banded {
     int width;  /* stored places per row */
 } banded;
 
-static inline int banded_min(int a, int b)
-{
-    return a < b ? a : b;
-}
+static inline int banded_min(int a, int b) { return a < b ? a : b; }
 
 /* Stored places per row; 0 if the arguments make no sense or an int is too small. */
 static inline int banded_width(int n, int kl, int ku)
 {
-    if (n < 1 || kl < 0 || ku < 0)
-        return 0;
+    if (n < 1 || kl < 0 || ku < 0) return 0;
     kl = banded_min(kl, n - 1);
     ku = banded_min(ku, n - 1);
     const int right = ku < n - 1 - kl ? kl + ku : n - 1; /* with the fill */
     const int extra = 2 * (BANDED_PANEL - 1) + 1;
-    if (right > INT_MAX - extra - kl)
-        return 0;
+    if (right > INT_MAX - extra - kl) return 0;
     return kl + right + extra;
 }
 
@@ -58,8 +53,7 @@ static inline int banded_width(int n, int kl, int ku)
 static inline size_t banded_size(int n, int kl, int ku)
 {
     const size_t width = (size_t)banded_width(n, kl, ku);
-    if (width == 0 || (size_t)n > SIZE_MAX / sizeof(double) / width)
-        return 0;
+    if (width == 0 || (size_t)n > SIZE_MAX / sizeof(double) / width) return 0;
     return (size_t)n * width;
 }
 
@@ -75,15 +69,9 @@ static inline banded banded_make(double *memory, int n, int kl, int ku)
     return A;
 }
 
-static inline double *banded_at(const banded *A, int i, int j)
-{
-    return A->a + (size_t)i * (size_t)A->width + (size_t)(j - i + A->kl + BANDED_PANEL - 1);
-}
+static inline double *banded_at(const banded *A, int i, int j) { return A->a + (size_t)i * (size_t)A->width + (size_t)(j - i + A->kl + BANDED_PANEL - 1); }
 
-static inline void banded_zero(banded *A)
-{
-    memset(A->a, 0, (size_t)A->n * (size_t)A->width * sizeof *A->a);
-}
+static inline void banded_zero(banded *A) { memset(A->a, 0, (size_t)A->n * (size_t)A->width * sizeof *A->a); }
 
 static inline void banded_add(banded *A, int i, int j, double value)
 {
@@ -103,16 +91,14 @@ static inline void banded_swap(double *restrict x, double *restrict y, int count
 /* y -= l * p */
 static inline void banded_axpy(double *restrict y, double l, const double *restrict p, int count)
 {
-    for (int j = 0; j < count; ++j)
-        y[j] -= l * p[j];
+    for (int j = 0; j < count; ++j) y[j] -= l * p[j];
 }
 
 /* y -= l0*p0 + l1*p1 + l2*p2 + l3*p3 in the order of four single updates: the
  * same result, but y is loaded and stored once, which is where the time goes.
  * Two columns per turn, because gcc -O2 makes vectors of two equal statements
  * but not of a loop of unknown length. */
-static inline void banded_update(double *restrict y, const double *l, const double *restrict p0,
-                                 const double *restrict p1, const double *restrict p2,
+static inline void banded_update(double *restrict y, const double *l, const double *restrict p0, const double *restrict p1, const double *restrict p2,
                                  const double *restrict p3, int count)
 {
     const double l0 = l[0], l1 = l[1], l2 = l[2], l3 = l[3];
@@ -121,8 +107,7 @@ static inline void banded_update(double *restrict y, const double *l, const doub
         y[j] = y[j] - l0 * p0[j] - l1 * p1[j] - l2 * p2[j] - l3 * p3[j];
         y[j + 1] = y[j + 1] - l0 * p0[j + 1] - l1 * p1[j + 1] - l2 * p2[j + 1] - l3 * p3[j + 1];
     }
-    if (j < count)
-        y[j] = y[j] - l0 * p0[j] - l1 * p1[j] - l2 * p2[j] - l3 * p3[j];
+    if (j < count) y[j] = y[j] - l0 * p0[j] - l1 * p1[j] - l2 * p2[j] - l3 * p3[j];
 }
 
 /* The row of the largest entry in column k at or below the diagonal. */
@@ -150,20 +135,17 @@ static inline int banded_factor_panel(banded *A, double *b, int first, int end, 
         const int bottom = k + banded_min(A->kl, A->n - 1 - k);
         const int pivot = banded_pivot(A, k, bottom);
         const int reach = pivot + banded_min(A->ku, A->n - 1 - pivot);
-        if (reach > *last)
-            *last = reach;
+        if (reach > *last) *last = reach;
         if (pivot != k) {
             banded_swap(banded_at(A, k, first), banded_at(A, pivot, first), *last - first + 1);
             banded_swap(b + k, b + pivot, 1);
         }
 
         const double *p = banded_at(A, k, k);
-        if (!(fabs(p[0]) > 0.0 && fabs(p[0]) <= DBL_MAX))
-            return 1 + k;
+        if (!(fabs(p[0]) > 0.0 && fabs(p[0]) <= DBL_MAX)) return 1 + k;
         for (int i = k + 1; i <= bottom; ++i) {
             double *row = banded_at(A, i, k);
-            if (row[0] == 0.0)
-                continue;
+            if (row[0] == 0.0) continue;
             row[0] /= p[0];
             banded_axpy(row + 1, row[0], p + 1, end - 1 - k);
             b[i] -= row[0] * b[k];
@@ -181,14 +163,12 @@ static inline void banded_apply_panel(banded *A, int first, int last)
 
     for (int k = 0; k < BANDED_PANEL; ++k) {
         double *row = banded_at(A, first + k, end);
-        for (int m = 0; m < k; ++m)
-            banded_axpy(row, *banded_at(A, first + k, first + m), p[m], count);
+        for (int m = 0; m < k; ++m) banded_axpy(row, *banded_at(A, first + k, first + m), p[m], count);
         p[k] = row;
     }
     for (int i = end; i <= bottom; ++i) {
         double *l = banded_at(A, i, first);
-        if (l[0] != 0.0 || l[1] != 0.0 || l[2] != 0.0 || l[3] != 0.0)
-            banded_update(l + BANDED_PANEL, l, p[0], p[1], p[2], p[3], count);
+        if (l[0] != 0.0 || l[1] != 0.0 || l[2] != 0.0 || l[3] != 0.0) banded_update(l + BANDED_PANEL, l, p[0], p[1], p[2], p[3], count);
     }
 }
 
@@ -198,8 +178,7 @@ static inline void banded_back_substitute(const banded *A, double *b)
         const double *row = banded_at(A, i, i);
         const int count = banded_min(A->kl + A->ku, A->n - 1 - i);
         double sum = b[i];
-        for (int j = 1; j <= count; ++j)
-            sum -= row[j] * b[i + j];
+        for (int j = 1; j <= count; ++j) sum -= row[j] * b[i + j];
         b[i] = sum / row[0];
     }
 }
@@ -212,8 +191,7 @@ static inline int banded_factor_solve(banded *A, double *b)
     for (int first = 0; first < A->n; first += BANDED_PANEL) {
         const int end = first + banded_min(BANDED_PANEL, A->n - first);
         const int status = banded_factor_panel(A, b, first, end, &last);
-        if (status != 0)
-            return status;
+        if (status != 0) return status;
         if (last >= end) /* never with the short panel at the end */
             banded_apply_panel(A, first, last);
     }

@@ -60,14 +60,13 @@ static inline int option_set(const option_spec *spec, const char *text)
     errno = 0;
     if (spec->type == OPTION_INT) {
         const long value = strtol(text, &end, 10);
-        if (end == text || *end || errno == ERANGE || value < INT_MIN || value > INT_MAX ||
-            (double)value < option_lowest(spec) || (double)value > option_highest(spec))
+        if (end == text || *end || errno == ERANGE || value < INT_MIN || value > INT_MAX || (double)value < option_lowest(spec) ||
+            (double)value > option_highest(spec))
             return 0;
         *(int *)spec->value = (int)value;
     } else if (spec->type == OPTION_REAL) {
         const double value = strtod(text, &end);
-        if (end == text || *end || !(value >= option_lowest(spec) && value <= option_highest(spec)))
-            return 0; /* NaN and infinities too */
+        if (end == text || *end || !(value >= option_lowest(spec) && value <= option_highest(spec))) return 0; /* NaN and infinities too */
         *(double *)spec->value = value;
     } else if (spec->type == OPTION_TEXT) {
         *(const char **)spec->value = text;
@@ -86,31 +85,24 @@ static inline void option_print_allowed(FILE *to, const option_spec *spec)
     }
     fputs(spec->type == OPTION_INT ? "a whole number" : "a finite number", to);
     const option_spec unlimited = {"", "", spec->type, NULL, 0.0, 0.0};
-    if (option_lowest(spec) > option_lowest(&unlimited))
-        fprintf(to, ", at least %.10g", option_lowest(spec));
-    if (option_highest(spec) < option_highest(&unlimited))
-        fprintf(to, ", at most %.10g", option_highest(spec));
+    if (option_lowest(spec) > option_lowest(&unlimited)) fprintf(to, ", at least %.10g", option_lowest(spec));
+    if (option_highest(spec) < option_highest(&unlimited)) fprintf(to, ", at most %.10g", option_highest(spec));
 }
 
 static inline void option_print_default(FILE *to, const option_spec *spec)
 {
-    if (spec->type == OPTION_INT)
-        fprintf(to, "; default %d", *(const int *)spec->value);
-    else if (spec->type == OPTION_REAL)
-        fprintf(to, "; default %.10g", *(const double *)spec->value);
-    else if (spec->type == OPTION_TEXT && *(const char *const *)spec->value)
-        fprintf(to, "; default '%s'", *(const char *const *)spec->value);
+    if (spec->type == OPTION_INT) fprintf(to, "; default %d", *(const int *)spec->value);
+    else if (spec->type == OPTION_REAL) fprintf(to, "; default %.10g", *(const double *)spec->value);
+    else if (spec->type == OPTION_TEXT && *(const char *const *)spec->value) fprintf(to, "; default '%s'", *(const char *const *)spec->value);
 }
 
-static inline void options_usage(FILE *to, const char *program, const char *about,
-                                 const option_spec *specs, int count)
+static inline void options_usage(FILE *to, const char *program, const char *about, const option_spec *specs, int count)
 {
     static const char *const placeholder[] = {" N", " X", " TEXT", ""};
     fprintf(to, "usage: %s [-name value] ...\n\n%s\n\n", program, about);
     for (int k = 0; k < count; ++k) {
         const int room = 16 - (int)strlen(specs[k].name);
-        fprintf(to, "  -%s%-*s %s (", specs[k].name, room > 0 ? room : 0,
-                placeholder[specs[k].type], specs[k].help);
+        fprintf(to, "  -%s%-*s %s (", specs[k].name, room > 0 ? room : 0, placeholder[specs[k].type], specs[k].help);
         option_print_allowed(to, &specs[k]);
         option_print_default(to, &specs[k]);
         fputs(")\n", to);
@@ -121,14 +113,12 @@ static inline void options_usage(FILE *to, const char *program, const char *abou
 static inline const option_spec *option_find(const option_spec *specs, int count, const char *word)
 {
     for (int k = 0; k < count; ++k)
-        if (word[0] == '-' && strcmp(word + 1, specs[k].name) == 0)
-            return &specs[k];
+        if (word[0] == '-' && strcmp(word + 1, specs[k].name) == 0) return &specs[k];
     return NULL;
 }
 
 /* Set the values, or exit: 0 after -h, 2 with a message after anything wrong. */
-static inline void options_parse(int argc, char **argv, const char *about, const option_spec *specs,
-                                 int count)
+static inline void options_parse(int argc, char **argv, const char *about, const option_spec *specs, int count)
 {
     const char *program = argc > 0 && argv[0] ? argv[0] : "driver";
 
@@ -142,20 +132,16 @@ static inline void options_parse(int argc, char **argv, const char *about, const
         const option_spec *spec = option_find(specs, count, argv[k]);
         if (!spec) {
             fprintf(stderr, "%s: unknown option '%s'; the options are", program, argv[k]);
-            for (int m = 0; m < count; ++m)
-                fprintf(stderr, " -%s", specs[m].name);
+            for (int m = 0; m < count; ++m) fprintf(stderr, " -%s", specs[m].name);
             fprintf(stderr, " -h; see %s -h\n", program);
             exit(2);
         }
         const char *value = "";
-        if (spec->type != OPTION_FLAG)
-            value = ++k < argc ? argv[k] : NULL;
+        if (spec->type != OPTION_FLAG) value = ++k < argc ? argv[k] : NULL;
         if (!value || !option_set(spec, value)) {
             fprintf(stderr, "%s: option -%s: ", program, spec->name);
-            if (value)
-                fprintf(stderr, "'%s' is not allowed", value);
-            else
-                fputs("its value is missing", stderr);
+            if (value) fprintf(stderr, "'%s' is not allowed", value);
+            else fputs("its value is missing", stderr);
             fputs("; expected ", stderr);
             option_print_allowed(stderr, spec);
             fprintf(stderr, "; see %s -h\n", program);

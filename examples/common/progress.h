@@ -27,24 +27,19 @@ static inline void progress_begin(progress *p, const char *label, int quiet)
  * of a millisecond or more. */
 static inline void progress_update(progress *p, double fraction)
 {
-    if (p->quiet)
-        return;
+    if (p->quiet) return;
     const time_t now = time(NULL);
     const double elapsed = difftime(now, p->start);
-    if (elapsed <= 2.0 || difftime(now, p->shown) < 1.0 || !(fraction > 0.0))
-        return;
+    if (elapsed <= 2.0 || difftime(now, p->shown) < 1.0 || !(fraction > 0.0)) return;
     p->shown = now;
     /* The spaces cover what a longer line left behind. */
-    fprintf(stderr, "\r%s: %5.1f %%, %.0f s gone, %.0f s left      ", p->label, 100.0 * fraction,
-            elapsed, elapsed * (1.0 - fraction) / fraction);
+    fprintf(stderr, "\r%s: %5.1f %%, %.0f s gone, %.0f s left      ", p->label, 100.0 * fraction, elapsed, elapsed * (1.0 - fraction) / fraction);
     fflush(stderr);
 }
 
 static inline void progress_end(progress *p)
 {
-    if (difftime(p->shown, p->start) > 0.0)
-        fprintf(stderr, "\r%s: done in %.0f s                          \n", p->label,
-                difftime(time(NULL), p->start));
+    if (difftime(p->shown, p->start) > 0.0) fprintf(stderr, "\r%s: done in %.0f s                          \n", p->label, difftime(time(NULL), p->start));
     p->shown = p->start;
 }
 

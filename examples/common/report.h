@@ -48,23 +48,21 @@ typedef struct report {
     const char *name;
     char path[REPORT_PATH];
     char part[REPORT_PATH];
-    time_t wall;  /* at report_open */
-    clock_t cpu;  /* at report_open */
-    int headed;   /* the column names are on the screen */
+    time_t wall; /* at report_open */
+    clock_t cpu; /* at report_open */
+    int headed;  /* the column names are on the screen */
     int count[REPORT_VERDICTS];
 } report;
 
 static inline const char *report_column_name(int column)
 {
-    static const char *const name[REPORT_COLUMNS] = {
-        "item", "setting", "quantity", "published", "measured", "criterion", "verdict"};
+    static const char *const name[REPORT_COLUMNS] = {"item", "setting", "quantity", "published", "measured", "criterion", "verdict"};
     return name[column];
 }
 
 static inline const char *report_verdict_name(int verdict)
 {
-    static const char *const name[REPORT_VERDICTS] = {"match", "consistent", "differs",
-                                                      "not-reproduced", "info"};
+    static const char *const name[REPORT_VERDICTS] = {"match", "consistent", "differs", "not-reproduced", "info"};
     return name[verdict];
 }
 
@@ -79,43 +77,35 @@ static inline void report_csv_field(FILE *csv, const char *text, const char *rea
     piece[2] = reason;
 
     const int quoted = strpbrk(text, ",\"\r\n") != NULL || strpbrk(reason, ",\"\r\n") != NULL;
-    if (quoted)
-        putc('"', csv);
+    if (quoted) putc('"', csv);
     for (int k = 0; k < 3; ++k)
         for (const char *c = piece[k]; *c; ++c) {
-            if (*c == '"')
-                putc('"', csv);
+            if (*c == '"') putc('"', csv);
             putc(*c, csv);
         }
-    if (quoted)
-        putc('"', csv);
+    if (quoted) putc('"', csv);
 }
 
 /* One line of the readable table.  Text wider than its column is never cut:
  * it moves what follows to the right. */
-static inline void report_screen_line(FILE *screen, const char *mark, const char *const *field,
-                                      const char *reason)
+static inline void report_screen_line(FILE *screen, const char *mark, const char *const *field, const char *reason)
 {
-    fprintf(screen, "%-3s%-12s %-32s %-20s %-16s %-16s ", mark, field[0], field[1], field[2],
-            field[3], field[4]);
+    fprintf(screen, "%-3s%-12s %-32s %-20s %-16s %-16s ", mark, field[0], field[1], field[2], field[3], field[4]);
     fprintf(screen, "%-24s %s", field[5], field[6]);
-    if (*reason)
-        fprintf(screen, " (%s)", reason);
+    if (*reason) fprintf(screen, " (%s)", reason);
     putc('\n', screen);
 }
 
 static inline void report_screen_heading(report *r)
 {
     const char *field[REPORT_COLUMNS];
-    for (int k = 0; k < REPORT_COLUMNS; ++k)
-        field[k] = report_column_name(k);
+    for (int k = 0; k < REPORT_COLUMNS; ++k) field[k] = report_column_name(k);
     report_screen_line(r->screen, "", field, "");
     r->headed = 1;
 }
 
 /* Every row passes here.  Absent texts may be NULL. */
-static inline void report_row(report *r, const char *item, const char *setting,
-                              const char *quantity, const char *published, const char *measured,
+static inline void report_row(report *r, const char *item, const char *setting, const char *quantity, const char *published, const char *measured,
                               const char *criterion, const char *reason, report_verdict verdict)
 {
     const char *field[REPORT_COLUMNS];
@@ -127,17 +117,14 @@ static inline void report_row(report *r, const char *item, const char *setting,
     field[5] = criterion;
     field[6] = report_verdict_name((int)verdict);
     for (int k = 0; k < REPORT_COLUMNS; ++k)
-        if (!field[k])
-            field[k] = "";
-    if (!reason)
-        reason = "";
+        if (!field[k]) field[k] = "";
+    if (!reason) reason = "";
 
     for (int k = 0; k < REPORT_COLUMNS; ++k) {
         report_csv_field(r->csv, field[k], k == 5 ? reason : "");
         putc(k + 1 < REPORT_COLUMNS ? ',' : '\n', r->csv);
     }
-    if (!r->headed)
-        report_screen_heading(r);
+    if (!r->headed) report_screen_heading(r);
     report_screen_line(r->screen, verdict == REPORT_DIFFERS ? "!!" : "", field, reason);
     fflush(r->screen); /* rows of a long run should be seen as they come */
     ++r->count[verdict];
@@ -147,8 +134,7 @@ static inline void report_row(report *r, const char *item, const char *setting,
 static inline const char *report_published(char text[REPORT_NUMBER], double value)
 {
     text[0] = '\0';
-    if (!isnan(value))
-        snprintf(text, REPORT_NUMBER, "%.9g", value);
+    if (!isnan(value)) snprintf(text, REPORT_NUMBER, "%.9g", value);
     return text;
 }
 
@@ -158,22 +144,17 @@ static inline const char *report_measured(char text[REPORT_NUMBER], double value
     return text;
 }
 
-static inline void report_number_row(report *r, const char *item, const char *setting,
-                                     const char *quantity, double published, double measured,
-                                     const char *criterion, const char *reason,
-                                     report_verdict verdict)
+static inline void report_number_row(report *r, const char *item, const char *setting, const char *quantity, double published, double measured,
+                                     const char *criterion, const char *reason, report_verdict verdict)
 {
     char published_text[REPORT_NUMBER], measured_text[REPORT_NUMBER];
-    report_row(r, item, setting, quantity, report_published(published_text, published),
-               report_measured(measured_text, measured), criterion, reason, verdict);
+    report_row(r, item, setting, quantity, report_published(published_text, published), report_measured(measured_text, measured), criterion, reason, verdict);
 }
 
-static inline void report_fail(const report *r, const char *what, const char *path,
-                               const char *advice)
+static inline void report_fail(const report *r, const char *what, const char *path, const char *advice)
 {
     fflush(stdout);
-    fprintf(stderr, "%s: cannot %s '%s': %s; %s\n", r->name, what, path,
-            errno ? strerror(errno) : "unknown cause", advice);
+    fprintf(stderr, "%s: cannot %s '%s': %s; %s\n", r->name, what, path, errno ? strerror(errno) : "unknown cause", advice);
     exit(2);
 }
 
@@ -188,17 +169,13 @@ static inline void report_open(report *r, const char *name, const char *out_dir)
 
     errno = 0;
     const int length = snprintf(r->part, sizeof r->part, "%s/%s.csv.part", out_dir, name);
-    if (length < 0 || (size_t)length >= sizeof r->part)
-        report_fail(r, "use the directory", out_dir, "its path is too long, use a shorter one");
+    if (length < 0 || (size_t)length >= sizeof r->part) report_fail(r, "use the directory", out_dir, "its path is too long, use a shorter one");
     strcpy(r->path, r->part);
     r->path[length - (int)strlen(".part")] = '\0';
 
     r->csv = fopen(r->part, "w");
-    if (!r->csv)
-        report_fail(r, "write", r->part,
-                    "create the output directory, or name one that exists and can be written");
-    for (int k = 0; k < REPORT_COLUMNS; ++k)
-        fprintf(r->csv, "%s%c", report_column_name(k), k + 1 < REPORT_COLUMNS ? ',' : '\n');
+    if (!r->csv) report_fail(r, "write", r->part, "create the output directory, or name one that exists and can be written");
+    for (int k = 0; k < REPORT_COLUMNS; ++k) fprintf(r->csv, "%s%c", report_column_name(k), k + 1 < REPORT_COLUMNS ? ',' : '\n');
 }
 
 /* A heading, on the screen only. */
@@ -209,91 +186,71 @@ static inline void report_section(report *r, const char *title)
 }
 
 /* |measured/published - 1| <= tolerance.  For a published 0 use report_absolute. */
-static inline void report_relative(report *r, const char *item, const char *setting,
-                                   const char *quantity, double published, double measured,
-                                   double tolerance)
+static inline void report_relative(report *r, const char *item, const char *setting, const char *quantity, double published, double measured, double tolerance)
 {
     char criterion[REPORT_CRITERION];
     snprintf(criterion, sizeof criterion, "rel <= %g", tolerance);
     const int holds = fabs(measured / published - 1.0) <= tolerance;
-    report_number_row(r, item, setting, quantity, published, measured, criterion, NULL,
-                      holds ? REPORT_MATCH : REPORT_DIFFERS);
+    report_number_row(r, item, setting, quantity, published, measured, criterion, NULL, holds ? REPORT_MATCH : REPORT_DIFFERS);
 }
 
 /* |measured - published| <= tolerance. */
-static inline void report_absolute(report *r, const char *item, const char *setting,
-                                   const char *quantity, double published, double measured,
-                                   double tolerance)
+static inline void report_absolute(report *r, const char *item, const char *setting, const char *quantity, double published, double measured, double tolerance)
 {
     char criterion[REPORT_CRITERION];
     snprintf(criterion, sizeof criterion, "abs <= %g", tolerance);
     const int holds = fabs(measured - published) <= tolerance;
-    report_number_row(r, item, setting, quantity, published, measured, criterion, NULL,
-                      holds ? REPORT_MATCH : REPORT_DIFFERS);
+    report_number_row(r, item, setting, quantity, published, measured, criterion, NULL, holds ? REPORT_MATCH : REPORT_DIFFERS);
 }
 
 /* lo <= measured <= hi.  The published value (NAN: none) is shown, not judged. */
-static inline void report_range(report *r, const char *item, const char *setting,
-                                const char *quantity, double published, double measured, double lo,
-                                double hi)
+static inline void report_range(report *r, const char *item, const char *setting, const char *quantity, double published, double measured, double lo, double hi)
 {
     char criterion[REPORT_CRITERION];
     snprintf(criterion, sizeof criterion, "in [%g, %g]", lo, hi);
     const int holds = lo <= measured && measured <= hi;
-    report_number_row(r, item, setting, quantity, published, measured, criterion, NULL,
-                      holds ? REPORT_MATCH : REPORT_DIFFERS);
+    report_number_row(r, item, setting, quantity, published, measured, criterion, NULL, holds ? REPORT_MATCH : REPORT_DIFFERS);
 }
 
 /* A published random outcome against our own spread: lo <= published <= hi is
  * consistent.  The caller says what a value outside means, and why; with many
  * values some are outside by chance, so one alone need not be a failure. */
-static inline void report_band(report *r, const char *item, const char *setting,
-                               const char *quantity, double published, double measured_median,
-                               double lo, double hi, report_verdict outside_verdict,
-                               const char *outside_reason)
+static inline void report_band(report *r, const char *item, const char *setting, const char *quantity, double published, double measured_median, double lo,
+                               double hi, report_verdict outside_verdict, const char *outside_reason)
 {
     char criterion[REPORT_CRITERION];
     snprintf(criterion, sizeof criterion, "published in [%g, %g]", lo, hi);
     const int inside = lo <= published && published <= hi;
-    report_number_row(r, item, setting, quantity, published, measured_median, criterion,
-                      inside ? NULL : outside_reason,
+    report_number_row(r, item, setting, quantity, published, measured_median, criterion, inside ? NULL : outside_reason,
                       inside ? REPORT_CONSISTENT : outside_verdict);
 }
 
 /* A published statement in words. */
-static inline void report_claim(report *r, const char *item, const char *setting,
-                                const char *quantity, const char *published_text,
-                                const char *measured_text, const char *criterion_text, int holds)
+static inline void report_claim(report *r, const char *item, const char *setting, const char *quantity, const char *published_text, const char *measured_text,
+                                const char *criterion_text, int holds)
 {
-    report_row(r, item, setting, quantity, published_text, measured_text, criterion_text, NULL,
-               holds ? REPORT_MATCH : REPORT_DIFFERS);
+    report_row(r, item, setting, quantity, published_text, measured_text, criterion_text, NULL, holds ? REPORT_MATCH : REPORT_DIFFERS);
 }
 
 /* A published statement in words that does not hold, and why. */
-static inline void report_claim_fails(report *r, const char *item, const char *setting,
-                                      const char *quantity, const char *published_text,
+static inline void report_claim_fails(report *r, const char *item, const char *setting, const char *quantity, const char *published_text,
                                       const char *measured_text, const char *reason)
 {
-    report_row(r, item, setting, quantity, published_text, measured_text, NULL, reason,
-               REPORT_NOT_REPRODUCED);
+    report_row(r, item, setting, quantity, published_text, measured_text, NULL, reason, REPORT_NOT_REPRODUCED);
 }
 
 /* A published value that is known not to come out, and why. */
-static inline void report_not_reproduced(report *r, const char *item, const char *setting,
-                                         const char *quantity, double published, double measured,
+static inline void report_not_reproduced(report *r, const char *item, const char *setting, const char *quantity, double published, double measured,
                                          const char *reason)
 {
-    report_number_row(r, item, setting, quantity, published, measured, NULL, reason,
-                      REPORT_NOT_REPRODUCED);
+    report_number_row(r, item, setting, quantity, published, measured, NULL, reason, REPORT_NOT_REPRODUCED);
 }
 
 /* A measured value with nothing to compare. */
-static inline void report_info(report *r, const char *item, const char *setting,
-                               const char *quantity, double measured)
+static inline void report_info(report *r, const char *item, const char *setting, const char *quantity, double measured)
 {
     char text[REPORT_NUMBER];
-    report_row(r, item, setting, quantity, NULL, report_measured(text, measured), NULL, NULL,
-               REPORT_INFO);
+    report_row(r, item, setting, quantity, NULL, report_measured(text, measured), NULL, NULL, REPORT_INFO);
 }
 
 /* Add the run's times, put the CSV under its final name, print a summary and
@@ -306,16 +263,14 @@ static inline int report_close(report *r)
 
     errno = 0;
     const int failed = ferror(r->csv);
-    if (fclose(r->csv) != 0 || failed)
-        report_fail(r, "write", r->part, "is the disk full?");
+    if (fclose(r->csv) != 0 || failed) report_fail(r, "write", r->part, "is the disk full?");
     /* C leaves open whether rename replaces a file: where it does not, the old
      * table has to go first. */
     if (rename(r->part, r->path) != 0 && (remove(r->path), rename(r->part, r->path)) != 0)
         report_fail(r, "create", r->path, "the rows are in the .part file beside it");
 
     fprintf(r->screen, "\n%s:", r->name);
-    for (int k = 0; k < REPORT_VERDICTS; ++k)
-        fprintf(r->screen, " %d %s,", r->count[k], report_verdict_name(k));
+    for (int k = 0; k < REPORT_VERDICTS; ++k) fprintf(r->screen, " %d %s,", r->count[k], report_verdict_name(k));
     fprintf(r->screen, " %.0f s -> %s\n", wall, r->path);
     fflush(r->screen);
     return r->count[REPORT_DIFFERS];
@@ -335,8 +290,7 @@ static inline int report_record_put(report_record *record, int c)
     if (record->used == record->size) {
         const size_t size = 2 * record->size + 256;
         char *text = size > record->size ? realloc(record->text, size) : NULL;
-        if (!text)
-            return 0;
+        if (!text) return 0;
         record->text = text;
         record->size = size;
     }
@@ -350,18 +304,14 @@ static inline int report_read_field(FILE *csv, report_record *record, int c)
 {
     if (c == '"') {
         for (c = getc(csv); c != EOF && c != '\0'; c = getc(csv)) {
-            if (c == '"' && (c = getc(csv)) != '"')
-                break;
-            if (!report_record_put(record, c))
-                return '\0';
+            if (c == '"' && (c = getc(csv)) != '"') break;
+            if (!report_record_put(record, c)) return '\0';
         }
     } else {
         for (; c != EOF && !strchr(",\"\r\n", c); c = getc(csv)) /* finds '\0' too */
-            if (!report_record_put(record, c))
-                return '\0';
+            if (!report_record_put(record, c)) return '\0';
     }
-    if (!report_record_put(record, '\0'))
-        return '\0';
+    if (!report_record_put(record, '\0')) return '\0';
     return c == ',' || c == '\r' || c == '\n' ? c : '\0';
 }
 
@@ -373,25 +323,19 @@ static inline int report_read(FILE *csv, report_record *record)
 {
     size_t start[REPORT_COLUMNS];
     int columns = 0, c = getc(csv);
-    if (c == EOF)
-        return ferror(csv) ? -1 : 0;
+    if (c == EOF) return ferror(csv) ? -1 : 0;
 
     record->used = 0;
     for (;;) {
-        if (columns == REPORT_COLUMNS)
-            return -1;
+        if (columns == REPORT_COLUMNS) return -1;
         start[columns++] = record->used;
         const int after = report_read_field(csv, record, c);
-        if (after == '\n' || (after == '\r' && getc(csv) == '\n'))
-            break;
-        if (after != ',')
-            return -1;
+        if (after == '\n' || (after == '\r' && getc(csv) == '\n')) break;
+        if (after != ',') return -1;
         c = getc(csv);
     }
-    if (columns != REPORT_COLUMNS)
-        return -1;
-    for (int k = 0; k < REPORT_COLUMNS; ++k)
-        record->field[k] = record->text + start[k];
+    if (columns != REPORT_COLUMNS) return -1;
+    for (int k = 0; k < REPORT_COLUMNS; ++k) record->field[k] = record->text + start[k];
     return 1;
 }
 

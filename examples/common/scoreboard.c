@@ -19,20 +19,15 @@ enum { COLUMN_QUANTITY = 2, COLUMN_PUBLISHED = 3, COLUMN_MEASURED = 4, COLUMN_VE
 static const char *count_row(score *s, const report_record *row)
 {
     int verdict = 0;
-    while (verdict < REPORT_VERDICTS &&
-           strcmp(row->field[COLUMN_VERDICT], report_verdict_name(verdict)) != 0)
-        ++verdict;
-    if (verdict == REPORT_VERDICTS)
-        return "unknown verdict";
+    while (verdict < REPORT_VERDICTS && strcmp(row->field[COLUMN_VERDICT], report_verdict_name(verdict)) != 0) ++verdict;
+    if (verdict == REPORT_VERDICTS) return "unknown verdict";
     ++s->verdict[verdict];
     s->published += row->field[COLUMN_PUBLISHED][0] != '\0';
 
-    if (strcmp(row->field[0], "run") == 0 &&
-        strcmp(row->field[COLUMN_QUANTITY], "wall time [s]") == 0) {
+    if (strcmp(row->field[0], "run") == 0 && strcmp(row->field[COLUMN_QUANTITY], "wall time [s]") == 0) {
         char *end;
         s->wall = strtod(row->field[COLUMN_MEASURED], &end);
-        if (end == row->field[COLUMN_MEASURED] || *end || !(s->wall >= 0.0))
-            return "the wall time is not a number of seconds";
+        if (end == row->field[COLUMN_MEASURED] || *end || !(s->wall >= 0.0)) return "the wall time is not a number of seconds";
     }
     return NULL;
 }
@@ -40,8 +35,7 @@ static const char *count_row(score *s, const report_record *row)
 static const char *check_header(const report_record *row)
 {
     for (int k = 0; k < REPORT_COLUMNS; ++k)
-        if (strcmp(row->field[k], report_column_name(k)) != 0)
-            return "the first line is not the header of a report";
+        if (strcmp(row->field[k], report_column_name(k)) != 0) return "the first line is not the header of a report";
     return NULL;
 }
 
@@ -54,11 +48,9 @@ static const char *read_score(FILE *csv, report_record *row, score *s, long *lin
     s->wall = (double)NAN;
     for (*line = 1; (status = report_read(csv, row)) > 0; ++*line) {
         wrong = *line == 1 ? check_header(row) : count_row(s, row);
-        if (wrong)
-            return wrong;
+        if (wrong) return wrong;
     }
-    if (status < 0)
-        return "not seven comma-separated fields and a line end";
+    if (status < 0) return "not seven comma-separated fields and a line end";
     return isnan(s->wall) ? "no wall time: the table is not complete" : NULL;
 }
 
@@ -67,23 +59,18 @@ static void print_score(const char *path, const score *s)
 {
     const char *name = path;
     for (const char *c = path; *c; ++c)
-        if (*c == '/' || *c == '\\')
-            name = c + 1;
+        if (*c == '/' || *c == '\\') name = c + 1;
     size_t length = strlen(name);
-    if (length > 4 && strcmp(name + length - 4, ".csv") == 0)
-        length -= 4;
-    printf("%-3s%-28.*s %9d %6d %10d %8d %14d %9.0f\n", s->verdict[REPORT_DIFFERS] ? "!!" : "",
-           (int)length, name, s->published, s->verdict[REPORT_MATCH],
-           s->verdict[REPORT_CONSISTENT], s->verdict[REPORT_DIFFERS],
-           s->verdict[REPORT_NOT_REPRODUCED], s->wall);
+    if (length > 4 && strcmp(name + length - 4, ".csv") == 0) length -= 4;
+    printf("%-3s%-28.*s %9d %6d %10d %8d %14d %9.0f\n", s->verdict[REPORT_DIFFERS] ? "!!" : "", (int)length, name, s->published, s->verdict[REPORT_MATCH],
+           s->verdict[REPORT_CONSISTENT], s->verdict[REPORT_DIFFERS], s->verdict[REPORT_NOT_REPRODUCED], s->wall);
 }
 
 static void add_score(score *total, const score *s)
 {
     total->published += s->published;
     total->wall += s->wall;
-    for (int k = 0; k < REPORT_VERDICTS; ++k)
-        total->verdict[k] += s->verdict[k];
+    for (int k = 0; k < REPORT_VERDICTS; ++k) total->verdict[k] += s->verdict[k];
 }
 
 /* Print one file's line and add it to the total.  Returns 0 if it cannot. */
@@ -118,12 +105,9 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: scoreboard FILE.csv ...   (tables that the drivers wrote)\n");
         return 2;
     }
-    printf("%-3s%-28s %9s %6s %10s %8s %14s %9s\n", "", "driver", "published",
-           report_verdict_name(REPORT_MATCH), report_verdict_name(REPORT_CONSISTENT),
-           report_verdict_name(REPORT_DIFFERS), report_verdict_name(REPORT_NOT_REPRODUCED),
-           "wall [s]");
-    for (int k = 1; k < argc; ++k)
-        unread += !count_file(argv[k], &row, &total);
+    printf("%-3s%-28s %9s %6s %10s %8s %14s %9s\n", "", "driver", "published", report_verdict_name(REPORT_MATCH), report_verdict_name(REPORT_CONSISTENT),
+           report_verdict_name(REPORT_DIFFERS), report_verdict_name(REPORT_NOT_REPRODUCED), "wall [s]");
+    for (int k = 1; k < argc; ++k) unread += !count_file(argv[k], &row, &total);
     print_score("total", &total);
     free(row.text);
     if (unread) {

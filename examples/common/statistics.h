@@ -11,23 +11,18 @@
 static inline int statistics_compare(const void *left, const void *right)
 {
     const double a = *(const double *)left, b = *(const double *)right;
-    if (isnan(a) || isnan(b))
-        return (isnan(a) != 0) - (isnan(b) != 0);
+    if (isnan(a) || isnan(b)) return (isnan(a) != 0) - (isnan(b) != 0);
     return (a > b) - (a < b);
 }
 
-static inline void statistics_sort(double *value, int n)
-{
-    qsort(value, (size_t)n, sizeof *value, statistics_compare);
-}
+static inline void statistics_sort(double *value, int n) { qsort(value, (size_t)n, sizeof *value, statistics_compare); }
 
 /* The p-quantile of an ascending array, 0 <= p <= 1: linear interpolation at
  * the position (n-1)p counted from 0.  This is definition 7 of Hyndman and Fan,
  * The American Statistician 50 (1996) 361, the default of R and NumPy. */
 static inline double statistics_quantile(const double *sorted, int n, double p)
 {
-    if (n < 1 || !(p >= 0.0 && p <= 1.0))
-        return (double)NAN;
+    if (n < 1 || !(p >= 0.0 && p <= 1.0)) return (double)NAN;
     const double position = (n - 1) * p;
     const int below = (int)position;
     const double fraction = position - below;
@@ -41,8 +36,7 @@ static inline double statistics_quantile(const double *sorted, int n, double p)
 static inline double statistics_rank(const double *sorted, int n, double value)
 {
     int less = 0, equal = 0;
-    if (n < 1 || isnan(value))
-        return (double)NAN;
+    if (n < 1 || isnan(value)) return (double)NAN;
     for (int k = 0; k < n; ++k) {
         less += sorted[k] < value;
         equal += sorted[k] == value;

@@ -103,16 +103,16 @@ static errors measure(int method, int dim, int side, double jitter, uint64_t see
         const sph_scalars hs = sph_scalars_same(&h), Vs = sph_scalars_array(V), fs = sph_scalars_array(f);
         sph_index bad;
         if (method == CSPM_ND)
-            bad = dim == 2 ? sph_derivatives_cspm(ICSPM_KERNEL, 2, 0, count, points, list, hs, Vs, fs, 0, out) :
-                             sph_derivatives_cspm(ICSPM_KERNEL, 3, 0, count, points, list, hs, Vs, fs, 0, out);
+            bad = dim == 2 ? sph_derivatives_cspm(ICSPM_KERNEL, 2, 0, count, points, list, hs, Vs, fs, 0, out)
+                           : sph_derivatives_cspm(ICSPM_KERNEL, 3, 0, count, points, list, hs, Vs, fs, 0, out);
         else if (method == WLS_ND)
-            bad = dim == 2 ? sph_derivatives_wls(ICSPM_KERNEL, 2, 0, count, points, list, hs, Vs, fs, 0, out) :
-                             sph_derivatives_wls(ICSPM_KERNEL, 3, 0, count, points, list, hs, Vs, fs, 0, out);
+            bad = dim == 2 ? sph_derivatives_wls(ICSPM_KERNEL, 2, 0, count, points, list, hs, Vs, fs, 0, out)
+                           : sph_derivatives_wls(ICSPM_KERNEL, 3, 0, count, points, list, hs, Vs, fs, 0, out);
         else {
             const int fallback = method == ICSPM_FALLBACK_ND;
             const double least = fallback ? conditioning_min : 0;
-            bad = dim == 2 ? sph_derivatives_icspm(ICSPM_KERNEL, 2, 0, count, points, list, hs, Vs, fs, least, fallback, out) :
-                             sph_derivatives_icspm(ICSPM_KERNEL, 3, 0, count, points, list, hs, Vs, fs, least, fallback, out);
+            bad = dim == 2 ? sph_derivatives_icspm(ICSPM_KERNEL, 2, 0, count, points, list, hs, Vs, fs, least, fallback, out)
+                           : sph_derivatives_icspm(ICSPM_KERNEL, 3, 0, count, points, list, hs, Vs, fs, least, fallback, out);
         }
         line_expect(bad);
         e.not_ok = (int)bad;
@@ -137,13 +137,15 @@ static errors measure(int method, int dim, int side, double jitter, uint64_t see
 }
 
 /* ranges for the order of gradient and Hessian */
-static const double order_range[METHODS_ND][2][2] = {{{0.8, 1.3}, {-0.3, 0.3}}, {{1.7, 2.3}, {0.8, 1.25}}, {{1.7, 2.3}, {0.8, 1.25}}, {{1.7, 2.3}, {0.8, 1.25}}};
+static const double order_range[METHODS_ND][2][2] = {
+    {{0.8, 1.3}, {-0.3, 0.3}}, {{1.7, 2.3}, {0.8, 1.25}}, {{1.7, 2.3}, {0.8, 1.25}}, {{1.7, 2.3}, {0.8, 1.25}}};
 
 static void convergence(report *r, FILE *csv, progress *p, int dim, double jitter, const int *sides, int levels)
 {
     char title[96];
     int method, k;
-    snprintf(title, sizeof title, "%dD, %s: maximum errors over all particles, boundaries and corners included", dim, jitter > 0 ? "jittered by 0.25 dx" : "uniform");
+    snprintf(title, sizeof title, "%dD, %s: maximum errors over all particles, boundaries and corners included", dim,
+             jitter > 0 ? "jittered by 0.25 dx" : "uniform");
     report_section(r, title);
     for (method = 0; method < METHODS_ND; method++) {
         double size[8], gradient[8], hessian[8]; /* logarithms */
@@ -169,8 +171,10 @@ static void convergence(report *r, FILE *csv, progress *p, int dim, double jitte
             report_info(r, item, setting, "order of the gradient", statistics_slope(size, gradient, levels));
             report_info(r, item, setting, "order of the Hessian", statistics_slope(size, hessian, levels));
         } else {
-            report_range(r, item, setting, "order of the gradient", (double)NAN, statistics_slope(size, gradient, levels), order_range[method][0][0], order_range[method][0][1]);
-            report_range(r, item, setting, "order of the Hessian", (double)NAN, statistics_slope(size, hessian, levels), order_range[method][1][0], order_range[method][1][1]);
+            report_range(r, item, setting, "order of the gradient", (double)NAN, statistics_slope(size, gradient, levels), order_range[method][0][0],
+                         order_range[method][0][1]);
+            report_range(r, item, setting, "order of the Hessian", (double)NAN, statistics_slope(size, hessian, levels), order_range[method][1][0],
+                         order_range[method][1][1]);
         }
     }
 }

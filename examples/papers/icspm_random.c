@@ -29,9 +29,12 @@ static const double published_e[TABLES][METHODS][LEVELS] = {
     {{1.325633e+00, 5.197703e+00, 8.532167e-01, 2.499042e-01, 4.005557e-01, 7.136763e-02, 1.748399e-02, 1.407180e-02},
      {4.978369e-02, 1.044371e-01, 1.360910e-01, 1.736974e-01, 9.364072e-02, 6.289111e-02, 3.866721e-02, 1.000940e-02},
      {6.168400e-02, 2.330835e-01, 6.058769e-03, 9.570489e-04, 2.929810e-04, 9.106805e-05, 3.425470e-05, 6.795946e-06}}};
-static const double published_p[TABLES][METHODS][LEVELS] = {
-    {{0, -0.0271, 0.0100, 0.0091, -0.0850, 0.0661, 0.0255, -0.0795}, {0, 0.0581, -0.2077, -0.2370, 0.5808, 0.3940, 0.4900, 1.4236}, {0, -0.3990, -0.0091, 3.5018, 1.6861, -1.4889, 3.6896, 1.4747}},
-    {{0, -1.9712, 2.6069, 1.7715, -0.6806, 2.4887, 2.0292, 0.3132}, {0, -1.0689, -0.3819, -0.3520, 0.8914, 0.5743, 0.7017, 1.9498}, {0, -1.9179, 5.2657, 2.6624, 1.7078, 1.6858, 1.4106, 2.3336}}};
+static const double published_p[TABLES][METHODS][LEVELS] = {{{0, -0.0271, 0.0100, 0.0091, -0.0850, 0.0661, 0.0255, -0.0795},
+                                                             {0, 0.0581, -0.2077, -0.2370, 0.5808, 0.3940, 0.4900, 1.4236},
+                                                             {0, -0.3990, -0.0091, 3.5018, 1.6861, -1.4889, 3.6896, 1.4747}},
+                                                            {{0, -1.9712, 2.6069, 1.7715, -0.6806, 2.4887, 2.0292, 0.3132},
+                                                             {0, -1.0689, -0.3819, -0.3520, 0.8914, 0.5743, 0.7017, 1.9498},
+                                                             {0, -1.9179, 5.2657, 2.6624, 1.7078, 1.6858, 1.4106, 2.3336}}};
 static const char *const table_name[TABLES] = {"Table 4", "Table 5"};
 
 /* Orders of the medians over N = 41 ... 1281 by least squares: the range that any draw of this size falls into (h goes like ln N / N, so orders in N are about
@@ -119,7 +122,8 @@ static int compare(report *r, const sample *q, int table, int method, int k, int
     median = statistics_quantile(sorted, count, 0.5);
     outside = !(published >= lo && published <= hi);
     *beyond += !(published >= sorted[0] && published <= sorted[count - 1]);
-    snprintf(reason, sizeof reason, "at %.1f %% of our realisations; random numbers of the paper unknown; judged by how many of 48 are outside", 100 * statistics_rank(sorted, count, published));
+    snprintf(reason, sizeof reason, "at %.1f %% of our realisations; random numbers of the paper unknown; judged by how many of 48 are outside",
+             100 * statistics_rank(sorted, count, published));
     report_band(r, table_name[table], setting, "e_N (median)", published, median, lo, hi, REPORT_NOT_REPRODUCED, reason);
     if (k > 0) {
         const int pairs = both(q, k);
@@ -127,8 +131,8 @@ static int compare(report *r, const sample *q, int table, int method, int k, int
         statistics_sort(sorted, pairs);
         snprintf(reason, sizeof reason, "at %.1f %% of our realisations; random numbers of the paper unknown",
                  100 * statistics_rank(sorted, pairs, published_p[table][method][k]));
-        report_band(r, table_name[table], setting, "p_N (median)", published_p[table][method][k], statistics_quantile(sorted, pairs, 0.5), statistics_quantile(sorted, pairs, 0.01),
-                    statistics_quantile(sorted, pairs, 0.99), REPORT_NOT_REPRODUCED, reason);
+        report_band(r, table_name[table], setting, "p_N (median)", published_p[table][method][k], statistics_quantile(sorted, pairs, 0.5),
+                    statistics_quantile(sorted, pairs, 0.01), statistics_quantile(sorted, pairs, 0.99), REPORT_NOT_REPRODUCED, reason);
     }
     free(sorted);
     return outside;
@@ -157,8 +161,8 @@ static void compare_all(report *r, const sample *q)
     int table, method, k, outside = 0, beyond = 0;
     char text[160];
     for (table = 0; table < TABLES; table++) {
-        report_section(r, table == DIRECT ? "Table 4: f'' of a known f, random particles: published value in our 1-99 % band" :
-                                            "Table 5: the boundary value problem (5.18), random particles: published value in our 1-99 % band");
+        report_section(r, table == DIRECT ? "Table 4: f'' of a known f, random particles: published value in our 1-99 % band"
+                                          : "Table 5: the boundary value problem (5.18), random particles: published value in our 1-99 % band");
         for (method = 0; method < METHODS; method++)
             for (k = 0; k < LEVELS; k++) outside += compare(r, q, table, method, k, &beyond);
     }
@@ -188,7 +192,8 @@ static void compare_all(report *r, const sample *q)
             report_info(r, table_name[table], setting, "P(ICSPM < CSPM)", i_c);
             report_info(r, table_name[table], setting, "P(BIM < CSPM)", b_c);
             if (table == DIRECT && k >= 2) {
-                const double m[METHODS] = {median_of(q->e[table][CSPM][k], q->count[k]), median_of(q->e[table][BIM][k], q->count[k]), median_of(q->e[table][ICSPM][k], q->count[k])};
+                const double m[METHODS] = {median_of(q->e[table][CSPM][k], q->count[k]), median_of(q->e[table][BIM][k], q->count[k]),
+                                           median_of(q->e[table][ICSPM][k], q->count[k])};
                 snprintf(text, sizeof text, "medians %.3g < %.3g < %.3g", m[ICSPM], m[BIM], m[CSPM]);
                 report_claim(r, table_name[table], setting, "ranking", NULL, text, "median ICSPM < BIM < CSPM", m[ICSPM] < m[BIM] && m[BIM] < m[CSPM]);
             }
@@ -198,7 +203,8 @@ static void compare_all(report *r, const sample *q)
             }
         }
     snprintf(text, sizeof text, "P(ICSPM < BIM) = %.2f at N = 21; BIM is better in the printed table at N = 11, 21, 41", share_below(q, DIRECT, ICSPM, BIM, 1));
-    report_claim_fails(r, "Table 4", "all N", "the error with ICSPM is", "the smallest of all three", text, "false in the paper's own table for N <= 41, true from N = 81");
+    report_claim_fails(r, "Table 4", "all N", "the error with ICSPM is", "the smallest of all three", text,
+                       "false in the paper's own table for N <= 41, true from N = 81");
     {
         double best = 0;
         for (k = 0; k < LEVELS; k++) {
@@ -208,8 +214,10 @@ static void compare_all(report *r, const sample *q)
         snprintf(text, sizeof text, "best other / ICSPM is at most %.0f in the printed table, and below 1 at N = 11, 21", best);
         report_claim_fails(r, "Table 5", "all N", "difference with ICSPM", "at least three orders of magnitude", text, "true at N = 1281 only");
     }
-    snprintf(text, sizeof text, "P(BIM < CSPM) falls from %.2f (N = 41) to %.2f (N = 1281)", share_below(q, PROBLEM, BIM, CSPM, 2), share_below(q, PROBLEM, BIM, CSPM, 7));
-    report_claim_fails(r, "Table 5", "all N", "overall, BIM behaves", "slightly better than CSPM", text, "a matter of the one draw: with many particles CSPM is the better one");
+    snprintf(text, sizeof text, "P(BIM < CSPM) falls from %.2f (N = 41) to %.2f (N = 1281)", share_below(q, PROBLEM, BIM, CSPM, 2),
+             share_below(q, PROBLEM, BIM, CSPM, 7));
+    report_claim_fails(r, "Table 5", "all N", "overall, BIM behaves", "slightly better than CSPM", text,
+                       "a matter of the one draw: with many particles CSPM is the better one");
 }
 
 /* ---------------------------------------------------------------- figures */
@@ -217,7 +225,8 @@ static void compare_all(report *r, const sample *q)
 /* Errors at N = 41 with the same c for all methods: quantiles over realisations of the same seed. */
 static void small_and_large_h(report *r, line *s, int seed, int realisations)
 {
-    double *const e[METHODS] = {(double *)line_memory(NULL, (size_t)realisations * sizeof(double)), (double *)line_memory(NULL, (size_t)realisations * sizeof(double)),
+    double *const e[METHODS] = {(double *)line_memory(NULL, (size_t)realisations * sizeof(double)),
+                                (double *)line_memory(NULL, (size_t)realisations * sizeof(double)),
                                 (double *)line_memory(NULL, (size_t)realisations * sizeof(double))};
     double median[2][METHODS], draws[39];
     int which, method, i, j;
@@ -245,7 +254,8 @@ static void small_and_large_h(report *r, line *s, int seed, int realisations)
     for (which = 0; which < 2; which++) {
         char text[64];
         snprintf(text, sizeof text, "medians: ICSPM %.3g, BIM %.3g", median[which][ICSPM], median[which][BIM]);
-        report_claim(r, "Figure 4", which ? "c = 3" : "c = 2", "better choice", which ? "BIM" : "ICSPM", text, "smaller median error", (median[which][ICSPM] < median[which][BIM]) == !which);
+        report_claim(r, "Figure 4", which ? "c = 3" : "c = 2", "better choice", which ? "BIM" : "ICSPM", text, "smaller median error",
+                     (median[which][ICSPM] < median[which][BIM]) == !which);
     }
     for (method = 0; method < METHODS; method++) free(e[method]);
 }

@@ -110,8 +110,8 @@ static void first_derivative(report *r, line *s)
     for (level = 0; level < 2; level++) {
         const int n = level ? 321 : 161;
         line_uniform(s, n, 2);
-        line_expect(sph_gradient_cspm(ICSPM_KERNEL, 1, 0, n, line_points(s), line_list(s), sph_scalars_same(&s->h), sph_scalars_array(s->V), sph_scalars_array(s->f), s->value, NULL, NULL,
-                                      NULL, NULL));
+        line_expect(sph_gradient_cspm(ICSPM_KERNEL, 1, 0, n, line_points(s), line_list(s), sph_scalars_same(&s->h), sph_scalars_array(s->V),
+                                      sph_scalars_array(s->f), s->value, NULL, NULL, NULL, NULL));
         for (i = 0; i < n; i++) {
             const double e = fabs(s->value[i] - icspm_df(s->x[i]));
             double *const worst = s->x[i] >= 0.25 && s->x[i] <= 0.75 ? inside : end;
@@ -163,8 +163,10 @@ static void growing_c(report *r, line *s)
     }
     line_uniform(s, 11, 1);
     line_second_derivative(s, ICSPM);
-    report_claim(r, "growing c", "ICSPM direct, N = 11, c = 1", "end particles", NULL, sph_status_text(s->status[0]), "one neighbour: too few, and said so", s->status[0] == SPH_TOO_FEW);
-    report_range(r, "growing c", "ICSPM direct, N = 21 to 1281", "mean order (paper: below 2)", (double)NAN, icspm_order(direct[1][1], direct[1][7]) / 6, -2, 2);
+    report_claim(r, "growing c", "ICSPM direct, N = 11, c = 1", "end particles", NULL, sph_status_text(s->status[0]), "one neighbour: too few, and said so",
+                 s->status[0] == SPH_TOO_FEW);
+    report_range(r, "growing c", "ICSPM direct, N = 21 to 1281", "mean order (paper: below 2)", (double)NAN, icspm_order(direct[1][1], direct[1][7]) / 6, -2,
+                 2);
     report_range(r, "growing c", "ICSPM problem, N = 11 to 1281", "mean order (paper: below 2)", (double)NAN, icspm_order(bvp[0], bvp[7]) / 7, -2, 2);
 }
 
@@ -231,7 +233,8 @@ static void cost(report *r, line *s)
             report_info(r, "cost", at(icspm_method_name[method], s->n), "assembly, ns per row", 1e9 * (double)(clock() - t) / CLOCKS_PER_SEC / repeats / s->n);
             t = clock();
             for (repeat = 0; repeat < repeats; repeat++) line_second_derivative(s, method);
-            report_info(r, "cost", at(icspm_method_name[method], s->n), "direct, ns per particle", 1e9 * (double)(clock() - t) / CLOCKS_PER_SEC / repeats / s->n);
+            report_info(r, "cost", at(icspm_method_name[method], s->n), "direct, ns per particle",
+                        1e9 * (double)(clock() - t) / CLOCKS_PER_SEC / repeats / s->n);
         }
 }
 
@@ -269,9 +272,11 @@ static void dismissed(report *r, line *s)
             report_info(r, "dismissed", text, "max error, all", all[which][jittered]);
         }
     }
-    report_range(r, "dismissed", "second kernel derivative, interior", "error in disorder / uniform (very sensitive: > 100)", (double)NAN, inside[1][1] / inside[1][0], 100, HUGE_VAL);
+    report_range(r, "dismissed", "second kernel derivative, interior", "error in disorder / uniform (very sensitive: > 100)", (double)NAN,
+                 inside[1][1] / inside[1][0], 100, HUGE_VAL);
     report_range(r, "dismissed", "jittered, interior", "second / first derivative (worse: > 1)", (double)NAN, inside[1][1] / inside[0][1], 1, HUGE_VAL);
-    report_range(r, "dismissed", "first derivative, uniform", "error at the ends / interior (boundaries ruin it: > 100)", (double)NAN, all[0][0] / inside[0][0], 100, HUGE_VAL);
+    report_range(r, "dismissed", "first derivative, uniform", "error at the ends / interior (boundaries ruin it: > 100)", (double)NAN, all[0][0] / inside[0][0],
+                 100, HUGE_VAL);
 }
 
 /* A function with f''' != 0 at the ends */
