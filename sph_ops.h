@@ -191,11 +191,11 @@ typedef struct sph_moments {
 /* clang-format on */
 
 #define SPHI_ZERO(name, formula) s.name = SPH_R(0);
-SPH_FN sph_moments sph_moments_zero(int dim)
+SPH_FN sph_moments sph_moments_zero(void)
 {
     sph_moments s;
-    SPHI_MATRIX(dim, SPHI_ZERO)
-    SPHI_VALUE(dim, SPHI_ZERO)
+    SPHI_MATRIX(3, SPHI_ZERO)
+    SPHI_VALUE(3, SPHI_ZERO)
     return s;
 }
 
@@ -510,7 +510,7 @@ SPH_FN sph_real sphi_conditioning(int dim, const sphi_blocks *b, const sphi_lu *
 }
 
 /* Gradient and Hessian by CSPM from the moments. Returns SPH_OK or SPH_SINGULAR (nothing written). *conditioning, if wanted, is the smallest pivot of the scaled K and
-   M, in [0, 1]: 1 for isotropic K, 0 where the neighbours do not determine the answer. */
+   M, in [0, 1]: 1 for isotropic K, 0 where the neighbours do not determine the answer (it depends a little on the order of the axes). */
 SPH_FN int sph_solve_cspm(int dim, const sph_moments *m, sph_real h, sph_jet *jet, sph_real *conditioning)
 {
     const int nh = sphi_unknowns(dim);
@@ -1270,6 +1270,8 @@ SPH_FN void sphi_moments(int method, sph_kernel k, int dim, int with_f, sph_inde
                 }
             }
     }
+    *m = sph_moments_zero(); /* also what dim leaves out: a compiler that does not know dim would warn */
+    *m = sph_moments_zero(); /* what dim leaves out, too: a compiler that does not know dim would warn */
     SPHI_MATRIX(dim, SPHI_LANE_SUM)
     if (with_f) { SPHI_VALUE(dim, SPHI_LANE_SUM) }
 }

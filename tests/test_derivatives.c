@@ -603,7 +603,7 @@ static void test_invariance(void)
 
 static int solve_by_hand(int method, int dim, const cloud *c, sph_index i, sph_jet *jet, sph_real *conditioning)
 {
-    sph_moments m = sph_moments_zero(dim);
+    sph_moments m = sph_moments_zero();
     sph_index p;
     for (p = c->start[i]; p < c->start[i + 1]; p++) {
         const sph_index j = c->index[p];
