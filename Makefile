@@ -21,8 +21,9 @@ DRIVERS = $(foreach p,$(PAPERS),$(DRIVERS_$(p)))
 TESTS_DOUBLE = common
 TESTS_OPTIONAL = gsl
 TESTS = $(filter-out $(TESTS_DOUBLE) $(TESTS_OPTIONAL),$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))
-TEST_PROGRAMS = $(TESTS:%=$(BUILD)/tests/%) $(TESTS:%=$(BUILD)/tests/%-float) $(TESTS_DOUBLE:%=$(BUILD)/tests/%)
-TEST_SCRIPTS = tests/index.sh tests/readme.sh tests/compile/strict.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/examples.sh tests/known/derivation.sh tests/gsl.sh
+TESTS_FLOAT = $(TESTS)
+TEST_PROGRAMS = $(TESTS:%=$(BUILD)/tests/%) $(TESTS_FLOAT:%=$(BUILD)/tests/%-float) $(TESTS_DOUBLE:%=$(BUILD)/tests/%)
+TEST_SCRIPTS = tests/index.sh tests/readme.sh tests/compile/strict.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/known/derivation.sh tests/gsl.sh
 
 help:
 	@echo "make reproduce        run the papers' benchmarks, published beside measured values, and print a scoreboard"
@@ -30,6 +31,7 @@ help:
 	@echo "make reproduce-full   with more realisations and finer clouds"
 	@echo "make test             the tests; the last line is 'N passed, N failed'"
 	@echo "make test-sanitize    the tests under the address and undefined-behaviour sanitizers"
+	@echo "make bench            time the search and the operators, as ratios to the machine's limits"
 	@echo "make figures          PNG of the figures from the last run (needs gnuplot)"
 	@echo "make clean            remove $(BUILD)/"
 	@echo "There is nothing to build: copy $(HEADERS) into your code."
@@ -83,7 +85,7 @@ test: $(TEST_PROGRAMS) $(DRIVERS:%=$(BUILD)/examples/%) $(BUILD)/examples/scoreb
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/run.sh $(TEST_PROGRAMS) $(TEST_SCRIPTS)
 
 test-sanitize:
-	$(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all" TEST_SCRIPTS=tests/examples.sh test
+	$(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all" TESTS_FLOAT= TEST_SCRIPTS=tests/examples.sh test
 
 $(BUILD)/tests/%-float: tests/test_%.c $(wildcard tests/*.h) $(COMMON) $(HEADERS)
 	@mkdir -p $(@D)
@@ -92,7 +94,10 @@ $(BUILD)/tests/%: tests/test_%.c $(wildcard tests/*.h) $(COMMON) $(HEADERS)
 	@mkdir -p $(@D)
 	$(CC) $(WARN) $(CFLAGS) -I. -o $@ $< $(LDLIBS)
 
+bench:
+	@CC="$(CC)" BUILD="$(BUILD)" sh tests/bench/run.sh
+
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures test test-sanitize clean
+.PHONY: help reproduce reproduce-full figures test test-sanitize bench clean

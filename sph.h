@@ -1,19 +1,38 @@
 /* SPDX-License-Identifier: MIT
  *
- * sph.h - the toolkit: kernels (sph_kernels.h), operators (sph_ops.h) and, here, neighbour lists on the caller's memory. Include this one, or sph_ops.h if
+ * sph.h - the toolkit: kernels (sph_kernels.h), operators (sph_ops.h) and, here, the neighbour search on the caller's memory. Include this one, or sph_ops.h if
  * your code has neighbour lists already. Copy the three headers next to each other; there is nothing to build.
  *
- *     sph_points x = sph_points_separate(n, px, py, 0);
- *     void *work = malloc(sph_neighbors_workspace(n));
+ *     sph_points x = sph_points_separate(n, px, py, pz);
+ *     size_t size = sph_grid_workspace(3, n);
+ *     void *work = malloc(size);
+ *     sph_grid grid;
  *     int64_t pairs;
- *     sph_neighbors_count(2, x, radius, work, start, &pairs);                    fills start[0 ... n]
+ *     sph_grid_build(3, x, R, work, size, &grid);                                            R: support radius, kernel support times h
+ *     sph_grid_lists(3, &grid, x, SPH_GATHER, sph_scalars_same(&R), sph_scalars_same(&R), 0, start, 0, 0, &pairs);   counts: fills start[0 ... n]
  *     index = malloc((size_t)pairs * sizeof *index);
- *     sph_neighbors_fill(2, x, radius, work, start, index, pairs);
+ *     sph_grid_lists(3, &grid, x, SPH_GATHER, sph_scalars_same(&R), sph_scalars_same(&R), 0, start, index, pairs, &pairs);
+ *
+ * Counting costs about as much as filling: keep the memory from step to step, with some room to spare, and call once; SPH_ERROR_CAPACITY says how much is needed.
+ * Particles in storage order near to the order of the cells (sph_grid_order, sph_permute) make every sweep faster: sort once in a while.
+ * Lists can be kept for several steps: build them with the radius + a skin, and again when sph_rebuild_due says so. A workspace may be used again for any cloud that is not larger.
+ *
+ * Pairs whose distance is within a few rounding errors of the radius (8 units in the last place of the larger of the radius and the coordinates) may be in or out, depending
+ * on compiler, flags and path. The same binary gives the same lists, whatever the number of threads.
  *
  * INDEX
- *   size_t    sph_neighbors_workspace(n)                                           bytes of workspace for n particles; 0 if n < 1 or too large
- *   sph_index sph_neighbors_count(dim, points, radius, work, start, pairs)         cells into work, row starts into start, number of pairs into *pairs
- *   sph_index sph_neighbors_fill(dim, points, radius, work, start, index, capacity)  the rows: all j != i with |x_i - x_j| < radius, in both rows i and j
+ *   size_t    sph_grid_workspace(dim, n)                                      bytes of workspace for n sources; 0 if dim or n is bad or too large
+ *   sph_index sph_grid_build(dim, sources, reach, work, work_size, grid)      sorts the sources into cells of about the size of reach
+ *   sph_index sph_grid_lists(dim, grid, targets, criterion, target_radius, source_radius, flags, start, index, capacity, pairs)   neighbour lists
+ *   const sph_index *sph_grid_order(grid)                                     order[slot] = particle: the permutation into cell order
+ *   sph_index sph_permute(n, order, in, stride, out)                          out[slot] = in[order[slot]], for each of the caller's arrays
+ *   sph_index sph_permute_inverse(n, order, inverse)                          inverse[order[slot]] = slot
+ *   int       sph_rebuild_due(dim, now, then, skin)                           1 if a particle has moved by more than skin / 2
+ *
+ * OPTIONS
+ *   SPH_OPENMP   0   1: the search uses OpenMP's threads (compile with -fopenmp). The sweeps never start threads: call them on ranges from your own.
+ *   SPH_AVX512   1 where the compiler may use AVX-512 F and VL, else 0       hand-written inner loop of the search
+ *   SPH_AVX2     1 where the compiler may use AVX2 and BMI2, else 0          likewise; both 0: portable C
  */
 #ifndef SPH_H
 #define SPH_H
@@ -25,153 +44,796 @@
 
 #if !SPH_OPENCL
 
-/* Particles are sorted into square cells, at least `radius` wide and no more than there are particles, so that memory and time are linear in n however large and empty the
-   domain is. Workspace: the grid, the first slot of every cell (n + 1), the particles by cell (n). */
-typedef struct sphi_grid {
-    sph_vec low, inverse_width;
-    sph_index cells[3];
-} sphi_grid;
+/* clang-format off */
+#ifndef SPH_OPENMP
+#  define SPH_OPENMP 0
+#endif
+#ifndef SPH_AVX512
+#  if defined(__AVX512F__) && defined(__AVX512VL__) && !defined(__CUDACC__)
+#    define SPH_AVX512 1
+#  else
+#    define SPH_AVX512 0
+#  endif
+#endif
+#ifndef SPH_AVX2
+#  if defined(__AVX2__) && defined(__BMI2__) && defined(__x86_64__) && !defined(__CUDACC__)
+#    define SPH_AVX2 1
+#  else
+#    define SPH_AVX2 0
+#  endif
+#endif
+#if SPH_OPENMP
+#  include <omp.h>
+#endif
+#if SPH_AVX512 || SPH_AVX2
+#  include <immintrin.h>
+#endif
+/* Functions too large to be inlined at every call. */
+#if defined(__GNUC__) || defined(__clang__)
+#  define SPHI_LARGE static __attribute__((unused, noinline))
+#else
+#  define SPHI_LARGE static
+#endif
+/* clang-format on */
 
+#if SPH_SINGLE
+#define SPHI_FLOOR(x) floorf(x)
+#else
+#define SPHI_FLOOR(x) floor(x)
+#endif
 #define SPHI_INDEX_MAX ((((int64_t)1 << (8 * sizeof(sph_index) - 2)) - 1) * 2 + 1)
 
-SPH_FN size_t sph_neighbors_workspace(sph_index n)
+/* Which pairs are neighbours; R: support radius. A gather list is what the operators of sph_ops.h need; pair-symmetric operators need the larger of both. */
+typedef enum sph_criterion {
+    SPH_GATHER,  /* r < R_i */
+    SPH_SCATTER, /* r < R_j */
+    SPH_LARGER,  /* r < max(R_i, R_j) */
+    SPH_MEAN     /* r < (R_i + R_j) / 2 */
+} sph_criterion;
+
+typedef enum sph_list_flags {
+    SPH_LIST_SELF = 1,   /* a row holds its own particle, too */
+    SPH_LIST_HALF = 2,   /* each pair once: only j > i (for a symmetric criterion) */
+    SPH_LIST_SORTED = 4, /* ascending j in each row */
+    SPH_LIST_FOREIGN = 8 /* targets are not sources: target i has nothing to do with source i (excludes SELF and HALF) */
+} sph_list_flags;
+
+/* The sources in cells. Cells are rows along x of SPHI_FINE cells per reach, and reach wide in y and z, so that the neighbours in y and z of a particle are a few contiguous
+   runs of slots. Where the bounding box has no more than 2 n cells a cell is its own number; where it is larger (mostly empty) cells are hashed into about n buckets, a row along
+   x still contiguous. Fields are for the functions below. */
+typedef struct sph_grid {
+    sph_index n;
+    int dim, hashed, scattered; /* scattered: particles that follow each other are mostly not near each other */
+    int64_t cells[3];           /* along each axis */
+    size_t buckets;             /* a power of two if hashed */
+    sph_real reach;
+    sph_vec low, inverse_width, box;
+    sph_index *first, *member; /* first slot of each bucket; particle of each slot */
+    sph_real *x, *y, *z;       /* coordinates of each slot, inside the box along periodic axes */
+} sph_grid;
+
+enum {
+    SPHI_FINE = 8,     /* cells along x per reach */
+    SPHI_PAD = 16,     /* slots beyond the last that whole lanes may read */
+    SPHI_FARTHEST = 32 /* largest radius / reach: bounds the number of cells that a row looks at */
+};
+
+SPH_FN size_t sph_grid_workspace(int dim, sph_index n)
 {
-    if (n < 1 || (uint64_t)n > (SIZE_MAX - sizeof(sphi_grid)) / sizeof(sph_index) / 2 - 1) return 0;
-    return sizeof(sphi_grid) + (2 * (size_t)n + 1) * sizeof(sph_index);
+    const size_t bytes = (size_t)(dim > 0 ? dim : 0) * sizeof(sph_real) + 3 * sizeof(sph_index);
+    if (dim < 1 || dim > 3 || n < 1 || (uint64_t)n + SPHI_PAD > SIZE_MAX / bytes / 2) return 0;
+    return ((size_t)n + SPHI_PAD) * bytes;
 }
 
-SPH_FN sph_index sphi_cell_of(sph_real x, sph_real low, sph_real inverse_width, sph_index cells)
+/* Number of a cell along an axis, within [0, cells): never falls as x rises, so all between x - R and x + R lie between the cells of these. */
+SPH_FN int64_t sphi_cell(sph_real x, sph_real low, sph_real inverse_width, int64_t cells)
+{
+    const sph_real c = (x - low) * inverse_width, last = (sph_real)(cells - 1);
+    return c > SPH_R(0) ? (c < last ? (int64_t)c : cells - 1) : 0;
+}
+/* The same along a periodic axis for the ends of a search range, which may lie outside. */
+SPH_FN int64_t sphi_cell_periodic(sph_real x, sph_real low, sph_real inverse_width)
 {
     const sph_real c = (x - low) * inverse_width;
-    return c < (sph_real)cells ? (sph_index)c : cells - 1;
+    const int64_t i = (int64_t)c;
+    return (sph_real)i > c ? i - 1 : i;
 }
-SPH_FN size_t sphi_cell(int dim, const sphi_grid *g, sph_vec p)
+/* into [low, low + length), unchanged if it is there already */
+SPH_FN sph_real sphi_wrap(sph_real x, sph_real low, sph_real length)
 {
-    size_t c = (size_t)sphi_cell_of(p.x, g->low.x, g->inverse_width.x, g->cells[0]);
-    if (dim > 1) c += (size_t)g->cells[0] * (size_t)sphi_cell_of(p.y, g->low.y, g->inverse_width.y, g->cells[1]);
-    if (dim > 2) c += (size_t)g->cells[0] * (size_t)g->cells[1] * (size_t)sphi_cell_of(p.z, g->low.z, g->inverse_width.z, g->cells[2]);
-    return c;
-}
-
-/* cells along an axis: as many as fit, but no more than `most`. A little wider than `radius`, by the rounding of a cell's number, so that no pair is two cells apart. */
-SPH_FN sph_index sphi_axis(sph_real low, sph_real high, sph_real radius, sph_index most, sph_real *inverse_width)
-{
-    const sph_real ratio = (high - low) / radius, fit = ratio / (SPH_R(1) + SPH_R(8) * SPH_EPSILON * ratio);
-    const sph_index cells = fit < (sph_real)most ? (fit < SPH_R(1) ? 1 : (sph_index)fit) : most;
-    *inverse_width = high > low ? (sph_real)cells / (high - low) : SPH_R(0);
-    return cells;
-}
-
-SPH_FN int sphi_check_neighbors(int dim, sph_points x, sph_real radius, const void *work, const sph_index *start)
-{
-    sph_index i;
-    if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
-    if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z) || !work || !start) return SPH_ERROR_NULL;
-    if (x.stride < 1 || sph_neighbors_workspace(x.n) == 0) return SPH_ERROR_COUNT;
-    if (!sphi_finite(radius) || !(radius > SPH_R(0))) return SPH_ERROR_H;
-    if (!SPH_CHECK) return 0;
-    for (i = 0; i < x.n; i++) {
-        const sph_vec p = sphi_point(dim, x, i);
-        if (!sphi_finite(p.x) || !sphi_finite(p.y) || !sphi_finite(p.z)) return SPH_ERROR_POSITION;
+    if (length > SPH_R(0) && !(x >= low && x < low + length)) {
+        x -= length * SPHI_FLOOR((x - low) / length);
+        if (!(x >= low && x < low + length)) x = low; /* rounding */
     }
+    return x;
+}
+SPH_FN sph_vec sphi_wrap_point(int dim, const sph_grid *g, sph_vec p)
+{
+    p.x = sphi_wrap(p.x, g->low.x, g->box.x);
+    if (dim > 1) p.y = sphi_wrap(p.y, g->low.y, g->box.y);
+    if (dim > 2) p.z = sphi_wrap(p.z, g->low.z, g->box.z);
+    return p;
+}
+
+/* bucket of the first cell of a row along x */
+SPH_FN size_t sphi_row_bucket(const sph_grid *g, int64_t cy, int64_t cz)
+{
+    if (!g->hashed) return (size_t)((cz * g->cells[1] + cy) * g->cells[0]);
+    {
+        const uint64_t h = (uint64_t)cy * 0x9e3779b97f4a7c15u ^ ((uint64_t)cz + 0x7f4a7c15u) * 0xc2b2ae3d27d4eb4fu;
+        return (size_t)((h ^ h >> 29) * 0xbf58476d1ce4e5b9u >> 20) & (g->buckets - 1);
+    }
+}
+SPH_FN size_t sphi_bucket(int dim, const sph_grid *g, sph_vec p)
+{
+    const int64_t cy = dim > 1 ? sphi_cell(p.y, g->low.y, g->inverse_width.y, g->cells[1]) : 0;
+    const int64_t cz = dim > 2 ? sphi_cell(p.z, g->low.z, g->inverse_width.z, g->cells[2]) : 0;
+    const size_t b = sphi_row_bucket(g, cy, cz) + (size_t)sphi_cell(p.x, g->low.x, g->inverse_width.x, g->cells[0]);
+    return g->hashed ? b & (g->buckets - 1) : b;
+}
+
+SPH_FN int sphi_check_points(int dim, sph_points x)
+{
+    if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
+    if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z)) return SPH_ERROR_NULL;
+    if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
+    if (!SPH_CHECK) return 0;
+    if (!sphi_all_finite(sph_scalars_strided(x.x, x.stride), x.n)) return SPH_ERROR_POSITION;
+    if (dim > 1 && !sphi_all_finite(sph_scalars_strided(x.y, x.stride), x.n)) return SPH_ERROR_POSITION;
+    if (dim > 2 && !sphi_all_finite(sph_scalars_strided(x.z, x.stride), x.n)) return SPH_ERROR_POSITION;
+    return 0;
+}
+/* Lays the grid out over the axes: low, inverse_width, cells. `fine` cells per reach. Returns their product, which may be huge. */
+SPH_FN double sphi_axes(int dim, sph_grid *g, sph_vec low, sph_vec high, sph_real reach, int fine)
+{
+    sph_real lows[3] = {low.x, low.y, low.z};
+    const sph_real highs[3] = {high.x, high.y, high.z}, box[3] = {g->box.x, g->box.y, g->box.z};
+    sph_real inverse[3] = {SPH_R(0), SPH_R(0), SPH_R(0)};
+    double product = 1;
+    int c;
+    for (c = 0; c < 3; c++) {
+        sph_real count;
+        g->cells[c] = 1;
+        if (c >= dim) continue;
+        inverse[c] = SPH_R(c == 0 ? fine : 1) / reach;
+        if (box[c] > SPH_R(0) && !(highs[c] - lows[c] < box[c])) lows[c] = SPH_R(0); /* some have to be moved: into [0, box) */
+        if (box[c] > SPH_R(0)) { /* a whole number of cells around the box, none of them so narrow that rounding could matter (see sphi_range) */
+            const sph_real most = box[c] / (SPH_R(64) * SPH_EPSILON * (box[c] + SPHI_ABS(lows[c])));
+            count = box[c] * inverse[c] < most ? box[c] * inverse[c] : most;
+            g->cells[c] = count < SPH_R(1) ? 1 : (int64_t)count;
+            inverse[c] = (sph_real)g->cells[c] / box[c];
+        } else {
+            count = (highs[c] - lows[c]) * inverse[c];
+            g->cells[c] = count < SPH_R(4e18) ? (int64_t)count + 1 : (int64_t)4000000000000000000; /* beyond: the last cell is wide */
+        }
+        product *= (double)g->cells[c];
+    }
+    g->low.x = lows[0];
+    g->low.y = lows[1];
+    g->low.z = lows[2];
+    g->inverse_width.x = inverse[0];
+    g->inverse_width.y = inverse[1];
+    g->inverse_width.z = inverse[2];
+    return product;
+}
+
+SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real reach, sph_grid *g)
+{
+    sph_vec low = sphi_point(dim, s, 0), high = low;
+    size_t b, last = 0;
+    sph_index i, jumps = 0;
+    int fine;
+    for (i = 1; i < s.n; i++) {
+        const sph_vec p = sphi_point(dim, s, i);
+        if (p.x < low.x) low.x = p.x;
+        if (p.x > high.x) high.x = p.x;
+        if (p.y < low.y) low.y = p.y;
+        if (p.y > high.y) high.y = p.y;
+        if (p.z < low.z) low.z = p.z;
+        if (p.z > high.z) high.z = p.z;
+    }
+    g->hashed = 0;
+    for (fine = SPHI_FINE; sphi_axes(dim, g, low, high, reach, fine) > 2.0 * (double)s.n; fine /= 2)
+        if (fine == 1) {
+            g->hashed = 1;
+            break;
+        }
+    if (g->hashed)
+        for (g->buckets = 1; g->buckets <= (size_t)s.n; g->buckets *= 2) {}
+    else g->buckets = (size_t)(g->cells[0] * g->cells[1] * g->cells[2]);
+
+    /* counting sort: first[b + 2] counts, then first[b + 1] is the next free slot of bucket b, and ends as the first of b + 1 */
+    for (b = 0; b < g->buckets + 2; b++) g->first[b] = 0;
+    for (i = 0; i < s.n; i++) {
+        const size_t bucket = sphi_bucket(dim, g, sphi_wrap_point(dim, g, sphi_point(dim, s, i)));
+        jumps += bucket > last + 2 * SPHI_FINE || bucket + 2 * SPHI_FINE < last;
+        last = bucket;
+        g->first[bucket + 2]++;
+    }
+    g->scattered = jumps > s.n / 4;
+    for (b = 2; b < g->buckets + 2; b++) g->first[b] += g->first[b - 1];
+    for (i = 0; i < s.n; i++) {
+        const sph_vec p = sphi_wrap_point(dim, g, sphi_point(dim, s, i));
+        const sph_index slot = g->first[sphi_bucket(dim, g, p) + 1]++;
+        g->member[slot] = i;
+        g->x[slot] = p.x;
+        if (dim > 1) g->y[slot] = p.y;
+        if (dim > 2) g->z[slot] = p.z;
+    }
+    for (i = 0; i < SPHI_PAD; i++) { /* read in whole lanes, never used */
+        g->member[s.n + i] = 0;
+        g->x[s.n + i] = SPH_R(0);
+        if (dim > 1) g->y[s.n + i] = SPH_R(0);
+        if (dim > 2) g->z[s.n + i] = SPH_R(0);
+    }
+}
+
+/* Sorts the sources into cells; reach is the radius that will mostly be searched (others work, too). The coordinates are copied: later changes of the arrays do not matter until the
+   next build. work must be aligned for sph_real. Along axes with a box length, reach may be half of it. Returns 0 or a negative sph_error: SPH_ERROR_CAPACITY if work_size is below
+   sph_grid_workspace(dim, sources.n). */
+SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_real reach, void *work, size_t work_size, sph_grid *grid)
+{
+    const int error = sphi_check_points(dim, sources);
+    const size_t padded = (size_t)(sources.n > 0 ? sources.n : 0) + SPHI_PAD;
+    if (error) return error;
+    if (!work || !grid) return SPH_ERROR_NULL;
+    if (sph_grid_workspace(dim, sources.n) == 0) return SPH_ERROR_COUNT;
+    if (!sphi_finite(reach) || !(reach > SPH_R(0))) return SPH_ERROR_H;
+    if (sphi_check_box(dim, sources, reach)) return SPH_ERROR_BOX;
+    if (work_size < sph_grid_workspace(dim, sources.n)) return SPH_ERROR_CAPACITY;
+    grid->n = sources.n;
+    grid->dim = dim;
+    grid->box = sources.box;
+    grid->reach = reach;
+    grid->x = (sph_real *)work;
+    grid->y = grid->x + (dim > 1 ? padded : 0);
+    grid->z = grid->y + (dim > 2 ? padded : 0);
+    grid->member = (sph_index *)(void *)(grid->z + padded);
+    grid->first = grid->member + padded;
+    if (dim == 1) sphi_grid_fill(1, sources, reach, grid);
+    else if (dim == 2) sphi_grid_fill(2, sources, reach, grid);
+    else sphi_grid_fill(3, sources, reach, grid);
     return 0;
 }
 
-/* Calls nothing and stores nothing but, if index is not null, the neighbours of i; returns how many there are. */
-SPH_FN sph_index sphi_neighbors_row(int dim, sph_points x, sph_real radius, const sphi_grid *g, const sph_index *first, const sph_index *member, sph_index i,
-                                    sph_index *index)
+SPH_FN const sph_index *sph_grid_order(const sph_grid *grid) { return grid->member; }
+
+/* ================================================================ lists */
+
+/* What a row asks for. */
+typedef struct sphi_search {
+    sph_vec p;             /* the target, inside the box */
+    sph_real radius;       /* nothing farther is a neighbour */
+    sph_real own;          /* R_i */
+    sph_real widest;       /* half of the smallest box: at no larger radius is a pair seen in one image only */
+    sph_scalars source;    /* R_j */
+    int criterion;         /* how own and source make the pair's radius */
+    sph_index skip, least; /* not the particle skip; only particles from least on */
+} sphi_search;
+
+/* Cells x0 ... x1 of a row along x, and the image they are seen in: `shift` is 0 or whole box lengths. */
+typedef struct sphi_run {
+    int64_t x0, x1, y, z;
+    sph_vec shift;
+} sphi_run;
+
+SPH_FN sph_real sphi_lesser(sph_real a, sph_real b) { return a < b ? a : b; }
+SPH_FN sph_real sphi_pair_radius(int criterion, sph_real R_i, sph_real R_j)
 {
-    const sph_vec p = sphi_point(dim, x, i);
-    const sph_index cx = sphi_cell_of(p.x, g->low.x, g->inverse_width.x, g->cells[0]);
-    const sph_index cy = dim > 1 ? sphi_cell_of(p.y, g->low.y, g->inverse_width.y, g->cells[1]) : 0;
-    const sph_index cz = dim > 2 ? sphi_cell_of(p.z, g->low.z, g->inverse_width.z, g->cells[2]) : 0;
-    const sph_index x0 = cx > 0 ? cx - 1 : 0, x1 = cx + 1 < g->cells[0] ? cx + 1 : g->cells[0] - 1;
-    sph_index y, z, count = 0;
-    for (z = cz > 0 ? cz - 1 : 0; z <= cz + 1 && z < g->cells[2]; z++)
-        for (y = cy > 0 ? cy - 1 : 0; y <= cy + 1 && y < g->cells[1]; y++) {
-            const size_t row = (size_t)g->cells[0] * ((size_t)z * (size_t)g->cells[1] + (size_t)y);
-            sph_index m;
-            for (m = first[row + (size_t)x0]; m < first[row + (size_t)x1 + 1]; m++) {
-                const sph_index j = member[m];
-                if (j == i || !(sph_length(dim, sph_subtract(dim, p, sphi_point(dim, x, j))) < radius)) continue;
-                if (index) index[count] = j;
+    switch (criterion) {
+    case SPH_SCATTER:
+        return R_j;
+    case SPH_LARGER:
+        return R_i > R_j ? R_i : R_j;
+    case SPH_MEAN:
+        return SPH_R(0.5) * (R_i + R_j);
+    default:
+        return R_i;
+    }
+}
+
+/* Whether a slot belongs to a run: buckets of a hashed grid hold other cells, too, and a slot must count in its own row only. */
+SPH_FN int sphi_in_run(int dim, const sph_grid *g, sph_index slot, const sphi_run *run)
+{
+    const int64_t x = sphi_cell(g->x[slot], g->low.x, g->inverse_width.x, g->cells[0]);
+    if (x < run->x0 || x > run->x1) return 0;
+    if (dim > 1 && sphi_cell(g->y[slot], g->low.y, g->inverse_width.y, g->cells[1]) != run->y) return 0;
+    return dim < 3 || sphi_cell(g->z[slot], g->low.z, g->inverse_width.z, g->cells[2]) == run->z;
+}
+
+/* What is known when the loops are compiled: anything (hashed cells, radii of pairs), one radius in some box, one radius in an open domain. */
+enum { SPHI_ANY, SPHI_BOXED, SPHI_OPEN };
+
+/* Slots a ... b - 1: puts the neighbours to out[count] as long as count < room, and counts on; returns the new count. */
+SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, sph_index a, sph_index b, sph_index *out,
+                                    int64_t room, int64_t count)
+{
+    enum { LANES = 8, TILE = 64 };
+    const sph_vec p = s->p, shift = run->shift;
+    const sph_real limit = s->radius * s->radius;
+    const sph_index skip = s->skip, least = s->least;
+    const int store = kind != SPHI_ANY && count + (int64_t)(b - a) + 1 <= room, tally = kind != SPHI_ANY && room <= 0;
+    for (; a < b; a += TILE) {
+        const int n = b - a < TILE ? (int)(b - a) : (int)TILE;
+        const sph_index *const member = g->member + a;
+        sph_real d2[TILE];
+        int c, l;
+        for (c = 0; c < n; c += LANES)
+            for (l = c; l < c + LANES; l++) {
+                const sph_real dx = (p.x - g->x[a + l]) - shift.x;
+                const sph_real dy = dim > 1 ? (p.y - g->y[a + l]) - shift.y : SPH_R(0);
+                const sph_real dz = dim > 2 ? (p.z - g->z[a + l]) - shift.z : SPH_R(0);
+                d2[l] = dx * dx + (dim > 1 ? dy * dy : SPH_R(0)) + (dim > 2 ? dz * dz : SPH_R(0));
+            }
+        if (store) { /* without a branch: every candidate is stored, and overwritten by the next if it is no neighbour */
+            sph_index *next = out + count;
+            if (least == 0)
+                for (l = 0; l < n; l++) {
+                    *next = member[l];
+                    next += (d2[l] < limit) & (member[l] != skip);
+                }
+            else
+                for (l = 0; l < n; l++) {
+                    *next = member[l];
+                    next += (d2[l] < limit) & (member[l] != skip) & (member[l] >= least);
+                }
+            count = next - out;
+        } else if (tally) {
+            int found = 0;
+            for (l = 0; l < n; l++) found += (d2[l] < limit) & (member[l] != skip) & (member[l] >= least);
+            count += found;
+        } else
+            for (l = 0; l < n; l++) {
+                const sph_index j = member[l];
+                const sph_real R = kind != SPHI_ANY ? s->radius : sphi_lesser(sphi_pair_radius(s->criterion, s->own, sphi_at(s->source, j)), s->widest);
+                if (!(d2[l] < R * R) || j == skip || j < least || (kind == SPHI_ANY && g->hashed && !sphi_in_run(dim, g, a + l, run))) continue;
+                if (count < room) out[count] = j;
                 count++;
             }
-        }
+    }
     return count;
 }
 
-/* Sorts the particles into cells and counts. Returns 0 or a negative sph_error; SPH_ERROR_CAPACITY if there are more pairs than an sph_index counts (*pairs is right
-   even then). Nothing is written on other errors. */
-SPH_FN sph_index sph_neighbors_count(int dim, sph_points x, sph_real radius, void *work, sph_index *start, int64_t *pairs)
+#if SPH_AVX512 || SPH_AVX2
+#define SPHI_WIDE_PATH (sizeof(sph_index) == 4)
+/* those of the eight indices that the mask names, packed; writes eight entries */
+SPH_FN void sphi_compress8(sph_index *out, __m256i j, unsigned mask)
 {
-    const int error = sphi_check_neighbors(dim, x, radius, work, start);
-    sphi_grid *const g = (sphi_grid *)work;
-    sph_index *first, *member, i, most;
-    sph_vec high;
+#if SPH_AVX512
+    _mm256_storeu_si256((__m256i *)(void *)out, _mm256_maskz_compress_epi32((__mmask8)mask, j));
+#else /* the lanes' numbers, as bytes, packed by the mask */
+    const uint64_t bytes = _pext_u64(0x0706050403020100u, _pdep_u64(mask, 0x0101010101010101u) * 0xffu);
+    const __m256i order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)bytes));
+    _mm256_storeu_si256((__m256i *)(void *)out, _mm256_permutevar8x32_epi32(j, order));
+#endif
+}
+
+#if SPH_SINGLE
+/* squares of eight distances along an axis */
+SPH_FN __m256 sphi_square8(float p, const float *x, float shift)
+{
+    const __m256 d = _mm256_sub_ps(_mm256_sub_ps(_mm256_set1_ps(p), _mm256_loadu_ps(x)), _mm256_set1_ps(shift));
+    return _mm256_mul_ps(d, d);
+}
+SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, float limit)
+{
+    __m256 d2 = sphi_square8(s->p.x, g->x + m, shift.x);
+    if (dim > 1) d2 = _mm256_add_ps(d2, sphi_square8(s->p.y, g->y + m, shift.y));
+    if (dim > 2) d2 = _mm256_add_ps(d2, sphi_square8(s->p.z, g->z + m, shift.z));
+    return (unsigned)_mm256_movemask_ps(_mm256_cmp_ps(d2, _mm256_set1_ps(limit), _CMP_LT_OQ));
+}
+#elif SPH_AVX512
+SPH_FN __m512d sphi_square8(double p, const double *x, double shift)
+{
+    const __m512d d = _mm512_sub_pd(_mm512_sub_pd(_mm512_set1_pd(p), _mm512_loadu_pd(x)), _mm512_set1_pd(shift));
+    return _mm512_mul_pd(d, d);
+}
+SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, double limit)
+{
+    __m512d d2 = sphi_square8(s->p.x, g->x + m, shift.x);
+    if (dim > 1) d2 = _mm512_add_pd(d2, sphi_square8(s->p.y, g->y + m, shift.y));
+    if (dim > 2) d2 = _mm512_add_pd(d2, sphi_square8(s->p.z, g->z + m, shift.z));
+    return _mm512_cmp_pd_mask(d2, _mm512_set1_pd(limit), _CMP_LT_OQ);
+}
+#else
+SPH_FN __m256d sphi_square4(double p, const double *x, double shift)
+{
+    const __m256d d = _mm256_sub_pd(_mm256_sub_pd(_mm256_set1_pd(p), _mm256_loadu_pd(x)), _mm256_set1_pd(shift));
+    return _mm256_mul_pd(d, d);
+}
+SPH_FN unsigned sphi_nearer4(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, double limit)
+{
+    __m256d d2 = sphi_square4(s->p.x, g->x + m, shift.x);
+    if (dim > 1) d2 = _mm256_add_pd(d2, sphi_square4(s->p.y, g->y + m, shift.y));
+    if (dim > 2) d2 = _mm256_add_pd(d2, sphi_square4(s->p.z, g->z + m, shift.z));
+    return (unsigned)_mm256_movemask_pd(_mm256_cmp_pd(d2, _mm256_set1_pd(limit), _CMP_LT_OQ));
+}
+SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, double limit)
+{
+    return sphi_nearer4(dim, g, s, m, shift, limit) | sphi_nearer4(dim, g, s, m + 4, shift, limit) << 4;
+}
+#endif
+
+/* store = 0: counts only, and out is not touched */
+SPH_FN int64_t sphi_filter_wide(int dim, const sph_grid *g, const sphi_search *s, sph_vec shift, sph_index a, sph_index b, sph_index *out, int store,
+                                int64_t count)
+{
+    const sph_real limit = s->radius * s->radius;
+    const __m256i skip = _mm256_set1_epi32((int)s->skip), least = _mm256_set1_epi32((int)s->least);
+    sph_index m;
+    for (m = a; m < b; m += 8) {
+        const __m256i j = _mm256_loadu_si256((const __m256i *)(const void *)(g->member + m));
+        const __m256i drop = _mm256_or_si256(_mm256_cmpeq_epi32(j, skip), _mm256_cmpgt_epi32(least, j));
+        unsigned mask = sphi_nearer8(dim, g, s, m, shift, limit) & ~(unsigned)_mm256_movemask_ps(_mm256_castsi256_ps(drop));
+        mask &= b - m < 8 ? (1u << (b - m)) - 1u : 0xffu;
+        if (store) sphi_compress8(out + count, j, mask);
+        count += __builtin_popcount(mask);
+    }
+    return count;
+}
+#endif
+
+SPH_FN int64_t sphi_filter(int dim, int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, sph_index a, sph_index b, sph_index *out,
+                           int64_t room, int64_t count)
+{
+#if SPH_AVX512 || SPH_AVX2
+    const int store = count + (int64_t)(b - a) + 8 <= room;
+    if (kind != SPHI_ANY && SPHI_WIDE_PATH && (store || room <= 0)) return sphi_filter_wide(dim, g, s, run->shift, a, b, out, store, count);
+#endif
+    return sphi_filter_portable(dim, kind, g, s, run, a, b, out, room, count);
+}
+
+/* The cells from x - R to x + R along an axis; along a periodic one they may lie outside of the box. */
+SPH_FN void sphi_range(sph_real x, sph_real R, sph_real low, sph_real inverse_width, sph_real length, int64_t cells, int64_t *c0, int64_t *c1)
+{
+    if (length > SPH_R(0)) {
+        const sph_real more = R + SPH_R(16) * SPH_EPSILON * (length + SPHI_ABS(low)); /* rounding differs from image to image */
+        *c0 = sphi_cell_periodic(x - more, low, inverse_width);
+        *c1 = sphi_cell_periodic(x + more, low, inverse_width);
+    } else {
+        *c0 = sphi_cell(x - R, low, inverse_width, cells);
+        *c1 = sphi_cell(x + R, low, inverse_width, cells);
+    }
+}
+/* a cell outside of the box: which image (0 inside), moving c inside */
+SPH_FN int64_t sphi_image(int64_t cells, int64_t *c)
+{
+    const int64_t image = *c >= 0 ? *c / cells : -((cells - 1 - *c) / cells);
+    *c -= image * cells;
+    return image;
+}
+
+/* The neighbours of one target: filters, or with count_all just counts the candidates. Adds their number to *candidates. */
+SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search *s, int count_all, sph_index *out, int64_t room, int64_t *candidates)
+{
+    const int boxed = kind != SPHI_OPEN, hashed = kind == SPHI_ANY && g->hashed;
+    const sph_vec box = g->box;
+    int64_t x0, x1, y0 = 0, y1 = 0, z0 = 0, z1 = 0, x, y, z, count = 0;
+    sphi_run run;
+    run.y = run.z = 0;
+    run.shift.x = run.shift.y = run.shift.z = SPH_R(0);
+    if (dim > 1) sphi_range(s->p.y, s->radius, g->low.y, g->inverse_width.y, boxed ? box.y : SPH_R(0), g->cells[1], &y0, &y1);
+    if (dim > 2) sphi_range(s->p.z, s->radius, g->low.z, g->inverse_width.z, boxed ? box.z : SPH_R(0), g->cells[2], &z0, &z1);
+    sphi_range(s->p.x, s->radius, g->low.x, g->inverse_width.x, boxed ? box.x : SPH_R(0), g->cells[0], &x0, &x1);
+    if (kind ==
+        SPHI_OPEN) { /* the same as below, with nothing to wrap. Looking at rows near the rim over less of their length, or not at all, costs more than it saves. */
+        for (z = z0; z <= z1; z++)
+            for (y = y0; y <= y1; y++) {
+                const sph_index *const row = g->first + (z * g->cells[1] + y) * g->cells[0];
+                const sph_index a = row[x0], b = row[x1 + 1];
+                *candidates += b - a;
+                if (!count_all) count = sphi_filter(dim, kind, g, s, &run, a, b, out, room, count);
+            }
+        return count;
+    }
+    for (z = z0; z <= z1; z++) {
+        run.z = z;
+        if (dim > 2 && box.z > SPH_R(0)) run.shift.z = box.z * (sph_real)sphi_image(g->cells[2], &run.z);
+        for (y = y0; y <= y1; y++) {
+            size_t row;
+            run.y = y;
+            if (dim > 1 && box.y > SPH_R(0)) run.shift.y = box.y * (sph_real)sphi_image(g->cells[1], &run.y);
+            row = sphi_row_bucket(g, run.y, run.z);
+            for (x = x0; x <= x1; x += run.x1 - run.x0 + 1) { /* more than once only where a row passes the end of the box */
+                size_t from, left;
+                run.x0 = x;
+                if (box.x > SPH_R(0)) run.shift.x = box.x * (sph_real)sphi_image(g->cells[0], &run.x0);
+                run.x1 = run.x0 + (x1 - x) < g->cells[0] ? run.x0 + (x1 - x) : g->cells[0] - 1;
+                from = row + (size_t)run.x0;
+                left = (size_t)(run.x1 - run.x0) + 1;
+                if (hashed && left > g->buckets) left = g->buckets;
+                while (left > 0) { /* twice where a hashed row passes the end of the table */
+                    size_t to;
+                    if (hashed) from &= g->buckets - 1;
+                    to = from + left < g->buckets ? from + left : g->buckets;
+                    *candidates += g->first[to] - g->first[from];
+                    if (!count_all) count = sphi_filter(dim, kind, g, s, &run, g->first[from], g->first[to], out, room, count);
+                    left -= to - from;
+                    from = to;
+                }
+            }
+        }
+    }
+    return count;
+}
+
+/* ascending; heapsort, because a row of a collapsed cloud may be long */
+SPH_FN void sphi_sort(sph_index *a, sph_index n)
+{
+    sph_index i, parent, child, v;
+    for (i = n / 2; n > 1;) {
+        if (i > 0) v = a[--i];
+        else {
+            v = a[--n];
+            a[n] = a[0];
+        }
+        parent = i;
+        while ((child = 2 * parent + 1) < n) {
+            if (child + 1 < n && a[child + 1] > a[child]) child++;
+            if (a[child] <= v) break;
+            a[parent] = a[child];
+            parent = child;
+        }
+        a[parent] = v;
+    }
+}
+
+/* What a call of sph_grid_lists is about. */
+typedef struct sphi_job {
+    const sph_grid *g;
+    sph_points targets;
+    int kind, criterion, flags;
+    sph_scalars target_radius, source_radius;
+    sph_real source_largest, widest;
+    int by_slots;     /* passes go over the slots of the grid, not over the targets */
+    int64_t capacity; /* 0: nothing is stored */
+    sph_index *start, *index;
+} sphi_job;
+
+/* SPHI_APPEND: rows one after the other to index[0 ... room - 1], lengths to start[i + 1]. In two passes: SPHI_LENGTHS to start[i + 1], and, once these are starts, SPHI_PLACE each row
+   where it belongs: for targets stored in an order far from that of the cells, which are then visited by slots, where near targets follow each other. */
+enum { SPHI_APPEND, SPHI_LENGTHS, SPHI_PLACE, SPHI_BUFFER = 1024 };
+
+/* Returns the sum of the lengths. Once that is beyond the room, 2^28 more candidates are looked at; for the rest the number of candidates stands for the number of neighbours: more
+   than enough, and no n^2 steps. */
+SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room)
+{
+    const sph_grid *const g = job->g;
+    const int64_t most = room > 0 ? room : SPHI_INDEX_MAX;
+    int64_t total = 0, patience = (int64_t)1 << 28;
+    sph_index buffer[SPHI_BUFFER], k;
+    sphi_search s;
+    s.widest = job->widest;
+    s.source = job->source_radius;
+    s.criterion = job->criterion;
+    for (k = first; k < last; k++) {
+        const sph_index i = job->by_slots ? g->member[k] : k;
+        const int64_t left = mode == SPHI_APPEND && room > total ? room - total : 0;
+        int64_t candidates = 0, count;
+        sph_index *row = index, p;
+        int64_t row_room = left;
+        if (i >= job->targets.n) continue;
+        if (left > 0) row = index + total;
+        if (job->by_slots) {
+            s.p.x = g->x[k];
+            s.p.y = dim > 1 ? g->y[k] : SPH_R(0);
+            s.p.z = dim > 2 ? g->z[k] : SPH_R(0);
+        } else s.p = sphi_wrap_point(dim, g, sphi_point(dim, job->targets, i));
+        if (mode == SPHI_PLACE) { /* by way of the buffer, which has the room that whole lanes want */
+            row_room = job->start[i + 1] - job->start[i];
+            row = index + job->start[i];
+        }
+        s.own = job->criterion == SPH_SCATTER ? SPH_R(0) : sphi_at(job->target_radius, i);
+        s.radius = sphi_lesser(kind != SPHI_ANY ? s.own : sphi_pair_radius(job->criterion, s.own, job->source_largest), s.widest);
+        s.skip = job->flags & (SPH_LIST_SELF | SPH_LIST_FOREIGN) ? -1 : i;
+        s.least = job->flags & SPH_LIST_HALF ? i : 0;
+        if (mode == SPHI_PLACE && row_room <= SPHI_BUFFER / 2) {
+            count = sphi_row(dim, kind, g, &s, 0, buffer, SPHI_BUFFER, &candidates);
+            for (p = 0; p < (sph_index)row_room; p++) row[p] = buffer[p];
+        } else count = sphi_row(dim, kind, g, &s, patience <= 0, row, row_room, &candidates);
+        if (patience <= 0) count = candidates;
+        if (mode != SPHI_LENGTHS && (job->flags & SPH_LIST_SORTED) && count <= row_room) sphi_sort(row, (sph_index)count);
+        if (mode != SPHI_PLACE) {
+            total += count;
+            if (total > most) patience -= candidates;
+            job->start[i + 1] = (sph_index)(count < SPHI_INDEX_MAX ? count : SPHI_INDEX_MAX);
+        }
+    }
+    return total;
+}
+#define SPHI_PASS(name, dim, kind) \
+    SPHI_LARGE int64_t name(int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room) \
+    { \
+        if (mode == SPHI_APPEND) return sphi_pass(dim, kind, SPHI_APPEND, job, first, last, index, room); \
+        if (mode == SPHI_LENGTHS) return sphi_pass(dim, kind, SPHI_LENGTHS, job, first, last, index, room); \
+        return sphi_pass(dim, kind, SPHI_PLACE, job, first, last, index, room); \
+    }
+SPHI_PASS(sphi_pass_any_1, 1, SPHI_ANY)
+SPHI_PASS(sphi_pass_any_2, 2, SPHI_ANY)
+SPHI_PASS(sphi_pass_any_3, 3, SPHI_ANY)
+SPHI_PASS(sphi_pass_boxed_1, 1, SPHI_BOXED)
+SPHI_PASS(sphi_pass_boxed_2, 2, SPHI_BOXED)
+SPHI_PASS(sphi_pass_boxed_3, 3, SPHI_BOXED)
+SPHI_PASS(sphi_pass_open_1, 1, SPHI_OPEN)
+SPHI_PASS(sphi_pass_open_2, 2, SPHI_OPEN)
+SPHI_PASS(sphi_pass_open_3, 3, SPHI_OPEN)
+#undef SPHI_PASS
+SPH_FN int64_t sphi_pass_part(int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room)
+{
+    switch (job->kind * 4 + job->g->dim) {
+    case SPHI_ANY * 4 + 1:
+        return sphi_pass_any_1(mode, job, first, last, index, room);
+    case SPHI_ANY * 4 + 2:
+        return sphi_pass_any_2(mode, job, first, last, index, room);
+    case SPHI_ANY * 4 + 3:
+        return sphi_pass_any_3(mode, job, first, last, index, room);
+    case SPHI_BOXED * 4 + 1:
+        return sphi_pass_boxed_1(mode, job, first, last, index, room);
+    case SPHI_BOXED * 4 + 2:
+        return sphi_pass_boxed_2(mode, job, first, last, index, room);
+    case SPHI_BOXED * 4 + 3:
+        return sphi_pass_boxed_3(mode, job, first, last, index, room);
+    case SPHI_OPEN * 4 + 1:
+        return sphi_pass_open_1(mode, job, first, last, index, room);
+    case SPHI_OPEN * 4 + 2:
+        return sphi_pass_open_2(mode, job, first, last, index, room);
+    default:
+        return sphi_pass_open_3(mode, job, first, last, index, room);
+    }
+}
+
+/* part of n, and of the room, in so many parts */
+SPH_FN sph_index sphi_first(sph_index n, int part, int parts) { return (sph_index)((int64_t)n * part / parts); }
+SPH_FN int64_t sphi_from(int64_t room, int part, int parts) { return part < parts ? room / parts * part : room; }
+
+/* A pass by all threads. Each part appends to its own part of index, or places where start says. *spilt: a part of index proved too small. */
+SPHI_LARGE int64_t sphi_pass_threads(int mode, const sphi_job *job, int parts, int *spilt)
+{
+    const sph_index n = job->by_slots ? job->g->n : job->targets.n;
     int64_t total = 0;
-    size_t cells, c;
+    int part, over = 0;
+#if SPH_OPENMP
+#pragma omp parallel for schedule(static, 1) reduction(+ : total) reduction(| : over)
+#endif
+    for (part = 0; part < parts; part++) {
+        const int64_t from = mode == SPHI_APPEND ? sphi_from(job->capacity, part, parts) : 0;
+        const int64_t room = mode == SPHI_APPEND ? sphi_from(job->capacity, part + 1, parts) - from : job->capacity;
+        const int64_t mine =
+            sphi_pass_part(mode, job, sphi_first(n, part, parts), sphi_first(n, part + 1, parts), job->capacity > 0 ? job->index + from : job->index, room);
+        total += mine;
+        over |= mine > room;
+    }
+    *spilt = over;
+    return total;
+}
+
+SPHI_LARGE int64_t sphi_lists(const sphi_job *job)
+{
+    const sph_index n = job->targets.n;
+#if SPH_OPENMP
+    const int parts = omp_get_max_threads();
+#else
+    const int parts = 1;
+#endif
+    const int append = job->capacity > 0 && !job->by_slots;
+    sph_index *const start = job->start, i, p;
+    int spilt, part;
+    const int64_t total = sphi_pass_threads(append ? SPHI_APPEND : SPHI_LENGTHS, job, parts, &spilt);
+    if (total > SPHI_INDEX_MAX || (job->capacity > 0 && total > job->capacity)) return total;
+    start[0] = 0;
+    for (i = 0; i < n; i++) start[i + 1] += start[i];
+    if (job->capacity == 0) return total;
+    if (!append || spilt) sphi_pass_threads(SPHI_PLACE, job, parts, &spilt);
+    else
+        for (part = 1; part < parts; part++) { /* close the gaps between the parts, downwards */
+            const sph_index *const from = job->index + sphi_from(job->capacity, part, parts);
+            const sph_index begin = start[sphi_first(n, part, parts)], length = start[sphi_first(n, part + 1, parts)] - begin;
+            if (from == job->index + begin) continue;
+            for (p = 0; p < length; p++) job->index[begin + p] = from[p];
+        }
+    return total;
+}
+
+/* Neighbour lists of targets.n targets: start[0 ... n], and index[start[i]] ... index[start[i + 1] - 1] for target i. Unless flags has SPH_LIST_FOREIGN, target i is source i (the targets may
+   be the first of the sources). Radii are support radii, one per target and source, or one for all (sph_scalars_same); only those that the criterion uses are read. index = 0 counts
+   only; else it must have room for capacity entries (entries beyond *pairs may be overwritten). *pairs is the number of entries of the lists.
+   Returns 0 or a negative sph_error. SPH_ERROR_CAPACITY: index has room for fewer than *pairs entries (or sph_index is too small to count them); start and index then hold nothing of
+   use, and nothing beyond capacity was written. For a cloud so collapsed that counting would take n^2 steps *pairs is an upper bound. SPH_ERROR_RADIUS: a radius is more than 32 times
+   the reach that the grid was built for. SPH_ERROR_BOX: a radius is more than half of a periodic box. On all errors but SPH_ERROR_CAPACITY nothing is written. */
+SPH_FN sph_index sph_grid_lists(int dim, const sph_grid *grid, sph_points targets, int criterion, sph_scalars target_radius, sph_scalars source_radius,
+                                int flags, sph_index *start, sph_index *index, int64_t capacity, int64_t *pairs)
+{
+    const int by_source = criterion != SPH_GATHER, by_target = criterion != SPH_SCATTER;
+    const int error = sphi_check_points(dim, targets);
+    const int known = SPH_LIST_SELF | SPH_LIST_HALF | SPH_LIST_SORTED | SPH_LIST_FOREIGN;
+    sph_real largest = SPH_R(0);
+    sphi_job job;
+    sph_index i;
+    int uniform, plain;
+    if (grid && grid->dim != dim) return SPH_ERROR_DIM;
     if (error) return error;
-    if (!pairs) return SPH_ERROR_NULL;
-    first = (sph_index *)(void *)(g + 1);
-    member = first + (size_t)x.n + 1;
-    g->low = high = sphi_point(dim, x, 0);
-    for (i = 1; i < x.n; i++) {
-        const sph_vec p = sphi_point(dim, x, i);
-        if (p.x < g->low.x) g->low.x = p.x;
-        if (p.y < g->low.y) g->low.y = p.y;
-        if (p.z < g->low.z) g->low.z = p.z;
-        if (p.x > high.x) high.x = p.x;
-        if (p.y > high.y) high.y = p.y;
-        if (p.z > high.z) high.z = p.z;
+    if (!grid || !start || !pairs || (by_target && !target_radius.p) || (by_source && !source_radius.p)) return SPH_ERROR_NULL;
+    if (criterion < (int)SPH_GATHER || criterion > (int)SPH_MEAN || (flags & ~known) || capacity < 0) return SPH_ERROR_VALUE;
+    if ((flags & SPH_LIST_FOREIGN) && (flags & (SPH_LIST_SELF | SPH_LIST_HALF))) return SPH_ERROR_VALUE;
+    if (!(flags & SPH_LIST_FOREIGN) && targets.n > grid->n) return SPH_ERROR_RANGE;
+    job.source_largest = SPH_R(0);
+    for (i = 0; by_target && i < (target_radius.stride ? targets.n : 1); i++) {
+        const sph_real R = sphi_at(target_radius, i);
+        if (!sphi_finite(R) || !(R > SPH_R(0))) return SPH_ERROR_H;
+        if (R > largest) largest = R;
     }
-    /* at most n cells: the n-th root of n along each axis when the domain is larger than that */
-    most = 1;
-    while (dim == 1 ? most < x.n : dim == 2 ? (int64_t)(most + 1) * (most + 1) <= x.n : (int64_t)(most + 1) * (most + 1) * (most + 1) <= x.n) {
-        if (dim == 1) most = x.n;
-        else most++;
+    for (i = 0; by_source && i < (source_radius.stride ? grid->n : 1); i++) {
+        const sph_real R = sphi_at(source_radius, i);
+        if (!sphi_finite(R) || !(R > SPH_R(0))) return SPH_ERROR_H;
+        if (R > job.source_largest) job.source_largest = R;
     }
-    g->inverse_width.y = g->inverse_width.z = SPH_R(0);
-    g->cells[0] = sphi_axis(g->low.x, high.x, radius, most, &g->inverse_width.x);
-    g->cells[1] = dim > 1 ? sphi_axis(g->low.y, high.y, radius, most, &g->inverse_width.y) : 1;
-    g->cells[2] = dim > 2 ? sphi_axis(g->low.z, high.z, radius, most, &g->inverse_width.z) : 1;
-    cells = (size_t)g->cells[0] * (size_t)g->cells[1] * (size_t)g->cells[2];
+    if (job.source_largest > largest) largest = job.source_largest;
+    targets.box = grid->box;
+    if (sphi_check_box(dim, targets, largest)) return SPH_ERROR_BOX;
+    if (largest > SPH_R(SPHI_FARTHEST) * grid->reach) return SPH_ERROR_RADIUS;
 
-    for (c = 0; c <= cells; c++) first[c] = 0;
-    for (i = 0; i < x.n; i++) first[sphi_cell(dim, g, sphi_point(dim, x, i)) + 1]++;
-    for (c = 0; c < cells; c++) first[c + 1] += first[c];
-    for (i = x.n - 1; i >= 0; i--) { /* downwards from each cell's end; first[c + 1] comes to stand at the start of cell c ... */
-        const size_t cell = sphi_cell(dim, g, sphi_point(dim, x, i));
-        member[--first[cell + 1]] = i;
-    }
-    for (c = 0; c < cells; c++) first[c] = first[c + 1]; /* ... and moves back */
-    first[cells] = x.n;
+    /* equal radii for all are one radius, whatever the criterion */
+    uniform = by_source && source_radius.stride == 0 && (!by_target || (target_radius.stride == 0 && sphi_at(target_radius, 0) == sphi_at(source_radius, 0)));
+    plain = !grid->hashed && (!by_source || uniform);
+    job.g = grid;
+    job.targets = targets;
+    job.kind = !plain ? SPHI_ANY : grid->box.x > SPH_R(0) || grid->box.y > SPH_R(0) || grid->box.z > SPH_R(0) ? SPHI_BOXED : SPHI_OPEN;
+    job.criterion = plain ? (int)SPH_GATHER : criterion;
+    job.flags = flags;
+    job.target_radius = uniform ? source_radius : target_radius;
+    job.widest = largest;
+    if (grid->box.x > SPH_R(0)) job.widest = sphi_lesser(job.widest, SPH_R(0.5) * grid->box.x);
+    if (dim > 1 && grid->box.y > SPH_R(0)) job.widest = sphi_lesser(job.widest, SPH_R(0.5) * grid->box.y);
+    if (dim > 2 && grid->box.z > SPH_R(0)) job.widest = sphi_lesser(job.widest, SPH_R(0.5) * grid->box.z);
+    job.source_radius = source_radius;
+    job.by_slots = grid->scattered && !(flags & SPH_LIST_FOREIGN);
+    job.capacity = index ? capacity : 0;
+    job.start = start;
+    job.index = index;
+    *pairs = sphi_lists(&job);
+    return *pairs > SPHI_INDEX_MAX || (index && *pairs > capacity) ? SPH_ERROR_CAPACITY : 0;
+}
 
-    for (i = 0; i < x.n; i++) {
-        start[i] = (sph_index)(total < SPHI_INDEX_MAX ? total : SPHI_INDEX_MAX);
-        total += sphi_neighbors_row(dim, x, radius, g, first, member, i, 0);
-    }
-    *pairs = total;
-    if (total > SPHI_INDEX_MAX) return SPH_ERROR_CAPACITY;
-    start[x.n] = (sph_index)total;
+/* ================================================================ order, and lists kept for several steps */
+
+/* out[s * stride] = in[order[s] * stride] for s = 0 ... n - 1; in and out must not overlap. With sph_grid_order this puts an array of the caller's into cell order. */
+SPH_FN sph_index sph_permute(sph_index n, const sph_index *order, const sph_real *in, size_t stride, sph_real *out)
+{
+    sph_index s;
+    if (!order || !in || !out) return SPH_ERROR_NULL;
+    if (n < 1 || stride < 1) return SPH_ERROR_COUNT;
+    for (s = 0; s < n && SPH_CHECK; s++)
+        if (order[s] < 0 || order[s] >= n) return SPH_ERROR_LIST;
+    for (s = 0; s < n; s++) out[(size_t)s * stride] = in[(size_t)order[s] * stride];
     return 0;
 }
 
-/* Fills the rows that sph_neighbors_count has laid out, with the same arguments. Returns 0 or a negative sph_error: SPH_ERROR_CAPACITY if index holds fewer than
-   start[n] entries; nothing is written then. */
-SPH_FN sph_index sph_neighbors_fill(int dim, sph_points x, sph_real radius, const void *work, const sph_index *start, sph_index *index, int64_t capacity)
+/* inverse[order[s]] = s: where each particle has gone */
+SPH_FN sph_index sph_permute_inverse(sph_index n, const sph_index *order, sph_index *inverse)
 {
-    const int error = sphi_check_neighbors(dim, x, radius, work, start);
-    const sphi_grid *const g = (const sphi_grid *)work;
-    const sph_index *first, *member;
+    sph_index s;
+    if (!order || !inverse) return SPH_ERROR_NULL;
+    if (n < 1) return SPH_ERROR_COUNT;
+    for (s = 0; s < n && SPH_CHECK; s++)
+        if (order[s] < 0 || order[s] >= n) return SPH_ERROR_LIST;
+    for (s = 0; s < n; s++) inverse[order[s]] = s;
+    return 0;
+}
+
+/* Lists that were built at the positions `then`, with the radius + skin, still hold all pairs within the radius unless this returns 1: a particle has moved by more than skin / 2
+   (by the minimum image, if now.box is set). Negative: an sph_error. */
+SPH_FN int sph_rebuild_due(int dim, sph_points now, sph_points then, sph_real skin)
+{
+    const int error = sphi_check_points(dim, now), error_then = sphi_check_points(dim, then);
     sph_index i;
-    if (error) return error;
-    if (!index && start[x.n] > 0) return SPH_ERROR_NULL;
-    if (capacity < start[x.n]) return SPH_ERROR_CAPACITY;
-    first = (const sph_index *)(const void *)(g + 1);
-    member = first + (size_t)x.n + 1;
-    if (index)
-        for (i = 0; i < x.n; i++) sphi_neighbors_row(dim, x, radius, g, first, member, i, index + start[i]);
+    if (error || error_then) return error ? error : error_then;
+    if (now.n != then.n) return SPH_ERROR_COUNT;
+    if (!sphi_finite(skin) || skin < SPH_R(0)) return SPH_ERROR_VALUE;
+    if (sphi_check_box(dim, now, SPH_R(0))) return SPH_ERROR_BOX;
+    for (i = 0; i < now.n; i++) {
+        const sph_vec moved = sphi_separation(dim, now, sphi_point(dim, now, i), sphi_point(dim, then, i));
+        if (SPH_R(4) * sph_dot(dim, moved, moved) > skin * skin) return 1;
+    }
     return 0;
 }
 

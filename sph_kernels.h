@@ -177,17 +177,19 @@ typedef SPH_INDEX sph_index;
 
 /* Answers of array-level functions: 0 or a count of particles that are not ok, or one of these: nothing was written. */
 typedef enum sph_error {
-    SPH_ERROR_NULL = -1,     /* a pointer is null */
-    SPH_ERROR_DIM = -2,      /* dim is not 1, 2 or 3 (or not 1 where only 1 makes sense) */
-    SPH_ERROR_KERNEL = -3,   /* no such kernel */
-    SPH_ERROR_COUNT = -4,    /* fewer than one particle, or a stride of 0 where positions need one */
-    SPH_ERROR_RANGE = -5,    /* not 0 <= first <= last <= n */
-    SPH_ERROR_H = -6,        /* h is not finite and positive */
-    SPH_ERROR_POSITION = -7, /* a position is not finite */
-    SPH_ERROR_VALUE = -8,    /* a field value, mass or volume is not finite (or a parameter is out of its range) */
-    SPH_ERROR_LIST = -9,     /* list rows do not ascend, or an entry is no particle */
-    SPH_ERROR_SELF = -10,    /* a row holds its own particle, but this operator adds that term itself */
-    SPH_ERROR_CAPACITY = -11 /* the caller's memory is too small; the size that is needed has been reported */
+    SPH_ERROR_NULL = -1,      /* a pointer is null */
+    SPH_ERROR_DIM = -2,       /* dim is not 1, 2 or 3 (or not 1 where only 1 makes sense) */
+    SPH_ERROR_KERNEL = -3,    /* no such kernel */
+    SPH_ERROR_COUNT = -4,     /* fewer than one particle, or a stride of 0 where positions need one */
+    SPH_ERROR_RANGE = -5,     /* not 0 <= first <= last <= n */
+    SPH_ERROR_H = -6,         /* h is not finite and positive */
+    SPH_ERROR_POSITION = -7,  /* a position is not finite */
+    SPH_ERROR_VALUE = -8,     /* a field value, mass or volume is not finite (or a parameter is out of its range) */
+    SPH_ERROR_LIST = -9,      /* list rows do not ascend, or an entry is no particle */
+    SPH_ERROR_SELF = -10,     /* a row holds its own particle, but this operator adds that term itself */
+    SPH_ERROR_CAPACITY = -11, /* the caller's memory is too small; the size that is needed has been reported */
+    SPH_ERROR_BOX = -12,      /* a box length is negative or not finite, or a support reaches beyond half the box */
+    SPH_ERROR_RADIUS = -13    /* a radius exceeds what the grid was built for */
 } sph_error;
 
 /* Answers per particle, where an array of them is asked for. */
@@ -198,7 +200,8 @@ typedef enum sph_status {
     SPH_ILL_CONDITIONED = 3, /* computed, but the conditioning number is below the caller's limit */
     SPH_FELL_BACK = 4,       /* as before, and replaced by the fallback that the caller allowed */
     SPH_NOT_AVAILABLE = 5,   /* the operator is not defined at this particle: outputs are 0 */
-    SPH_NOT_FINITE = 6       /* the result overflowed: outputs are 0 */
+    SPH_NOT_FINITE = 6,      /* the result overflowed: outputs are 0 */
+    SPH_LIST_TOO_SHORT = 7   /* the list does not reach as far as the answer needs; the operator says what comes back instead */
 } sph_status;
 
 /* ================================================================ kernels */
@@ -699,6 +702,10 @@ SPH_FN const char *sph_status_text(int status)
         return "a list row holds its own particle; this operator adds that term itself";
     case SPH_ERROR_CAPACITY:
         return "the memory is too small; the size that is needed has been reported";
+    case SPH_ERROR_BOX:
+        return "a box length is negative or not finite, or a support reaches beyond half the box";
+    case SPH_ERROR_RADIUS:
+        return "a radius exceeds the reach that the grid was built for";
     case SPH_OK:
         return "ok";
     case SPH_TOO_FEW:
@@ -713,6 +720,8 @@ SPH_FN const char *sph_status_text(int status)
         return "the operator is not available at this particle";
     case SPH_NOT_FINITE:
         return "the result is not finite";
+    case SPH_LIST_TOO_SHORT:
+        return "the neighbour list does not reach far enough";
     default:
         return "unknown status";
     }

@@ -13,6 +13,7 @@
  *   sph_points    positions where they are: sph_points_separate (x[], y[], z[]), sph_points_interleaved (xyzxyz...), sph_points_strided (array of structs)
  *   sph_scalars   one number per particle: sph_scalars_array(p), sph_scalars_strided(p, stride), sph_scalars_same(&value) for one value for all
  *   sph_list      neighbour lists in CSR form: neighbours of target i are index[start[i]] ... index[start[i + 1] - 1]
+ *   sph_points_periodic(points, lx, ly, lz) makes them periodic: every pair vector is then that to the nearest image. Positions need not be wrapped
  *   All strides count sph_real. Sources are the particles 0 ... n - 1, targets are the first ... last - 1 of them; ghost, boundary and halo particles are
  *   sources that are not targets, probes (points where a field is wanted) are targets with the volume 0.
  *   Lists must hold every source with r < support * h_i (more do no harm) and not the particle itself. h is the target's: h_i.
@@ -21,13 +22,16 @@
  *
  * ANSWERS of list-tier functions: the number of targets that are not ok (0: all well), or a negative sph_error, and then nothing was written. The optional array `status`
  *   says more per particle (sph_status). Outputs of a target that is SPH_TOO_FEW, SPH_SINGULAR, SPH_NOT_AVAILABLE or SPH_NOT_FINITE are 0: never a NaN.
+ *   (What is both input and output, the h of sph_density_adaptive, stays positive.)
  *   With SPH_CHECK = 1 every call scans all positions, h and values and its part of the list first, so call it on long ranges, or switch the scan off.
  *
  * INDEX   (k: kernel, dim: dimension, ...: first, last, points, list, h, V)
- *   views          sph_points_separate  sph_points_interleaved  sph_points_strided  sph_scalars_array  sph_scalars_strided  sph_scalars_same
+ *   views          sph_points_separate  sph_points_interleaved  sph_points_strided  sph_points_periodic  sph_scalars_array  sph_scalars_strided  sph_scalars_same
  *   vectors        sph_dot  sph_scale  sph_subtract  sph_length
  *   interpolation  sph_shepard_sum(k, dim, ..., out)                                     gamma_i = sum_j V_j W_ij, the particle itself included
  *                  sph_interpolate_shepard(k, dim, ..., f, out, status)                  sum_j V_j f_j W_ij / gamma_i
+ *   density        sph_density_summation(k, dim, ..., m, rho)                            sum_j m_j W_ij, the particle itself included
+ *                  sph_density_adaptive(k, dim, ..., reach, m, eta, tolerance, h, rho, omega, status)   with the h that belongs to it, and Omega
  *   gradients      sph_gradient_difference(k, dim, ..., f, gx, gy, gz)                   sum_j V_j (f_j - f_i) grad_i W_ij; not corrected
  *                  sph_gradient_cspm(k, dim, ..., f, gx, gy, gz, conditioning, status)   renormalised: exact for linear fields
  *                  sph_gradient_rows_cspm(k, dim, ..., wx, wy, wz, conditioning, status) the same as stencil rows
@@ -43,7 +47,8 @@
  *                  sph_derivative_rows_wls(k, dim, ..., d, out)
  *                  sph_second_derivative_bim(k, ..., f, left, right, out, status)        1D, with boundary integrals
  *                  sph_second_derivative_rows_bim(k, ..., left, right, row, status)
- *   pair tier      sph_gradient_pair_difference  sph_laplacian_weight_brookshaw  sph_laplacian_weight_kernel  sph_boundary_weight_bim
+ *   pair tier      sph_density_pair  sph_density_value  sph_density_omega  sph_density_mismatch
+ *                  sph_gradient_pair_difference  sph_laplacian_weight_brookshaw  sph_laplacian_weight_kernel  sph_boundary_weight_bim
  *                  sph_moment_weight_gradient  sph_test_weights_cspm  sph_test_weights_wls  sph_moments_zero  sph_moments_add  sph_moments_add_value
  *                  sph_solve_gradient  sph_solve_cspm  sph_solve_block  sph_row_cspm  sph_row_block  sph_row_weight  sph_jet_laplacian
  */
@@ -54,6 +59,16 @@
 #if SPH_VERSION != 100
 #error "sph_ops.h and sph_kernels.h are of different releases"
 #endif
+
+/* clang-format off */
+#if SPH_SINGLE && !SPH_OPENCL
+#  define SPHI_COPYSIGN(x, y) copysignf(x, y)
+#  define SPHI_LOG(x) logf(x)
+#else
+#  define SPHI_COPYSIGN(x, y) copysign(x, y)
+#  define SPHI_LOG(x) log(x)
+#endif
+/* clang-format on */
 
 /* ================================================================ vectors */
 
@@ -120,6 +135,43 @@ SPH_FN sph_real sph_boundary_weight_bim(sph_kernel k, sph_real x_i, sph_real x_b
 {
     const sph_real e = x_b - x_i;
     return SPH_R(2) * normal * sph_kernel_w(k, 1, SPHI_ABS(e), h) / e;
+}
+
+/* ================================================================ pair tier: density
+ *
+ * With q = r_ij / h_i and W = sigma / h^dim w(q), all that density and smoothing length need are two sums over the neighbours and the particle itself (q = 0):
+ *     S = sum_j m_j w(q),   T = -sum_j m_j q w'(q) >= 0 (for kernels that fall monotonically)
+ *     rho = sigma / h^dim S,   d rho/dh = (rho / h) (T / S - dim),   Omega = 1 + h / (dim rho) d rho/dh = T / (dim S).
+ * h = eta (m / rho)^(1/dim) is sigma S / m = eta^dim, whose left side only grows with h: from sigma w(0) (and whatever coincides with the particle) to
+ * sigma w(0) sum m_j / m: one solution at most, and none if eta^dim lies outside.
+ * Springel & Hernquist 2002, MNRAS 333, 649 (1/Omega is their f_i); Price & Monaghan 2004, MNRAS 348, 139: Omega = 1 - dh/drho sum_j m_j dW_ij(h_i)/dh_i with
+ * dh/drho = -h / (dim rho); the relation of h and rho is (10) of Price 2012, JCP 231, 759. Omega is near 1 where the density is uniform, above 1 where it rises with the distance
+ * from the particle, and 0 for a particle without neighbours.
+ */
+
+typedef struct sph_density_sums {
+    sph_real S, T;
+} sph_density_sums;
+
+/* the contribution of a neighbour at q = r / h; of the particle itself at q = 0 */
+SPH_FN sph_density_sums sph_density_pair(sph_kernel k, int dim, sph_real q, sph_real m_j)
+{
+    sph_density_sums c;
+    c.S = m_j * sph_kernel_shape(k, dim, q);
+    c.T = -m_j * q * q * sph_kernel_shape_f(k, dim, q);
+    return c;
+}
+/* rho = sigma / h^dim S */
+SPH_FN sph_real sph_density_value(sph_kernel k, int dim, sph_density_sums s, sph_real h)
+{
+    return sph_kernel_sigma(k, dim) * sphi_power(SPH_R(1) / h, dim) * s.S;
+}
+/* Omega = T / (dim S): no difference of nearly equal numbers, however few the neighbours */
+SPH_FN sph_real sph_density_omega(int dim, sph_density_sums s) { return s.T / (SPH_R(dim) * s.S); }
+/* ln(eta (m / rho)^(1/dim) / h): 0 for the h that belongs to rho, positive where h is too short. Its derivative by ln h is -Omega. S and m must be positive. */
+SPH_FN sph_real sph_density_mismatch(sph_kernel k, int dim, sph_density_sums s, sph_real m, sph_real eta)
+{
+    return SPHI_LOG(eta) - SPHI_LOG(sph_kernel_sigma(k, dim) * s.S / m) / SPH_R(dim);
 }
 
 /* ================================================================ pair tier: corrected first and second derivatives
@@ -714,6 +766,7 @@ typedef struct sph_points {
     const SPH_GLOBAL sph_real *x, *y, *z; /* y, z are not read below dim 2, 3 */
     size_t stride;                        /* from one particle to the next, in sph_real */
     sph_index n;                          /* number of particles, all sources */
+    sph_vec box;                          /* periodic lengths of the axes; 0: open. Those beyond dim are not read */
 } sph_points;
 
 typedef struct sph_scalars {
@@ -733,6 +786,7 @@ SPH_FN sph_points sph_points_strided(sph_index n, const SPH_GLOBAL sph_real *x, 
     p.z = z;
     p.stride = stride;
     p.n = n;
+    p.box.x = p.box.y = p.box.z = SPH_R(0);
     return p;
 }
 SPH_FN sph_points sph_points_separate(sph_index n, const SPH_GLOBAL sph_real *x, const SPH_GLOBAL sph_real *y, const SPH_GLOBAL sph_real *z)
@@ -743,6 +797,16 @@ SPH_FN sph_points sph_points_separate(sph_index n, const SPH_GLOBAL sph_real *x,
 SPH_FN sph_points sph_points_interleaved(sph_index n, int dim, const SPH_GLOBAL sph_real *xyz)
 {
     return sph_points_strided(n, xyz, dim > 1 && xyz ? xyz + 1 : xyz, dim > 2 && xyz ? xyz + 2 : xyz, (size_t)(dim > 0 ? dim : 0));
+}
+/* The same points in a box that repeats with the lengths lx, ly, lz; 0 leaves an axis open. Every operator then takes the nearest image of each neighbour (BIM, which has
+   ends, excepted). Positions need not be wrapped: they may lie up to a million (2^20) lengths from the origin, and lose that many digits there. Supports must not reach
+   beyond half a length. */
+SPH_FN sph_points sph_points_periodic(sph_points p, sph_real lx, sph_real ly, sph_real lz)
+{
+    p.box.x = lx;
+    p.box.y = ly;
+    p.box.z = lz;
+    return p;
 }
 SPH_FN sph_scalars sph_scalars_strided(const SPH_GLOBAL sph_real *p, size_t stride)
 {
@@ -776,6 +840,25 @@ SPH_FN sph_vec sphi_point(int dim, sph_points p, sph_index i)
     v.y = dim > 1 ? p.y[o] : SPH_R(0);
     v.z = dim > 2 ? p.z[o] : SPH_R(0);
     return v;
+}
+/* d less the nearest multiple of the length, which is 0 for an open axis. Written for loops that must vectorise with SSE2: the rounding is a conversion to int and back (rint and
+   floor are library calls there, and -ffast-math deletes the trick of adding and subtracting 2^52), and an open axis is masked out instead of branched around. The mask
+   also makes a length that is known to be 0 fold away: an int and with 0 is 0 by any rule, a product of reals is not. */
+SPH_FN sph_real sphi_nearest_image(sph_real d, sph_real length)
+{
+    const int periodic = length > SPH_R(0);
+    const sph_real inverse = (sph_real)periodic / (length + (sph_real)!periodic), t = d * inverse;
+    const int images = (int)(t + SPHI_COPYSIGN(SPH_R(0.5), t)) & -periodic;
+    return d - length * (sph_real)images;
+}
+/* a - b, the vector from b to a: between the nearest images if p is periodic. All operators form their pair vectors here. */
+SPH_FN sph_vec sphi_separation(int dim, sph_points p, sph_vec a, sph_vec b)
+{
+    sph_vec d = sph_subtract(dim, a, b);
+    d.x = sphi_nearest_image(d.x, p.box.x);
+    if (dim > 1) d.y = sphi_nearest_image(d.y, p.box.y);
+    if (dim > 2) d.z = sphi_nearest_image(d.z, p.box.z);
+    return d;
 }
 SPH_FN void sphi_put(SPH_GLOBAL sph_real *p, size_t stride, sph_index i, sph_real value)
 {
@@ -839,26 +922,51 @@ SPH_FN int sphi_all_finite(sph_scalars a, sph_index n)
     return !bad;
 }
 
-/* the arguments that all sweeps share; h, V and list as sweeps use them */
-SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V)
+/* One axis: the length, that no radius (support * h) of the largest h reaches beyond half of it, and that the images of positions can be counted in an int. */
+SPH_FN int sphi_check_axis(sph_real length, sph_real largest, const SPH_GLOBAL sph_real *x, size_t stride, sph_index n)
 {
+    const sph_real furthest = SPH_R(1048576) * length;
+    sph_index i;
+    int outside = 0;
+    if (!sphi_finite(length) || length < SPH_R(0)) return SPH_ERROR_BOX;
+    if (!SPH_CHECK || !(length > SPH_R(0))) return 0;
+    if (!sphi_finite(SPH_R(1) / length)) return SPH_ERROR_BOX;                                         /* a denormal number */
+    if (!(largest <= SPH_R(0.5) * length * (SPH_R(1) + SPH_R(4) * SPH_EPSILON))) return SPH_ERROR_BOX; /* a host may have computed h from half the box */
+    for (i = 0; i < n; i++) outside |= !(SPHI_ABS(x[(size_t)i * stride]) <= furthest);
+    return outside ? SPH_ERROR_BOX : 0;
+}
+SPH_FN int sphi_check_box(int dim, sph_points x, sph_real largest)
+{
+    int error = sphi_check_axis(x.box.x, largest, x.x, x.stride, x.n);
+    if (!error && dim > 1) error = sphi_check_axis(x.box.y, largest, x.y, x.stride, x.n);
+    if (!error && dim > 2) error = sphi_check_axis(x.box.z, largest, x.z, x.stride, x.n);
+    return error;
+}
+
+/* The arguments that all sweeps share; h, V and list as sweeps use them. The sums reach as far as support * h. */
+SPH_FN int sphi_check_reach(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_real support, sph_scalars V)
+{
+    sph_real largest = SPH_R(0);
     if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
     if ((int)k < 0 || (int)k >= (int)SPH_KERNEL_COUNT) return SPH_ERROR_KERNEL;
     if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z) || !list.start || !h.p || !V.p) return SPH_ERROR_NULL;
     if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
     if (first < 0 || first > last || last > x.n) return SPH_ERROR_RANGE;
-    if (!SPH_CHECK) return 0;
+    if (!SPH_CHECK) return sphi_check_box(dim, x, largest);
     {
         const sph_index h_count = h.stride ? x.n : 1;
         sph_index i, p;
-        int outside = 0, self = 0;
-        for (i = 0; i < h_count; i++)
+        int outside = 0, self = 0, error;
+        for (i = 0; i < h_count; i++) {
             if (!sphi_finite(sphi_at(h, i)) || !(sphi_at(h, i) > SPH_R(0))) return SPH_ERROR_H;
+            if (sphi_at(h, i) > largest) largest = sphi_at(h, i);
+        }
         if (!sphi_all_finite(sph_scalars_strided(x.x, x.stride), x.n)) return SPH_ERROR_POSITION;
         if (dim > 1 && !sphi_all_finite(sph_scalars_strided(x.y, x.stride), x.n)) return SPH_ERROR_POSITION;
         if (dim > 2 && !sphi_all_finite(sph_scalars_strided(x.z, x.stride), x.n)) return SPH_ERROR_POSITION;
         if (!sphi_all_finite(V, x.n)) return SPH_ERROR_VALUE;
-        if (first == last) return 0;
+        error = sphi_check_box(dim, x, support * largest);
+        if (error || first == last) return error;
         if (list.start[first] < 0) return SPH_ERROR_LIST;
         for (i = first; i < last; i++)
             if (list.start[i + 1] < list.start[i]) return SPH_ERROR_LIST;
@@ -873,6 +981,10 @@ SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_index first, sph_index la
         if (self) return SPH_ERROR_SELF;
     }
     return 0;
+}
+SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V)
+{
+    return sphi_check_reach(k, dim, first, last, x, list, h, sph_kernel_support(k), V);
 }
 SPH_FN int sphi_check_field(sph_scalars f, sph_index n)
 {
@@ -893,7 +1005,7 @@ SPH_FN int sphi_singular_status(sph_kernel k, int dim, sph_index i, sph_points x
     sph_index p;
     int count = 0;
     for (p = list.start[i]; p < list.start[i + 1]; p++) {
-        const sph_real r = sph_length(dim, sph_subtract(dim, x_i, sphi_point(dim, x, list.index[p])));
+        const sph_real r = sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, list.index[p])));
         count += r > SPH_R(0) && r < support;
         if (count >= needed) return SPH_SINGULAR;
     }
@@ -917,7 +1029,7 @@ SPH_FN sph_index sph_shepard_sum(sph_kernel k, int dim, sph_index first, sph_ind
         SPH_SUM(sum)
         for (p = list.start[i]; p < list.start[i + 1]; p++) {
             const sph_index j = list.index[p];
-            sum += sphi_at(V, j) * sph_kernel_w(k, dim, sph_length(dim, sph_subtract(dim, x_i, sphi_point(dim, x, j))), h_i);
+            sum += sphi_at(V, j) * sph_kernel_w(k, dim, sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, j))), h_i);
         }
         failed += sphi_store_finite(out, i, sum);
     }
@@ -942,13 +1054,178 @@ SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_index first,
         SPH_SUM(sum, sum_f)
         for (p = list.start[i]; p < list.start[i + 1]; p++) {
             const sph_index j = list.index[p];
-            const sph_real w = sphi_at(V, j) * sph_kernel_w(k, dim, sph_length(dim, sph_subtract(dim, x_i, sphi_point(dim, x, j))), h_i);
+            const sph_real w = sphi_at(V, j) * sph_kernel_w(k, dim, sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, j))), h_i);
             sum += w;
             sum_f += w * sphi_at(f, j);
         }
         if (!(sum > SPH_R(0))) state = SPH_TOO_FEW;
         else if (!sphi_finite(sum_f / sum)) state = SPH_NOT_FINITE;
         out[i] = state ? SPH_R(0) : sum_f / sum;
+        if (status) status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* ================================================================ list tier: density */
+
+/* rho_i = sum_j m_j W_ij(h_i), the particle itself included (its mass counts; 0 for a probe): error O(h^2) in the interior of a regular cloud, about rho/2 at a free
+   surface. h is given: for one that follows rho see below. */
+SPH_FN sph_index sph_density_summation(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars m,
+                                       SPH_GLOBAL sph_real *rho)
+{
+    return sph_shepard_sum(k, dim, first, last, x, list, h, m, rho); /* the same sum, with m for V */
+}
+
+SPH_FN sph_density_sums sphi_density_sums(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list, sph_real h_i, sph_scalars m)
+{
+    const sph_vec x_i = sphi_point(dim, x, i);
+    const sph_real u = SPH_R(1) / h_i;
+    sph_density_sums sums = sph_density_pair(k, dim, SPH_R(0), sphi_at(m, i));
+    sph_real S = sums.S, T = sums.T;
+    sph_index p;
+    SPH_SUM(S, T)
+    for (p = list.start[i]; p < list.start[i + 1]; p++) {
+        const sph_index j = list.index[p];
+        const sph_density_sums c = sph_density_pair(k, dim, u * sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, j))), sphi_at(m, j));
+        S += c.S;
+        T += c.T;
+    }
+    sums.S = S;
+    sums.T = T;
+    return sums;
+}
+
+/* an h just so short that only coincident neighbours are in the support */
+SPH_FN sph_real sphi_density_h_alone(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list)
+{
+    const sph_vec x_i = sphi_point(dim, x, i);
+    sph_real nearest = SPH_R(0);
+    sph_index p;
+    for (p = list.start[i]; p < list.start[i + 1]; p++) {
+        const sph_real r = sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, list.index[p])));
+        if (r > SPH_R(0) && (!(nearest > SPH_R(0)) || r < nearest)) nearest = r;
+    }
+    return nearest / sph_kernel_support(k) * (SPH_R(1) - SPH_R(8) * SPH_EPSILON);
+}
+
+/* Newton's method in ln h (exact in one step where rho h^dim is a power of h) between bounds low < root <= high as far as they are known (0: not yet). A step that leaves the
+   bounds, or follows one that did not halve the mismatch, is replaced: by the longest h while there is no upper bound, by the shortest that can matter while there is no
+   lower one, else by bisection in ln h. A mismatch is halved at most 64 times, and bounds as far apart as numbers can be close in at most 64: hence the number of steps. */
+enum { SPHI_DENSITY_STEPS = 130 };
+SPH_FN int sphi_density_solve(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list, sph_real longest, sph_scalars m, sph_real eta,
+                              sph_real tolerance, SPH_GLOBAL sph_real *h, sph_density_sums *sums)
+{
+    sph_real at = *h < longest ? *h : longest, low = SPH_R(0), high = SPH_R(0), least = SPH_R(-1);
+    int step;
+    for (step = 0; step < (int)SPHI_DENSITY_STEPS; step++) {
+        sph_real mismatch = SPH_R(1), next = SPH_R(0);
+        *sums = sphi_density_sums(k, dim, i, x, list, at, m);
+        *h = at;
+        if (!sphi_finite(sums->S) || !sphi_finite(sums->T)) return SPH_NOT_FINITE;
+        if (sums->S > SPH_R(0)) { /* else negative lobes or masses outweigh the rest, as if it were too short */
+            mismatch = sph_density_mismatch(k, dim, *sums, sphi_at(m, i), eta);
+            if (!sphi_finite(mismatch)) return SPH_NOT_FINITE;
+            if (SPHI_ABS(SPHI_EXP(mismatch) - SPH_R(1)) <= tolerance) return SPH_OK;
+        }
+        if (mismatch > SPH_R(0)) {
+            if (!(at < longest)) return SPH_LIST_TOO_SHORT;
+            low = at;
+        } else {
+            if (!(SPHI_ABS(sums->T) > SPH_R(0))) return SPH_SINGULAR;
+            high = at;
+        }
+        if (low > SPH_R(0) && high > SPH_R(0) && !(high - low > SPH_R(4) * SPH_EPSILON * high)) return SPH_ILL_CONDITIONED;
+        if (sums->S > SPH_R(0) && sums->T > SPH_R(0) && (least < SPH_R(0) || SPHI_ABS(mismatch) <= SPH_R(0.5) * least)) {
+            const sph_real e = mismatch / sph_density_omega(dim, *sums);
+            least = SPHI_ABS(mismatch);
+            if (SPHI_ABS(e) < SPH_R(40)) next = at * SPHI_EXP(e);
+            if (!(next > low && next < (high > SPH_R(0) ? high : longest))) next = SPH_R(0);
+        }
+        if (!(next > SPH_R(0))) {
+            if (!(high > SPH_R(0))) next = longest;
+            else if (low > SPH_R(0)) next = SPHI_SQRT(low) * SPHI_SQRT(high);
+            else next = sphi_density_h_alone(k, dim, i, x, list);
+        }
+        if (!(next > SPH_R(0))) return SPH_SINGULAR;
+        at = next;
+    }
+    return SPH_ILL_CONDITIONED;
+}
+
+/* Where h would have to be longer than the list allows: SPH_LIST_TOO_SHORT and an h to build the next one for, or SPH_TOO_FEW if no list could help. */
+SPH_FN int sphi_density_longer(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list, sph_scalars m, sph_real eta, sph_density_sums sums,
+                               SPH_GLOBAL sph_real *h)
+{
+    sph_real longest = SPH_R(0), grow = SPH_R(2);
+    sph_index p;
+    if (x.box.x > SPH_R(0)) longest = x.box.x;
+    if (dim > 1 && x.box.y > SPH_R(0) && !(longest > SPH_R(0) && longest < x.box.y)) longest = x.box.y;
+    if (dim > 2 && x.box.z > SPH_R(0) && !(longest > SPH_R(0) && longest < x.box.z)) longest = x.box.z;
+    longest *= SPH_R(0.5) / sph_kernel_support(k);
+    if (longest > SPH_R(0)) {
+        if (!(*h < longest * (SPH_R(1) - SPH_R(8) * SPH_EPSILON))) return SPH_TOO_FEW;
+    } else if (list.start[i + 1] - list.start[i] >= x.n - 1) { /* the whole cloud: is all its mass at the distance 0 enough? */
+        sph_density_sums all = sph_density_pair(k, dim, SPH_R(0), sphi_at(m, i));
+        for (p = list.start[i]; p < list.start[i + 1]; p++) all.S += sph_density_pair(k, dim, SPH_R(0), sphi_at(m, list.index[p])).S;
+        if (!(all.S > SPH_R(0)) || !(sph_density_mismatch(k, dim, all, sphi_at(m, i), eta) < SPH_R(0))) return SPH_TOO_FEW;
+    }
+    if (sums.S > SPH_R(0) && sums.T > SPH_R(0)) {
+        const sph_real e = sph_density_mismatch(k, dim, sums, sphi_at(m, i), eta) / sph_density_omega(dim, sums);
+        if (e < SPH_R(0.6)) grow = SPH_R(1.05) * SPHI_EXP(e); /* with a margin: an h that is a little too short again would cost another list */
+    }
+    if (!sphi_finite(*h * grow)) return SPH_TOO_FEW;
+    *h = longest > SPH_R(0) && *h * grow > longest ? longest : *h * grow;
+    return SPH_LIST_TOO_SHORT;
+}
+
+/* Density and smoothing length that belong together: h_i = eta (m_i / rho_i)^(1/dim), rho_i = sum_j m_j W_ij(h_i) with the particle itself, to |eta (m_i / rho_i)^(1/dim) / h_i - 1| <=
+   tolerance, and Omega_i = 1 + h_i / (dim rho_i) sum_j m_j dW_ij/dh_i, the factor of equations of motion with that h (see the pair tier: sources, sign). On a lattice of
+   spacing dx, h = eta dx but for the kernel's error there. Never diverges; a good guess costs two or three passes over the row.
+   eta       > 0; sph_kernel_h_over_dx(k) is the usual one.   tolerance: in [0, 1); 1e-3 is usual; less than 64 round-offs counts as that.
+   reach     row i of the list holds every source with r < reach_i: h_i is never made longer than reach_i / support. At most half a periodic length.
+   h         in: a guess for the targets (any positive number); out: the result. n numbers, one a particle, like rho, omega (may be null) and status (may be null).
+   SPH_LIST_TOO_SHORT   h would have to be longer. h[i] is the one to try next (at most twice the longest that was allowed), rho and omega are those at reach_i / support. Build a
+                        list that is longer where h[i] * support exceeds reach_i and call again; or stop at the longest h that makes sense, and keep rho and omega.
+   SPH_TOO_FEW          no h will do, because all the sources there are (or, in a periodic box, all within half of it) have too little mass: a particle alone, for which
+                        rho h^dim is a constant and every h or none fits. h[i] = reach_i / support, rho and omega 0.
+   SPH_SINGULAR         no h is short enough: the particle (and what coincides with it) has more than eta^dim allows at any h: eta is too small, or particles have clumped in
+                        one point. rho and omega 0, h[i] too short to hold any other particle (or the guess, if that was).
+   SPH_NOT_AVAILABLE    m_i is not positive: rho and omega 0, h[i] as it was.
+   SPH_ILL_CONDITIONED  rho jumps across the solution, as kernels do that are cut off at their edge (the Gaussians): h[i] is the place of the jump, the rest as computed there.
+   SPH_NOT_FINITE       the sums overflowed: rho and omega 0, h[i] where that happened.
+   Besides the errors of all sweeps: SPH_ERROR_H for a guess or a reach that is not finite and positive, SPH_ERROR_VALUE for eta or tolerance out of range, SPH_ERROR_BOX for a reach
+   beyond half the box. Ranges may run in parallel: of h only the range's own entries are read. */
+SPH_FN sph_index sph_density_adaptive(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars reach, sph_scalars m,
+                                      sph_real eta, sph_real tolerance, SPH_GLOBAL sph_real *h, SPH_GLOBAL sph_real *rho, SPH_GLOBAL sph_real *omega,
+                                      SPH_GLOBAL unsigned char *status)
+{
+    const sph_real least = SPH_R(64) * SPH_EPSILON, accepted = tolerance > least ? tolerance : least;
+    const int error = sphi_check_reach(k, dim, first, last, x, list, reach, SPH_R(1), m);
+    sph_index i, failed = 0;
+    if (error) return error;
+    if (!h || !rho) return SPH_ERROR_NULL;
+    if (!sphi_finite(eta) || !(eta > SPH_R(0)) || !sphi_finite(tolerance) || tolerance < SPH_R(0) || !(tolerance < SPH_R(1))) return SPH_ERROR_VALUE;
+    if (SPH_CHECK)
+        for (i = first; i < last; i++)
+            if (!sphi_finite(h[i]) || !(h[i] > SPH_R(0))) return SPH_ERROR_H;
+    for (i = first; i < last; i++) {
+        const sph_real longest = sphi_at(reach, i) / sph_kernel_support(k);
+        sph_density_sums sums = sph_density_pair(k, dim, SPH_R(0), SPH_R(0));
+        sph_real density = SPH_R(0), factor = SPH_R(0);
+        int state = SPH_NOT_AVAILABLE;
+        if (sphi_at(m, i) > SPH_R(0)) {
+            state = sphi_density_solve(k, dim, i, x, list, longest, m, eta, accepted, &h[i], &sums);
+            if (state == SPH_OK || state == SPH_ILL_CONDITIONED || state == SPH_LIST_TOO_SHORT) {
+                density = sph_density_value(k, dim, sums, h[i]);
+                factor = sums.S > SPH_R(0) ? sph_density_omega(dim, sums) : SPH_R(0);
+                if (!sphi_finite(density) || !sphi_finite(factor)) state = SPH_NOT_FINITE;
+            }
+            if (state == SPH_LIST_TOO_SHORT) state = sphi_density_longer(k, dim, i, x, list, m, eta, sums, &h[i]);
+        }
+        if (state == SPH_TOO_FEW || state == SPH_NOT_FINITE) density = factor = SPH_R(0);
+        rho[i] = density;
+        if (omega) omega[i] = factor;
         if (status) status[i] = (unsigned char)state;
         failed += state != SPH_OK;
     }
@@ -973,7 +1250,7 @@ SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_index first,
         SPH_SUM(sx, sy, sz)
         for (p = list.start[i]; p < list.start[i + 1]; p++) {
             const sph_index j = list.index[p];
-            const sph_vec x_ij = sph_subtract(dim, x_i, sphi_point(dim, x, j));
+            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
             const sph_vec g = sph_gradient_pair_difference(k, dim, x_ij, sph_length(dim, x_ij), h_i, sphi_at(V, j), f_i, sphi_at(f, j));
             sx += g.x;
             sy += g.y;
@@ -1000,7 +1277,7 @@ SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points
     SPH_SUM(xx, xy, yy, xz, yz, zz, sx, sy, sz)
     for (p = list.start[i]; p < list.start[i + 1]; p++) {
         const sph_index j = list.index[p];
-        const sph_vec e = sph_subtract(dim, sphi_point(dim, x, j), x_i);
+        const sph_vec e = sphi_separation(dim, x, sphi_point(dim, x, j), x_i);
         const sph_vec we = sph_scale(sph_moment_weight_gradient(k, dim, sph_length(dim, e), h_i, sphi_at(V, j)), e);
         const sph_real df = with_f ? sphi_at(f, j) - f_i : SPH_R(0);
         xx += we.x * e.x;
@@ -1087,7 +1364,7 @@ SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_index first, 
         state = sph_solve_gradient(dim, K, &C, &pivot);
         if (state) state = sphi_singular_status(k, dim, i, x, list, h_i, dim);
         for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_vec e = sph_subtract(dim, sphi_point(dim, x, list.index[p]), x_i);
+            const sph_vec e = sphi_separation(dim, x, sphi_point(dim, x, list.index[p]), x_i);
             sph_vec w = sph_scale(SPH_R(0), e);
             if (!state) w = sphi_sym_times(dim, C, sph_scale(sph_moment_weight_gradient(k, dim, sph_length(dim, e), h_i, sphi_at(V, list.index[p])), e));
             wx[p] = w.x;
@@ -1129,7 +1406,7 @@ SPH_FN sph_index sphi_laplacian(int which, sph_kernel k, int dim, sph_index firs
         SPH_SUM(sum)
         for (p = list.start[i]; p < list.start[i + 1]; p++) {
             const sph_index j = list.index[p];
-            sum += sphi_laplacian_weight(which, k, dim, sph_length(dim, sph_subtract(dim, x_i, sphi_point(dim, x, j))), h_i, sphi_at(V, j)) *
+            sum += sphi_laplacian_weight(which, k, dim, sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, j))), h_i, sphi_at(V, j)) *
                    (sphi_at(f, j) - f_i);
         }
         failed += sphi_store_finite(out, i, sum);
@@ -1149,7 +1426,7 @@ SPH_FN sph_index sphi_laplacian_rows(int which, sph_kernel k, int dim, sph_index
         SPH_EACH
         for (p = list.start[i]; p < list.start[i + 1]; p++) {
             const sph_index j = list.index[p];
-            row[p] = sphi_laplacian_weight(which, k, dim, sph_length(dim, sph_subtract(dim, x_i, sphi_point(dim, x, j))), h_i, sphi_at(V, j));
+            row[p] = sphi_laplacian_weight(which, k, dim, sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, j))), h_i, sphi_at(V, j));
         }
         failed += sphi_row_finite(row, list.start[i], list.start[i + 1]);
     }
@@ -1204,7 +1481,7 @@ SPH_FN int sphi_tile_gather(int dim, int with_f, sphi_tile *t, sph_vec x_i, sph_
     int c, l;
     for (c = 0; c < n; c++) {
         const sph_index j = index[c];
-        const sph_vec e = sph_scale(u, sph_subtract(dim, sphi_point(dim, x, j), x_i));
+        const sph_vec e = sph_scale(u, sphi_separation(dim, x, sphi_point(dim, x, j), x_i));
         t->x[c] = e.x;
         if (dim > 1) t->y[c] = e.y;
         if (dim > 2) t->z[c] = e.z;
@@ -1270,7 +1547,6 @@ SPH_FN void sphi_moments(int method, sph_kernel k, int dim, int with_f, sph_inde
                 }
             }
     }
-    *m = sph_moments_zero(); /* also what dim leaves out: a compiler that does not know dim would warn */
     *m = sph_moments_zero(); /* what dim leaves out, too: a compiler that does not know dim would warn */
     SPHI_MATRIX(dim, SPHI_LANE_SUM)
     if (with_f) { SPHI_VALUE(dim, SPHI_LANE_SUM) }
@@ -1385,7 +1661,7 @@ SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_ind
         else {
             for (p = list.start[i]; p < list.start[i + 1]; p++) {
                 const sph_index j = list.index[p];
-                const sph_vec e = sph_scale(u, sph_subtract(dim, sphi_point(dim, x, j), x_i));
+                const sph_vec e = sph_scale(u, sphi_separation(dim, x, sphi_point(dim, x, j), x_i));
                 row[p] = sph_row_weight(dim, c, e, sphi_test_weights(method, k, dim, sph_length(dim, e), sphi_at(V, j)));
                 sum += row[p];
             }
@@ -1428,6 +1704,7 @@ SPH_FN sph_index sph_derivative_rows_wls(sph_kernel k, int dim, sph_index first,
 
 SPH_FN int sphi_check_ends(sph_points x, sph_index left, sph_index right)
 {
+    if (x.box.x > SPH_R(0)) return SPH_ERROR_BOX; /* a periodic axis has no ends */
     if (left < 0 || left >= x.n || right < 0 || right >= x.n) return SPH_ERROR_RANGE;
     return x.x[(size_t)left * x.stride] < x.x[(size_t)right * x.stride] ? 0 : SPH_ERROR_POSITION;
 }

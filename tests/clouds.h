@@ -181,12 +181,17 @@ static inline void cloud_set(cloud *c, field_fn *f)
 /* The lists. The radius is a little longer than the support: entries beyond it do no harm, and operators must not mind. */
 static inline void cloud_neighbors(cloud *c, double radius)
 {
-    void *const work = cloud_memory(sph_neighbors_workspace(c->n), 1);
+    const size_t size = sph_grid_workspace(c->dim, c->n);
+    void *const work = cloud_memory(size, 1);
+    const sph_real reach = SPH_R(radius);
+    const sph_scalars R = sph_scalars_same(&reach);
+    sph_grid g;
     free(c->index);
     c->index = 0;
-    if (sph_neighbors_count(c->dim, cloud_points(c), SPH_R(radius), work, c->start, &c->pairs) != 0) abort();
+    if (sph_grid_build(c->dim, cloud_points(c), reach, work, size, &g) != 0) abort();
+    if (sph_grid_lists(c->dim, &g, cloud_points(c), SPH_GATHER, R, R, 0, c->start, 0, 0, &c->pairs) != 0) abort();
     c->index = (sph_index *)cloud_memory((size_t)c->pairs, sizeof *c->index);
-    if (sph_neighbors_fill(c->dim, cloud_points(c), SPH_R(radius), work, c->start, c->index, c->pairs) != 0) abort();
+    if (sph_grid_lists(c->dim, &g, cloud_points(c), SPH_GATHER, R, R, 0, c->start, c->index, c->pairs, &c->pairs) != 0) abort();
     free(work);
 }
 

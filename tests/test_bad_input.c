@@ -624,86 +624,253 @@ static void test_bim(void)
 
 /* ---- neighbour search ---- */
 
-static void test_search(void)
+static void test_grid_build(void)
 {
     enum { N = 7 };
-    static const sph_real radii[] = {SPH_R(0), SPH_R(-1), SPH_R(NAN), SPH_R(INFINITY)};
+    static const sph_real wrong[] = {SPH_R(0), SPH_R(-1), SPH_R(NAN), SPH_R(INFINITY)};
     sph_real x[N], y[N], z[N];
-    sph_index start[N + 1], index[N * N];
+    const sph_real reach = SPH_R(0.3);
     sph_points p, q;
-    int64_t pairs = -5;
-    void *const work = cloud_memory(sph_neighbors_workspace(N), 1), *const copy = cloud_memory(sph_neighbors_workspace(N), 1);
-    const sph_real radius = SPH_R(0.3);
+    sph_grid g, untouched;
     int i, dim, which;
-    memset(start, 0x55, sizeof start);
-    memset(index, 0x55, sizeof index);
-    memset(work, 0x55, sph_neighbors_workspace(N));
-    memset(copy, 0x55, sph_neighbors_workspace(N));
+
+    CHECK(sph_grid_workspace(0, N) == 0);
+    CHECK(sph_grid_workspace(4, N) == 0);
+    CHECK(sph_grid_workspace(-1, N) == 0);
+    memset(&g, 0x55, sizeof g);
+    memset(&untouched, 0x55, sizeof untouched);
     for (i = 0; i < N; i++) {
         x[i] = SPH_R(0.1 * i);
         y[i] = SPH_R(0.05 * i);
         z[i] = SPH_R(0.02 * i);
     }
     p = sph_points_separate(N, x, y, z);
-
-    CHECK(sph_neighbors_workspace(0) == 0);
-    CHECK(sph_neighbors_workspace(-1) == 0);
-    CHECK(sph_neighbors_workspace(1) > 0 && sph_neighbors_workspace(2) > sph_neighbors_workspace(1));
-
-#define BOTH(dim, points, radius, w, s, error) \
-    do { \
-        CHECK(sph_neighbors_count(dim, points, radius, w, s, &pairs) == (error)); \
-        CHECK(sph_neighbors_fill(dim, points, radius, w, s, index, N *N) == (error)); \
-    } while (0)
-    BOTH(0, p, radius, work, start, SPH_ERROR_DIM);
-    BOTH(4, p, radius, work, start, SPH_ERROR_DIM);
-    BOTH(-1, p, radius, work, start, SPH_ERROR_DIM);
     for (dim = 1; dim <= 3; dim++) {
-        BOTH(dim, p, radius, 0, start, SPH_ERROR_NULL);
-        BOTH(dim, p, radius, work, 0, SPH_ERROR_NULL);
-        for (i = 0; i < dim; i++) { /* each coordinate that is read: missing, NaN, infinite */
+        const size_t size = sph_grid_workspace(dim, N);
+        unsigned char *const work = (unsigned char *)cloud_memory(size, 1), *const copy = (unsigned char *)cloud_memory(size, 1);
+        memset(work, 0x55, size);
+        memset(copy, 0x55, size);
+        CHECK(sph_grid_workspace(dim, 0) == 0);
+        CHECK(sph_grid_workspace(dim, -1) == 0);
+        CHECK(sph_grid_workspace(dim, 1) > 0);
+
+        CHECK(sph_grid_build(0, p, reach, work, size, &g) == SPH_ERROR_DIM);
+        CHECK(sph_grid_build(4, p, reach, work, size, &g) == SPH_ERROR_DIM);
+        CHECK(sph_grid_build(-1, p, reach, work, size, &g) == SPH_ERROR_DIM);
+        CHECK(sph_grid_build(dim, p, reach, 0, size, &g) == SPH_ERROR_NULL);
+        CHECK(sph_grid_build(dim, p, reach, work, size, 0) == SPH_ERROR_NULL);
+        for (i = 0; i < dim; i++) { /* each coordinate that is read: missing, NaN, infinite; each length of the box */
             sph_real *const coordinate = i == 0 ? x : i == 1 ? y : z;
             q = p;
             if (i == 0) q.x = 0;
             if (i == 1) q.y = 0;
             if (i == 2) q.z = 0;
-            BOTH(dim, q, radius, work, start, SPH_ERROR_NULL);
+            CHECK(sph_grid_build(dim, q, reach, work, size, &g) == SPH_ERROR_NULL);
             for (which = 0; which < 2; which++) {
                 const sph_real kept = coordinate[N - 1];
                 coordinate[N - 1] = which ? SPH_R(INFINITY) : SPH_R(NAN);
-                BOTH(dim, p, radius, work, start, SPH_ERROR_POSITION);
+                CHECK(sph_grid_build(dim, p, reach, work, size, &g) == SPH_ERROR_POSITION);
                 coordinate[N - 1] = kept;
+            }
+            for (which = 0; which < 4; which++) {
+                const sph_real lengths[] = {SPH_R(-1), SPH_R(NAN), SPH_R(INFINITY), SPH_R(0.59)};
+                q = sph_points_periodic(p, i == 0 ? lengths[which] : SPH_R(0), i == 1 ? lengths[which] : SPH_R(0), i == 2 ? lengths[which] : SPH_R(0));
+                CHECK(sph_grid_build(dim, q, reach, work, size, &g) == SPH_ERROR_BOX);
             }
         }
         q = p;
         q.n = 0;
-        BOTH(dim, q, radius, work, start, SPH_ERROR_COUNT);
+        CHECK(sph_grid_build(dim, q, reach, work, size, &g) == SPH_ERROR_COUNT);
         q.n = -1;
-        BOTH(dim, q, radius, work, start, SPH_ERROR_COUNT);
+        CHECK(sph_grid_build(dim, q, reach, work, size, &g) == SPH_ERROR_COUNT);
         q = p;
         q.stride = 0;
-        BOTH(dim, q, radius, work, start, SPH_ERROR_COUNT);
-        for (i = 0; i < 4; i++) BOTH(dim, p, radii[i], work, start, SPH_ERROR_H);
-        CHECK(sph_neighbors_count(dim, p, radius, work, start, 0) == SPH_ERROR_NULL);
+        CHECK(sph_grid_build(dim, q, reach, work, size, &g) == SPH_ERROR_COUNT);
+        for (i = 0; i < 4; i++) CHECK(sph_grid_build(dim, p, wrong[i], work, size, &g) == SPH_ERROR_H);
+        CHECK(sph_grid_build(dim, p, reach, work, size - 1, &g) == SPH_ERROR_CAPACITY);
+        CHECK(sph_grid_build(dim, p, reach, work, 0, &g) == SPH_ERROR_CAPACITY);
+        CHECK(memcmp(work, copy, size) == 0);
+        CHECK(memcmp(&g, &untouched, sizeof g) == 0);
+        /* what is not read may be missing */
+        CHECK(sph_grid_build(dim, sph_points_separate(N, x, dim > 1 ? y : 0, dim > 2 ? z : 0), reach, work, size, &g) == 0);
+        memset(&g, 0x55, sizeof g);
+        free(work);
+        free(copy);
     }
-#undef BOTH
-    CHECK(pairs == -5);
-    CHECK(memcmp(work, copy, sph_neighbors_workspace(N)) == 0);
-    for (i = 0; i <= N; i++) CHECK(memcmp(&start[i], copy, sizeof *start) == 0);
-    for (i = 0; i < N * N; i++)
-        if (memcmp(&index[i], copy, sizeof *index) != 0) break;
-    CHECK(i == N * N);
+}
 
-    q = sph_points_separate(N, x, 0, 0); /* what is not read may be missing */
-    CHECK(sph_neighbors_count(1, q, radius, work, start, &pairs) == 0);
-    CHECK(pairs > 0);
-    CHECK(sph_neighbors_fill(1, q, radius, work, start, 0, pairs) == SPH_ERROR_NULL);
-    CHECK(sph_neighbors_fill(1, q, radius, work, start, index, pairs - 1) == SPH_ERROR_CAPACITY);
-    CHECK(sph_neighbors_fill(1, q, radius, work, start, index, -1) == SPH_ERROR_CAPACITY);
-    CHECK(memcmp(&index[0], copy, sizeof *index) == 0);
-    CHECK(sph_neighbors_fill(1, q, radius, work, start, index, pairs) == 0);
-    free(work);
-    free(copy);
+static void test_grid_lists(void)
+{
+    enum { N = 7 };
+    sph_real x[N], y[N], z[N], R[N];
+    const sph_real reach = SPH_R(0.3);
+    const sph_scalars same = sph_scalars_same(&reach), each = sph_scalars_array(R);
+    sph_scalars none = same;
+    sph_index start[N + 2], index[N * N], untouched[N * N];
+    sph_points p, q;
+    int64_t pairs = -5;
+    int i, dim, which, flags;
+    memset(start, 0x55, sizeof start);
+    memset(index, 0x55, sizeof index);
+    none.p = 0;
+    for (i = 0; i < N; i++) {
+        x[i] = SPH_R(0.1 * i);
+        y[i] = SPH_R(0.05 * i);
+        z[i] = SPH_R(0.02 * i);
+        R[i] = reach;
+    }
+    for (dim = 1; dim <= 3; dim++) {
+        const size_t size = sph_grid_workspace(dim, N);
+        void *const work = cloud_memory(size, 1);
+        sph_grid g;
+        p = sph_points_separate(N, x, dim > 1 ? y : 0, dim > 2 ? z : 0);
+        CHECK(sph_grid_build(dim, p, reach, work, size, &g) == 0);
+/* counting and filling */
+#define BOTH(dim, grid, targets, criterion, target, source, flags, s, error) \
+    do { \
+        CHECK(sph_grid_lists(dim, grid, targets, criterion, target, source, flags, s, 0, 0, &pairs) == (error)); \
+        CHECK(sph_grid_lists(dim, grid, targets, criterion, target, source, flags, s, index, N *N, &pairs) == (error)); \
+    } while (0)
+        for (flags = 0; flags <= SPH_LIST_FOREIGN; flags += SPH_LIST_FOREIGN) {
+            BOTH(0, &g, p, SPH_GATHER, same, same, flags, start, SPH_ERROR_DIM);
+            BOTH(4, &g, p, SPH_GATHER, same, same, flags, start, SPH_ERROR_DIM);
+            BOTH(dim == 1 ? 2 : dim - 1, &g, sph_points_separate(N, x, y, z), SPH_GATHER, same, same, flags, start, SPH_ERROR_DIM); /* not the grid's */
+            BOTH(dim, 0, p, SPH_GATHER, same, same, flags, start, SPH_ERROR_NULL);
+            BOTH(dim, &g, p, SPH_GATHER, same, same, flags, 0, SPH_ERROR_NULL);
+            BOTH(dim, &g, p, SPH_GATHER, none, same, flags, start, SPH_ERROR_NULL);
+            BOTH(dim, &g, p, SPH_SCATTER, same, none, flags, start, SPH_ERROR_NULL);
+            for (which = SPH_LARGER; which <= SPH_MEAN; which++) {
+                BOTH(dim, &g, p, which, none, same, flags, start, SPH_ERROR_NULL);
+                BOTH(dim, &g, p, which, same, none, flags, start, SPH_ERROR_NULL);
+            }
+            BOTH(dim, &g, p, -1, same, same, flags, start, SPH_ERROR_VALUE);
+            BOTH(dim, &g, p, SPH_MEAN + 1, same, same, flags, start, SPH_ERROR_VALUE);
+            BOTH(dim, &g, p, SPH_GATHER, same, same, flags | 16, start, SPH_ERROR_VALUE);
+            BOTH(dim, &g, p, SPH_GATHER, same, same, -1, start, SPH_ERROR_VALUE);
+            CHECK(sph_grid_lists(dim, &g, p, SPH_GATHER, same, same, flags, start, index, -1, &pairs) == SPH_ERROR_VALUE);
+            CHECK(sph_grid_lists(dim, &g, p, SPH_GATHER, same, same, flags, start, 0, 0, 0) == SPH_ERROR_NULL);
+            CHECK(sph_grid_lists(dim, &g, p, SPH_GATHER, same, same, flags, start, index, N * N, 0) == SPH_ERROR_NULL);
+            for (i = 0; i < dim; i++) {
+                sph_real *const coordinate = i == 0 ? x : i == 1 ? y : z;
+                q = p;
+                if (i == 0) q.x = 0;
+                if (i == 1) q.y = 0;
+                if (i == 2) q.z = 0;
+                BOTH(dim, &g, q, SPH_GATHER, same, same, flags, start, SPH_ERROR_NULL);
+                for (which = 0; which < 2; which++) {
+                    const sph_real kept = coordinate[N - 1];
+                    coordinate[N - 1] = which ? SPH_R(INFINITY) : SPH_R(NAN);
+                    BOTH(dim, &g, p, SPH_GATHER, same, same, flags, start, SPH_ERROR_POSITION);
+                    coordinate[N - 1] = kept;
+                }
+            }
+            q = p;
+            q.n = 0;
+            BOTH(dim, &g, q, SPH_GATHER, same, same, flags, start, SPH_ERROR_COUNT);
+            q.n = -1;
+            BOTH(dim, &g, q, SPH_GATHER, same, same, flags, start, SPH_ERROR_COUNT);
+            q = p;
+            q.stride = 0;
+            BOTH(dim, &g, q, SPH_GATHER, same, same, flags, start, SPH_ERROR_COUNT);
+            for (which = 0; which < 5; which++) {
+                const sph_real radii[] = {SPH_R(0), SPH_R(-1), SPH_R(NAN), SPH_R(INFINITY), SPH_R(9.7)}; /* 32 times the reach is the most */
+                R[N - 1] = radii[which];
+                BOTH(dim, &g, p, SPH_GATHER, each, same, flags, start, which < 4 ? SPH_ERROR_H : SPH_ERROR_RADIUS);
+                BOTH(dim, &g, p, SPH_SCATTER, same, each, flags, start, which < 4 ? SPH_ERROR_H : SPH_ERROR_RADIUS);
+                R[N - 1] = reach;
+            }
+        }
+        BOTH(dim, &g, p, SPH_GATHER, same, same, SPH_LIST_FOREIGN | SPH_LIST_SELF, start, SPH_ERROR_VALUE);
+        BOTH(dim, &g, p, SPH_GATHER, same, same, SPH_LIST_FOREIGN | SPH_LIST_HALF, start, SPH_ERROR_VALUE);
+        for (i = 0; i < dim; i++) { /* a radius beyond half the box, though the reach is not */
+            const sph_real radius = SPH_R(0.51), one = SPH_R(1);
+            sph_grid boxed;
+            void *const other = cloud_memory(size, 1);
+            CHECK(sph_grid_build(dim, sph_points_periodic(p, i == 0 ? one : SPH_R(0), i == 1 ? one : SPH_R(0), i == 2 ? one : SPH_R(0)), reach, other, size,
+                                 &boxed) == 0);
+            BOTH(dim, &boxed, p, SPH_GATHER, sph_scalars_same(&radius), same, 0, start, SPH_ERROR_BOX);
+            BOTH(dim, &boxed, p, SPH_LARGER, same, sph_scalars_same(&radius), 0, start, SPH_ERROR_BOX);
+            free(other);
+        }
+        q = p;
+        q.n = N + 1; /* a target that is no source */
+        BOTH(dim, &g, q, SPH_GATHER, same, same, 0, start, SPH_ERROR_RANGE);
+#undef BOTH
+        free(work);
+    }
+    CHECK(pairs == -5);
+    memset(untouched, 0x55, sizeof untouched);
+    CHECK(memcmp(start, untouched, sizeof start) == 0);
+    CHECK(memcmp(index, untouched, sizeof index) == 0);
+}
+
+static void test_rebuild_due(void)
+{
+    enum { N = 7 };
+    sph_real x[N], y[N], z[N];
+    const sph_real skin = SPH_R(0.1);
+    sph_points p, q;
+    int i, dim, which;
+    for (i = 0; i < N; i++) {
+        x[i] = SPH_R(0.1 * i);
+        y[i] = SPH_R(0.05 * i);
+        z[i] = SPH_R(0.02 * i);
+    }
+    p = sph_points_separate(N, x, y, z);
+    CHECK(sph_rebuild_due(0, p, p, skin) == SPH_ERROR_DIM);
+    CHECK(sph_rebuild_due(4, p, p, skin) == SPH_ERROR_DIM);
+    for (dim = 1; dim <= 3; dim++) {
+        CHECK(sph_rebuild_due(dim, sph_points_separate(N, x, dim > 1 ? y : 0, dim > 2 ? z : 0), p, skin) == 0);
+        for (i = 0; i < dim; i++) {
+            q = p;
+            if (i == 0) q.x = 0;
+            if (i == 1) q.y = 0;
+            if (i == 2) q.z = 0;
+            CHECK(sph_rebuild_due(dim, q, p, skin) == SPH_ERROR_NULL);
+            CHECK(sph_rebuild_due(dim, p, q, skin) == SPH_ERROR_NULL);
+            for (which = 0; which < 3; which++) {
+                const sph_real lengths[] = {SPH_R(-1), SPH_R(NAN), SPH_R(INFINITY)};
+                q = sph_points_periodic(p, i == 0 ? lengths[which] : SPH_R(0), i == 1 ? lengths[which] : SPH_R(0), i == 2 ? lengths[which] : SPH_R(0));
+                CHECK(sph_rebuild_due(dim, q, p, skin) == SPH_ERROR_BOX);
+            }
+        }
+        q = p;
+        q.n = N - 1;
+        CHECK(sph_rebuild_due(dim, q, p, skin) == SPH_ERROR_COUNT);
+        q.n = 0;
+        CHECK(sph_rebuild_due(dim, q, q, skin) == SPH_ERROR_COUNT);
+        q = p;
+        q.stride = 0;
+        CHECK(sph_rebuild_due(dim, q, p, skin) == SPH_ERROR_COUNT);
+        CHECK(sph_rebuild_due(dim, p, q, skin) == SPH_ERROR_COUNT);
+        CHECK(sph_rebuild_due(dim, p, p, SPH_R(-1)) == SPH_ERROR_VALUE);
+        CHECK(sph_rebuild_due(dim, p, p, SPH_R(NAN)) == SPH_ERROR_VALUE);
+    }
+}
+
+static void test_permute(void)
+{
+    enum { N = 4 };
+    const sph_index order[N] = {2, 0, 3, 1}, too_large[N] = {2, 0, 3, N}, negative[N] = {2, 0, 3, -1};
+    const sph_real in[N] = {SPH_R(1), SPH_R(2), SPH_R(3), SPH_R(4)};
+    sph_real out[N] = {SPH_R(-1), SPH_R(-1), SPH_R(-1), SPH_R(-1)};
+    sph_index inverse[N] = {-1, -1, -1, -1};
+    CHECK(sph_permute(N, 0, in, 1, out) == SPH_ERROR_NULL);
+    CHECK(sph_permute(N, order, 0, 1, out) == SPH_ERROR_NULL);
+    CHECK(sph_permute(N, order, in, 1, 0) == SPH_ERROR_NULL);
+    CHECK(sph_permute(-1, order, in, 1, out) == SPH_ERROR_COUNT);
+    CHECK(sph_permute(0, order, in, 1, out) == SPH_ERROR_COUNT);
+    CHECK(sph_permute(N, order, in, 0, out) == SPH_ERROR_COUNT);
+    CHECK(sph_permute(N, too_large, in, 1, out) == SPH_ERROR_LIST);
+    CHECK(sph_permute(N, negative, in, 1, out) == SPH_ERROR_LIST);
+    CHECK(sph_permute_inverse(0, order, inverse) == SPH_ERROR_COUNT);
+    CHECK(sph_permute_inverse(N, too_large, inverse) == SPH_ERROR_LIST);
+    CHECK(sph_permute_inverse(N, negative, inverse) == SPH_ERROR_LIST);
+    CHECK(sph_permute_inverse(N, 0, inverse) == SPH_ERROR_NULL);
+    CHECK(sph_permute_inverse(N, order, 0) == SPH_ERROR_NULL);
+    CHECK(sph_permute_inverse(-1, order, inverse) == SPH_ERROR_COUNT);
+    CHECK(out[0] == SPH_R(-1) && out[1] == SPH_R(-1) && out[2] == SPH_R(-1) && out[3] == SPH_R(-1));
+    CHECK(inverse[0] == -1 && inverse[1] == -1 && inverse[2] == -1 && inverse[3] == -1);
 }
 
 int main(void)
@@ -712,6 +879,9 @@ int main(void)
     test_legal();
     test_degenerate();
     test_bim();
-    test_search();
+    test_grid_build();
+    test_grid_lists();
+    test_rebuild_due();
+    test_permute();
     return check_report("test_bad_input");
 }

@@ -508,14 +508,14 @@ static void test_names(void)
 
 static void test_status_texts(void)
 {
-    const char *unknown = sph_status_text(SPH_NOT_FINITE + 1);
+    const char *unknown = sph_status_text(SPH_LIST_TOO_SHORT + 1);
     int a, b;
-    for (a = SPH_ERROR_CAPACITY; a <= SPH_NOT_FINITE; a++) {
+    for (a = SPH_ERROR_RADIUS; a <= SPH_LIST_TOO_SHORT; a++) {
         CHECK(sph_status_text(a)[0] != '\0');
         CHECK(strcmp(sph_status_text(a), unknown) != 0);
-        for (b = SPH_ERROR_CAPACITY; b < a; b++) CHECK(strcmp(sph_status_text(a), sph_status_text(b)) != 0);
+        for (b = SPH_ERROR_RADIUS; b < a; b++) CHECK(strcmp(sph_status_text(a), sph_status_text(b)) != 0);
     }
-    CHECK(strcmp(sph_status_text(SPH_ERROR_CAPACITY - 1), unknown) == 0);
+    CHECK(strcmp(sph_status_text(SPH_ERROR_RADIUS - 1), unknown) == 0);
     CHECK(strcmp(sph_status_text(SPH_OK), "ok") == 0);
 }
 

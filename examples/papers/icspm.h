@@ -39,7 +39,7 @@ typedef struct line {
     unsigned char *status;
     sph_index *start, *index;
     void *work;
-    size_t pair_capacity, band_capacity;
+    size_t work_size, pair_capacity, band_capacity;
 } line;
 
 static inline void *line_memory(void *old, size_t size)
@@ -60,7 +60,8 @@ static inline void line_open(line *s, int largest)
     for (a = 0; a < sizeof arrays / sizeof *arrays; a++) *arrays[a] = (double *)line_memory(NULL, bytes);
     s->status = (unsigned char *)line_memory(NULL, n);
     s->start = (sph_index *)line_memory(NULL, (n + 1) * sizeof *s->start);
-    s->work = line_memory(NULL, sph_neighbors_workspace(largest));
+    s->work_size = sph_grid_workspace(1, largest);
+    s->work = line_memory(NULL, s->work_size);
     s->index = NULL;
     s->row = s->band = NULL;
     s->pair_capacity = s->band_capacity = 0;
@@ -91,19 +92,30 @@ static inline sph_list line_list(const line *s)
     return l;
 }
 
+/* Lists for one radius into start and, if it is not null, index; returns the number of entries. */
+static inline int64_t line_lists(int dim, const sph_grid *grid, sph_points points, double radius, sph_index *start, sph_index *index, int64_t capacity)
+{
+    const sph_scalars R = sph_scalars_same(&radius);
+    int64_t pairs;
+    line_expect(sph_grid_lists(dim, grid, points, SPH_GATHER, R, R, 0, start, index, capacity, &pairs));
+    return pairs;
+}
+
 /* Neighbours for the smoothing length h, once x and n are set. */
 static inline void line_neighbours(line *s, double h)
 {
     const double radius = h * sph_kernel_support(ICSPM_KERNEL);
+    sph_grid grid;
     int64_t pairs;
     s->h = h;
-    line_expect(sph_neighbors_count(1, line_points(s), radius, s->work, s->start, &pairs));
+    line_expect(sph_grid_build(1, line_points(s), radius, s->work, s->work_size, &grid));
+    pairs = line_lists(1, &grid, line_points(s), radius, s->start, NULL, 0);
     if ((size_t)pairs > s->pair_capacity) {
         s->pair_capacity = (size_t)pairs;
         s->index = (sph_index *)line_memory(s->index, s->pair_capacity * sizeof *s->index);
         s->row = (double *)line_memory(s->row, s->pair_capacity * sizeof *s->row);
     }
-    line_expect(sph_neighbors_fill(1, line_points(s), radius, s->work, s->start, s->index, pairs));
+    line_lists(1, &grid, line_points(s), radius, s->start, s->index, pairs);
 }
 
 /* Volumes from the midpoints between neighbours; the end particles own the half interval. Returns the largest. */

@@ -55,7 +55,9 @@ static errors measure(int method, int dim, int side, double jitter, uint64_t see
     double *const x = memory, *const y = x + n, *const z = y + n, *const V = z + n, *const f = V + n, *const d = f + n;
     unsigned char *const status = (unsigned char *)line_memory(NULL, n);
     sph_index *const start = (sph_index *)line_memory(NULL, (n + 1) * sizeof *start), *index;
-    void *const work = line_memory(NULL, sph_neighbors_workspace(count));
+    const size_t work_size = sph_grid_workspace(dim, count);
+    void *const work = line_memory(NULL, work_size);
+    sph_grid grid;
     sph_derivative_out out = {0};
     sph_points points;
     sph_list list;
@@ -78,9 +80,10 @@ static errors measure(int method, int dim, int side, double jitter, uint64_t see
         z[i] = dim > 2 ? p[2] : 0;
     }
     points = sph_points_separate(count, x, y, z);
-    line_expect(sph_neighbors_count(dim, points, radius, work, start, &pairs));
+    line_expect(sph_grid_build(dim, points, radius, work, work_size, &grid));
+    pairs = line_lists(dim, &grid, points, radius, start, NULL, 0);
     index = (sph_index *)line_memory(NULL, (size_t)pairs * sizeof *index);
-    line_expect(sph_neighbors_fill(dim, points, radius, work, start, index, pairs));
+    line_lists(dim, &grid, points, radius, start, index, pairs);
     list.start = start;
     list.index = index;
     for (i = 0; i < count; i++) {
