@@ -744,18 +744,19 @@ SPH_FN sph_index sph_grid_lists(int dim, const sph_grid *grid, sph_points target
                                 int flags, sph_index *start, sph_index *index, int64_t capacity, int64_t *pairs)
 {
     const int by_source = criterion != SPH_GATHER, by_target = criterion != SPH_SCATTER;
-    const int error = sphi_check_points(dim, targets);
+    int error;
     const int known = SPH_LIST_SELF | SPH_LIST_HALF | SPH_LIST_SORTED | SPH_LIST_FOREIGN;
     sph_real largest = SPH_R(0);
     sphi_job job;
     sph_index i;
     int uniform, plain;
     if (grid && grid->dim != dim) return SPH_ERROR_DIM;
+    if (grid && !(flags & SPH_LIST_FOREIGN) && targets.n > grid->n) return SPH_ERROR_RANGE;
+    error = sphi_check_points(dim, targets);
     if (error) return error;
     if (!grid || !start || !pairs || (by_target && !target_radius.p) || (by_source && !source_radius.p)) return SPH_ERROR_NULL;
     if (criterion < (int)SPH_GATHER || criterion > (int)SPH_MEAN || (flags & ~known) || capacity < 0) return SPH_ERROR_VALUE;
     if ((flags & SPH_LIST_FOREIGN) && (flags & (SPH_LIST_SELF | SPH_LIST_HALF))) return SPH_ERROR_VALUE;
-    if (!(flags & SPH_LIST_FOREIGN) && targets.n > grid->n) return SPH_ERROR_RANGE;
     job.source_largest = SPH_R(0);
     for (i = 0; by_target && i < (target_radius.stride ? targets.n : 1); i++) {
         const sph_real R = sphi_at(target_radius, i);
