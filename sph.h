@@ -471,6 +471,20 @@ SPH_FN int64_t sphi_filter_wide(int dim, const sph_grid *g, const sphi_search *s
     }
     return count;
 }
+/* The same where the room may not do for whole lanes: not the portable loop, because that may be rounded otherwise (where the compiler contracts it to fused operations), and a row would
+   not be as long as it was counted. */
+SPHI_LARGE int64_t sphi_filter_tight(int dim, const sph_grid *g, const sphi_search *s, sph_vec shift, sph_index a, sph_index b, sph_index *out, int64_t room,
+                                     int64_t count)
+{
+    for (; a < b; a += 8) {
+        sph_index some[8];
+        const int64_t found = sphi_filter_wide(dim, g, s, shift, a, b - a < 8 ? b : a + 8, some, 1, 0);
+        int64_t c;
+        for (c = 0; c < found && count + c < room; c++) out[count + c] = some[c];
+        count += found;
+    }
+    return count;
+}
 #endif
 
 SPH_FN int64_t sphi_filter(int dim, int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, sph_index a, sph_index b, sph_index *out,
@@ -478,7 +492,10 @@ SPH_FN int64_t sphi_filter(int dim, int kind, const sph_grid *g, const sphi_sear
 {
 #if SPH_AVX512 || SPH_AVX2
     const int store = count + (int64_t)(b - a) + 8 <= room;
-    if (kind != SPHI_ANY && SPHI_WIDE_PATH && (store || room <= 0)) return sphi_filter_wide(dim, g, s, run->shift, a, b, out, store, count);
+    if (kind != SPHI_ANY && SPHI_WIDE_PATH) {
+        if (store || room <= 0) return sphi_filter_wide(dim, g, s, run->shift, a, b, out, store, count);
+        return sphi_filter_tight(dim, g, s, run->shift, a, b, out, room, count);
+    }
 #endif
     return sphi_filter_portable(dim, kind, g, s, run, a, b, out, room, count);
 }
