@@ -17,8 +17,9 @@
  * Particles in storage order near to the order of the cells (sph_grid_order, sph_permute) make every sweep faster: sort once in a while.
  * Lists can be kept for several steps: build them with the radius + a skin, and again when sph_rebuild_due says so. A workspace may be used again for any cloud that is not larger.
  *
- * Pairs whose distance is within a few rounding errors of the radius (8 units in the last place of the larger of the radius and the coordinates) may be in or out, depending
- * on compiler, flags and path. The same binary gives the same lists, whatever the number of threads.
+ * Pairs whose distance is within a few rounding errors of the radius (8 units in the last place of the radius; in a box, of the largest of radius, box length and coordinates) may be in or out, depending
+ * on compiler, flags and path. The same binary gives the same lists, whatever the number of threads. Under
+ * -ffast-math a pair at just half a periodic box may stand in a row twice, once for each image.
  *
  * INDEX
  *   size_t    sph_grid_workspace(dim, n)                                      bytes of workspace for n sources; 0 if dim or n is bad or too large
@@ -172,6 +173,8 @@ SPH_FN size_t sphi_bucket(int dim, const sph_grid *g, sph_vec p)
     return g->hashed ? b & (g->buckets - 1) : b;
 }
 
+/* positive, and its square far from under- and overflow */
+SPH_FN int sphi_radius_ok(sph_real R) { return sphi_finite(R) && R >= SPHI_TINY && R <= SPH_R(1) / SPHI_TINY; }
 SPH_FN int sphi_check_points(int dim, sph_points x)
 {
     if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
@@ -217,6 +220,14 @@ SPH_FN double sphi_axes(int dim, sph_grid *g, sph_vec low, sph_vec high, sph_rea
     return product;
 }
 
+/* The bucket of a source, and its place inside the box. Compiled once: the counting and the placing loop must agree to the last bit, also where the compiler may round as it
+   likes (-ffast-math), or slots would be left unfilled. */
+SPHI_LARGE size_t sphi_source(int dim, const sph_grid *g, sph_vec x, sph_vec *inside)
+{
+    *inside = sphi_wrap_point(dim, g, x);
+    return sphi_bucket(dim, g, *inside);
+}
+
 SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real reach, sph_grid *g)
 {
     sph_vec low = sphi_point(dim, s, 0), high = low;
@@ -245,7 +256,8 @@ SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real reach, sph_grid *
     /* counting sort: first[b + 2] counts, then first[b + 1] is the next free slot of bucket b, and ends as the first of b + 1 */
     for (b = 0; b < g->buckets + 2; b++) g->first[b] = 0;
     for (i = 0; i < s.n; i++) {
-        const size_t bucket = sphi_bucket(dim, g, sphi_wrap_point(dim, g, sphi_point(dim, s, i)));
+        sph_vec p;
+        const size_t bucket = sphi_source(dim, g, sphi_point(dim, s, i), &p);
         jumps += bucket > last + 2 * SPHI_FINE || bucket + 2 * SPHI_FINE < last;
         last = bucket;
         g->first[bucket + 2]++;
@@ -253,8 +265,8 @@ SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real reach, sph_grid *
     g->scattered = jumps > s.n / 4;
     for (b = 2; b < g->buckets + 2; b++) g->first[b] += g->first[b - 1];
     for (i = 0; i < s.n; i++) {
-        const sph_vec p = sphi_wrap_point(dim, g, sphi_point(dim, s, i));
-        const sph_index slot = g->first[sphi_bucket(dim, g, p) + 1]++;
+        sph_vec p;
+        const sph_index slot = g->first[sphi_source(dim, g, sphi_point(dim, s, i), &p) + 1]++;
         g->member[slot] = i;
         g->x[slot] = p.x;
         if (dim > 1) g->y[slot] = p.y;
@@ -278,7 +290,7 @@ SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_real reach, voi
     if (error) return error;
     if (!work || !grid) return SPH_ERROR_NULL;
     if (sph_grid_workspace(dim, sources.n) == 0) return SPH_ERROR_COUNT;
-    if (!sphi_finite(reach) || !(reach > SPH_R(0))) return SPH_ERROR_H;
+    if (!sphi_radius_ok(reach)) return SPH_ERROR_H;
     if (sphi_check_box(dim, sources, reach)) return SPH_ERROR_BOX;
     if (work_size < sph_grid_workspace(dim, sources.n)) return SPH_ERROR_CAPACITY;
     grid->n = sources.n;
@@ -611,7 +623,7 @@ typedef struct sphi_job {
    where it belongs: for targets stored in an order far from that of the cells, which are then visited by slots, where near targets follow each other. */
 enum { SPHI_APPEND, SPHI_LENGTHS, SPHI_PLACE, SPHI_BUFFER = 1024 };
 
-/* Returns the sum of the lengths. Once that is beyond the room, 2^28 more candidates are looked at; for the rest the number of candidates stands for the number of neighbours: more
+/* One compiled copy for all three, so that a row is placed with the roundings with which it was counted. Returns the sum of the lengths. Once that is beyond the room, 2^28 more candidates are looked at; for the rest the number of candidates stands for the number of neighbours: more
    than enough, and no n^2 steps. */
 SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room)
 {
@@ -629,6 +641,7 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
         int64_t candidates = 0, count;
         sph_index *row = index, p;
         int64_t row_room = left;
+        int buffered;
         if (i >= job->targets.n) continue;
         if (left > 0) row = index + total;
         if (job->by_slots) {
@@ -644,10 +657,9 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
         s.radius = sphi_lesser(kind != SPHI_ANY ? s.own : sphi_pair_radius(job->criterion, s.own, job->source_largest), s.widest);
         s.skip = job->flags & (SPH_LIST_SELF | SPH_LIST_FOREIGN) ? -1 : i;
         s.least = job->flags & SPH_LIST_HALF ? i : 0;
-        if (mode == SPHI_PLACE && row_room <= SPHI_BUFFER / 2) {
-            count = sphi_row(dim, kind, g, &s, 0, buffer, SPHI_BUFFER, &candidates);
-            for (p = 0; p < (sph_index)row_room; p++) row[p] = buffer[p];
-        } else count = sphi_row(dim, kind, g, &s, patience <= 0, row, row_room, &candidates);
+        buffered = mode == SPHI_PLACE && row_room <= SPHI_BUFFER / 2;
+        count = sphi_row(dim, kind, g, &s, patience <= 0, buffered ? buffer : row, buffered ? (int64_t)SPHI_BUFFER : row_room, &candidates);
+        for (p = 0; buffered && p < (sph_index)row_room; p++) row[p] = buffer[p];
         if (patience <= 0) count = candidates;
         if (mode != SPHI_LENGTHS && (job->flags & SPH_LIST_SORTED) && count <= row_room) sphi_sort(row, (sph_index)count);
         if (mode != SPHI_PLACE) {
@@ -661,9 +673,7 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
 #define SPHI_PASS(name, dim, kind) \
     SPHI_LARGE int64_t name(int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room) \
     { \
-        if (mode == SPHI_APPEND) return sphi_pass(dim, kind, SPHI_APPEND, job, first, last, index, room); \
-        if (mode == SPHI_LENGTHS) return sphi_pass(dim, kind, SPHI_LENGTHS, job, first, last, index, room); \
-        return sphi_pass(dim, kind, SPHI_PLACE, job, first, last, index, room); \
+        return sphi_pass(dim, kind, mode, job, first, last, index, room); \
     }
 SPHI_PASS(sphi_pass_any_1, 1, SPHI_ANY)
 SPHI_PASS(sphi_pass_any_2, 2, SPHI_ANY)
@@ -756,7 +766,8 @@ SPHI_LARGE int64_t sphi_lists(const sphi_job *job)
    only; else it must have room for capacity entries (entries beyond *pairs may be overwritten). *pairs is the number of entries of the lists.
    Returns 0 or a negative sph_error. SPH_ERROR_CAPACITY: index has room for fewer than *pairs entries (or sph_index is too small to count them); start and index then hold nothing of
    use, and nothing beyond capacity was written. For a cloud so collapsed that counting would take n^2 steps *pairs is an upper bound. SPH_ERROR_RADIUS: a radius is more than 32 times
-   the reach that the grid was built for. SPH_ERROR_BOX: a radius is more than half of a periodic box. On all errors but SPH_ERROR_CAPACITY nothing is written. */
+   the reach that the grid was built for. SPH_ERROR_BOX: a radius is more than half of a periodic box. SPH_ERROR_H: a radius is
+   not within 1e-150 ... 1e150 (1e-18 ... 1e18 in float), so that its square is a number. On all errors but SPH_ERROR_CAPACITY nothing is written. */
 SPH_FN sph_index sph_grid_lists(int dim, const sph_grid *grid, sph_points targets, int criterion, sph_scalars target_radius, sph_scalars source_radius,
                                 int flags, sph_index *start, sph_index *index, int64_t capacity, int64_t *pairs)
 {
@@ -777,12 +788,12 @@ SPH_FN sph_index sph_grid_lists(int dim, const sph_grid *grid, sph_points target
     job.source_largest = SPH_R(0);
     for (i = 0; by_target && i < (target_radius.stride ? targets.n : 1); i++) {
         const sph_real R = sphi_at(target_radius, i);
-        if (!sphi_finite(R) || !(R > SPH_R(0))) return SPH_ERROR_H;
+        if (!sphi_radius_ok(R)) return SPH_ERROR_H;
         if (R > largest) largest = R;
     }
     for (i = 0; by_source && i < (source_radius.stride ? grid->n : 1); i++) {
         const sph_real R = sphi_at(source_radius, i);
-        if (!sphi_finite(R) || !(R > SPH_R(0))) return SPH_ERROR_H;
+        if (!sphi_radius_ok(R)) return SPH_ERROR_H;
         if (R > job.source_largest) job.source_largest = R;
     }
     if (job.source_largest > largest) largest = job.source_largest;
@@ -847,7 +858,8 @@ SPH_FN int sph_rebuild_due(int dim, sph_points now, sph_points then, sph_real sk
     if (error || error_then) return error ? error : error_then;
     if (now.n != then.n) return SPH_ERROR_COUNT;
     if (!sphi_finite(skin) || skin < SPH_R(0)) return SPH_ERROR_VALUE;
-    if (sphi_check_box(dim, now, SPH_R(0))) return SPH_ERROR_BOX;
+    then.box = now.box;
+    if (sphi_check_box(dim, now, SPH_R(0)) || sphi_check_box(dim, then, SPH_R(0))) return SPH_ERROR_BOX;
     for (i = 0; i < now.n; i++) {
         const sph_vec moved = sphi_separation(dim, now, sphi_point(dim, now, i), sphi_point(dim, then, i));
         if (SPH_R(4) * sph_dot(dim, moved, moved) > skin * skin) return 1;

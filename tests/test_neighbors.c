@@ -3,6 +3,7 @@
  * test_neighbors.c - the neighbour search against all pairs, on clouds of every kind, and nothing written where it must not be.
  *
  *     test_neighbors              the tests
+ *     test_neighbors quick        without those that take seconds
  *     test_neighbors checksums    a line for each of some lists instead, to compare builds and numbers of threads by (tests/compile/paths.sh)
  *
  * Where a list is compared with all pairs, a pair may be in it or not if its distance is within 8 ulp of the support: in an open domain of the support itself, where an axis
@@ -399,7 +400,7 @@ static void test_clouds(void)
     pcg32_seed(&g, 4, 4);
     for (dim = 1; dim <= 3; dim++)
         for (kind = 0; kind < KINDS; kind++) {
-            const sph_index n = dim == 1 ? 101 : dim == 2 ? 196 : 216;
+            const sph_index n = dim == 1 ? 61 : dim == 2 ? 121 : 125;
             const int64_t all = (int64_t)n * (n - 1);
             cloud c = make(kind, dim, n, 0, &g);
             int64_t least, most = -1;
@@ -525,7 +526,7 @@ static void test_boxes(void)
         for (kind = 0; kind < KINDS; kind++)
             for (mask = 1; mask < 1 << dim; mask++)
                 for (r = 0; r < sizeof ratios / sizeof *ratios; r++, turn++) {
-                    cloud c = make(kind, dim, dim == 1 ? 96 : dim == 2 ? 144 : 125, 1, &g);
+                    cloud c = make(kind, dim, dim == 1 ? 96 : dim == 2 ? 144 : 64, 1, &g);
                     sph_real *const coordinate[3] = {c.x, c.y, c.z};
                     const int images = turn % 5 == 3 ? 3 : turn % 5 == 4 ? 40 : 0; /* positions outside of the box */
                     const double length = lengths[turn % 3], shift = turn % 5 == 1 ? -0.5 : turn % 5 == 2 ? 0.77 : 0.0;
@@ -543,6 +544,44 @@ static void test_boxes(void)
                     search(kind_name[kind], dim, sph_points_periodic(points(&c), box[0], box[1], box[2]), (double)box[a] / ratios[r]);
                     cloud_free(&c);
                 }
+}
+
+/* Radii that miss or reach the distance of a pair by twice the tolerance: open, periodic, and periodic with one particle far out, which must not cost the others their digits. */
+static void test_sharp(void)
+{
+    enum { N = 40, PAIRS = 20 };
+    int dim, box, side, i;
+    pcg32 g;
+    pcg32_seed(&g, 31, 5);
+    for (dim = 1; dim <= 3; dim++)
+        for (box = 0; box < 3; box++) {
+            cloud c = make(RANDOM, dim, N, 1, &g);
+            const sph_real length = SPH_R(box ? 1.1 : 0.0), reach = SPH_R(0.55);
+            const sph_points x = sph_points_periodic(points(&c), length, length, length);
+            if (box == 2) {
+                c.x[N - 1] = SPH_R(-1e6);
+                if (dim > 1) c.y[N - 1] = SPH_R(1e6);
+                if (dim > 2) c.z[N - 1] = SPH_R(-1e6);
+            }
+            for (i = 0; i < PAIRS; i++)
+                for (side = -1; side <= 1; side += 2) {
+                    long double scale;
+                    const long double r = pair_distance(dim, x, (sph_index)i, x, (sph_index)(i + 1), &scale);
+                    const sph_real radius = SPH_R(r + side * 2.0L * EDGE_ULPS * ulp(larger(r, scale)));
+                    problem p;
+                    grid g1;
+                    if (!(radius > SPH_R(0) && radius < reach)) continue;
+                    p = problem_new(dim, x, x, sph_scalars_same(&radius), sph_scalars_same(&radius));
+                    now.name = "sharp";
+                    EXPECT(belongs(&p, SPH_GATHER, 0, (sph_index)i, (sph_index)(i + 1)) == (side > 0));
+                    g1 = grid_new(dim, x, i % 2 ? reach : radius);
+                    check_lists("sharp", &p, &g1, i % CRITERIA, 0);
+                    check_lists("sharp", &p, &g1, SPH_GATHER, SPH_LIST_FOREIGN);
+                    problem_free(&p);
+                    grid_free(&g1);
+                }
+            cloud_free(&c);
+        }
 }
 
 /* ---- flags, criteria and targets ---- */
@@ -740,6 +779,66 @@ static void test_capacity(void)
                     grid_free(&g);
                     cloud_free(&c);
                 }
+}
+
+/* Counted and filled rows are the same even where many pairs are at just the radius and rows are long: loops for full and for scarce memory must round alike, whatever the compiler
+   makes of their sums (fused operations, say). */
+static void test_tight(void)
+{
+    enum { SIDE = 12, N = SIDE * SIDE * SIDE, MULTIPLES = 7 };
+    static const int some[] = {0, SPH_LIST_SELF, SPH_LIST_HALF};
+    int multiple, turn, shuffled, periodic;
+    sph_index *const start = (sph_index *)cloud_memory(N + 1, sizeof *start), *const counted = (sph_index *)cloud_memory(N + 1, sizeof *counted);
+    sph_index *const seen = (sph_index *)cloud_memory(N, sizeof *seen);
+    for (multiple = 5; multiple <= MULTIPLES; multiple++)
+        for (turn = 0; turn < 3; turn++)
+            for (shuffled = 0; shuffled < 2; shuffled++)
+                for (periodic = 0; periodic < 2; periodic++) {
+                    const double dx = 0.1 + 0.0137 * turn, shift = 1.7 * turn;
+                    const sph_real radius = SPH_R(multiple * dx), length = SPH_R(periodic ? (multiple > 6 ? 14 : SIDE) * dx : 0.0);
+                    const sph_scalars R = sph_scalars_same(&radius);
+                    cloud c = cloud_new(3, N);
+                    const sph_points x = sph_points_periodic(points(&c), length, length, length);
+                    int64_t pairs = 0, filled = -1;
+                    long wrong = 0;
+                    guarded index;
+                    sph_index *list, i, q;
+                    grid g;
+                    for (i = 0; i < N; i++) {
+                        const int cell = shuffled ? (int)((int64_t)i * 7919 % N) : (int)i;
+                        c.x[i] = SPH_R(cell % SIDE * dx + shift);
+                        c.y[i] = SPH_R(cell / SIDE % SIDE * dx + 2.0 * shift);
+                        c.z[i] = SPH_R(cell / SIDE / SIDE * dx - shift);
+                        seen[i] = -1;
+                    }
+                    now.name = "tight";
+                    now.dim = 3;
+                    now.sources = now.targets = N;
+                    now.criterion = SPH_GATHER;
+                    now.flags = some[turn];
+                    g = grid_new(3, x, radius);
+                    EXPECT(sph_grid_lists(3, &g.g, x, SPH_GATHER, R, R, some[turn], counted, 0, 0, &pairs) == 0);
+                    index = guarded_new((size_t)pairs * sizeof *list);
+                    list = (sph_index *)guarded_memory(&index);
+                    if (EXPECT(sph_grid_lists(3, &g.g, x, SPH_GATHER, R, R, some[turn], start, list, pairs, &filled) == 0)) {
+                        EXPECT(filled == pairs);
+                        EXPECT(memcmp(start, counted, (N + 1) * sizeof *start) == 0);
+                        for (i = 0; i < N; i++)
+                            for (q = start[i]; q < start[i + 1]; q++) {
+                                const int there = list[q] >= 0 && list[q] < N;
+                                wrong += !there || seen[list[q]] == i;
+                                if (there) seen[list[q]] = i;
+                            }
+                        EXPECT(wrong == 0);
+                    }
+                    EXPECT(guarded_intact(&index));
+                    free(index.base);
+                    grid_free(&g);
+                    cloud_free(&c);
+                }
+    free(start);
+    free(counted);
+    free(seen);
 }
 
 static void test_workspace(void)
@@ -1137,7 +1236,7 @@ static void check_refused(const cloud *c, const grid *g, sph_scalars R, sph_inde
     EXPECT(sph_grid_lists(c->dim, &g->g, points(c), now.criterion, R, R, now.flags, start, index ? (sph_index *)guarded_memory(index) : 0, capacity, &pairs) ==
            SPH_ERROR_CAPACITY);
     EXPECT(pairs >= least / (now.flags & SPH_LIST_HALF ? 2 : 1));
-    EXPECT(seconds_since(before) < 300.0);
+    EXPECT(seconds_since(before) < (capacity > 0 ? 20.0 : 300.0));
 }
 
 static void check_crowd(const char *name, const cloud *c, sph_index crowd, sph_real radius)
@@ -1155,7 +1254,9 @@ static void check_crowd(const char *name, const cloud *c, sph_index crowd, sph_r
     g = grid_new(c->dim, points(c), radius);
     check_refused(c, &g, R, crowd, start, &index, CAPACITY);
     EXPECT(guarded_unwritten_from(&index, CAPACITY * sizeof(sph_index)));
-    if (sizeof(sph_index) == 4 && c->n > 1000000) check_refused(c, &g, R, crowd, start, 0, 0); /* no sph_index counts them */
+#if SPH_AVX512 || SPH_AVX2 /* no sph_index counts them; it looks at 2^31 pairs before it knows */
+    if (sizeof(sph_index) == 4 && c->n > 1000000) check_refused(c, &g, R, crowd, start, 0, 0);
+#endif
     grid_free(&g);
     free(index.base);
     free(start);
@@ -1172,7 +1273,7 @@ static void test_crowds(void)
         sph_index i;
         check_crowd("200000 collapsed", &c, N, SPH_R(0.1));
         for (i = 0; i < N; i += 2) c.x[i] = SPH_R(pcg32_uniform(&random)); /* half of them still in one place */
-        check_crowd("100000 collapsed among others", &c, N / 2, SPH_R(dim == 1 ? 1e-4 : 0.02));
+        if (dim == 2) check_crowd("100000 collapsed among others", &c, N / 2, SPH_R(0.02));
         cloud_free(&c);
     }
     {
@@ -1249,23 +1350,26 @@ static int print_checksums(void)
         for (kind = RANDOM; kind <= CLUSTERED; kind++)
             for (periodic = 0; periodic < 2; periodic++) {
                 print_checksum(dim, kind, periodic, dim == 1 ? 777 : dim == 2 ? 900 : 1000);
-                if (kind == RANDOM || dim == 3) print_checksum(dim, kind, periodic, dim == 1 ? 20000 : dim == 2 ? 19600 : 9261);
+                if (kind == RANDOM || dim == 3) print_checksum(dim, kind, periodic, dim == 1 ? 5000 : dim == 2 ? 4900 : 3375);
             }
     return check_failed != 0;
 }
 
 int main(int count, char **word)
 {
+    const int quick = count > 1 && strcmp(word[1], "quick") == 0;
     if (count > 1 && strcmp(word[1], "checksums") == 0) return print_checksums();
     test_clouds();
     test_rounding();
     test_few();
     test_empty_domain();
     test_boxes();
+    test_sharp();
     test_flags();
     test_symmetry();
     test_targets();
     test_capacity();
+    test_tight();
     test_workspace();
     test_radii();
     test_box_errors();
@@ -1275,10 +1379,10 @@ int main(int count, char **word)
     test_skin();
     test_views();
 #if defined(__SANITIZE_ADDRESS__)
-    puts("skipped: the largest clouds, which take minutes under a sanitizer");
+    if (!quick) puts("skipped: the largest clouds, which take minutes under a sanitizer");
     (void)test_crowds;
 #else
-    test_crowds();
+    if (!quick) test_crowds();
 #endif
     return check_report("test_neighbors");
 }

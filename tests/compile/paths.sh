@@ -1,37 +1,59 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The neighbour search in its other builds - AVX2, AVX-512, OpenMP - against the portable one: any path gives the same pairs but those within 8 ulp of the radius, any number of
-# threads gives the same lists, bit for bit. (tests/test_neighbors.c, built as the compiler does by default, proves the lists themselves.)
+# The neighbour search in its other builds - AVX2, AVX-512, OpenMP, 64-bit indices - against the portable one: any path gives the same pairs but those within 8 ulp of the radius, any
+# number of threads gives the same lists, bit for bit. Those that are compiled for this machine (GNU mode: sums are contracted to fused operations, and paths do not round alike) are
+# compared with all pairs, too, as make test does for the build that the compiler makes by default.
 . tests/check.sh
-cc=gcc
-command -v gcc > /dev/null 2>&1 || cc=$CC
+warn="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror"
 
-# sums NAME FLAGS...: the checksums of a build
+# sums NAME FLAGS...: builds and prints checksums
 sums() {
     name=$1
     shift
-    check "$name compiles" $cc -std=c99 -O1 -I. "$@" tests/test_neighbors.c -o "$scratch/$name" -lm
+    # shellcheck disable=SC2086
+    check "$name compiles" $cc -std=c99 -O1 $warn -I. "$@" tests/test_neighbors.c -o "$scratch/$name" -lm
     check "$name runs" sh -c "'$scratch/$name' checksums > '$scratch/$name.sums'"
 }
-same_pairs() { [ -s "$scratch/$1.sums" ] && [ "$(cut -d ' ' -f 1-7 "$scratch/$1.sums")" = "$(cut -d ' ' -f 1-7 "$scratch/portable.sums")" ]; }
+# shellcheck disable=SC2317
+same_pairs() { [ -s "$scratch/$1.sums" ] && [ "$(cut -d ' ' -f 1-7 "$scratch/$1.sums")" = "$(cut -d ' ' -f 1-7 "$scratch/$2.sums")" ]; }
 
-macros=$($cc -march=native -dM -E -x c /dev/null 2> /dev/null)
-has() { printf '%s\n' "$macros" | grep -q "^#define $1 "; }
-sums portable -DSPH_AVX512=0 -DSPH_AVX2=0
-if has __AVX2__ && has __BMI2__; then
-    sums avx2 -mavx2 -mbmi2
-    check "AVX2: the pairs of the portable path" same_pairs avx2
-else skip "AVX2 path" "not on this machine"; fi
-if has __AVX512F__ && has __AVX512VL__; then
-    sums avx512 -march=native
-    check "AVX-512: the pairs of the portable path" same_pairs avx512
-else skip "AVX-512 path" "not on this machine"; fi
-printf '#include <omp.h>\nint main(void) { return omp_get_max_threads() < 1; }\n' > "$scratch/has.c"
-if $cc -fopenmp "$scratch/has.c" -o "$scratch/has" > /dev/null 2>&1; then
-    check "OpenMP compiles" $cc -std=c99 -O1 -I. -fopenmp -DSPH_OPENMP=1 -DSPH_SIMD=0 -DSPH_AVX512=0 -DSPH_AVX2=0 tests/test_neighbors.c -o "$scratch/openmp" -lm
-    for threads in 1 2 3; do
-        check "$threads threads" sh -c "OMP_NUM_THREADS=$threads '$scratch/openmp' checksums > '$scratch/threads.sums'"
-        check "$threads threads: the lists of none" cmp "$scratch/threads.sums" "$scratch/portable.sums"
+for cc in gcc clang; do
+    if ! command -v $cc > /dev/null 2>&1; then
+        skip "paths of $cc" "not installed"
+        continue
+    fi
+    macros=$($cc -march=native -dM -E -x c /dev/null 2> /dev/null)
+    has() { printf '%s\n' "$macros" | grep -q "^#define $1 "; }
+    for single in 0 1; do
+        portable=$cc-portable-$single best=$cc-best-$single flags="-DSPH_SINGLE=$single -std=gnu99 -march=native"
+        sums "$portable" -DSPH_SINGLE=$single -DSPH_AVX512=0 -DSPH_AVX2=0
+        if has __AVX2__ && has __BMI2__; then
+            sums $cc-avx2-$single -DSPH_SINGLE=$single -mavx2 -mbmi2
+            check "$cc, AVX2, SPH_SINGLE=$single: the pairs of the portable path" same_pairs $cc-avx2-$single "$portable"
+        else skip "AVX2 path of $cc" "not on this machine"; fi
+        has __AVX512F__ && has __AVX512VL__ || skip "AVX-512 path of $cc" "not on this machine"
+        # shellcheck disable=SC2086
+        sums "$best" $flags
+        check "$cc, for this machine, SPH_SINGLE=$single: the pairs of the portable path" same_pairs "$best" "$portable"
+        check "$cc, for this machine, SPH_SINGLE=$single: all pairs" "$scratch/$best" quick
+
+        printf '#include <omp.h>\nint main(void) { return omp_get_max_threads() < 1; }\n' > "$scratch/has.c"
+        if ! { $cc -fopenmp "$scratch/has.c" -o "$scratch/has" && "$scratch/has"; } > /dev/null 2>&1; then
+            skip "OpenMP of $cc" "not installed"
+            continue
+        fi
+        # shellcheck disable=SC2086
+        check "OpenMP compiles" $cc -std=c99 -O1 $warn -I. $flags -fopenmp -DSPH_OPENMP=1 tests/test_neighbors.c -o "$scratch/openmp" -lm
+        for threads in 1 2 3; do
+            check "$cc, $threads threads" sh -c "OMP_NUM_THREADS=$threads '$scratch/openmp' checksums > '$scratch/threads.sums'"
+            check "$cc, $threads threads: the lists of none" cmp "$scratch/threads.sums" "$scratch/$best.sums"
+        done
+        [ $single = 1 ] || check "$cc, 3 threads: all pairs" env OMP_NUM_THREADS=3 "$scratch/openmp" quick
     done
-else skip "OpenMP" "not installed"; fi
+    sums $cc-64 -DSPH_INDEX=int64_t -march=native
+    check "$cc, 64-bit indices: the pairs of the portable path" same_pairs $cc-64 $cc-portable-0
+done
+if [ -s "$scratch/gcc-portable-0.sums" ] && [ -s "$scratch/clang-portable-0.sums" ]; then
+    check "the pairs of gcc and clang" same_pairs clang-portable-0 gcc-portable-0
+fi
 finish paths
