@@ -47,9 +47,30 @@
  *                  sph_derivative_rows_wls(k, dim, ..., d, out)
  *                  sph_second_derivative_bim(k, ..., f, left, right, out, status)        1D, with boundary integrals
  *                  sph_second_derivative_rows_bim(k, ..., left, right, row, status)
+ *   elliptic       (..m: first, last, points, list, h, V, m, options; div(m grad u) with a scalar m of each particle; options from sph_elliptic_defaults())
+ *   operator       sph_elliptic_brookshaw(k, dim, ..m, u, source, out, status)           sum_j V_j (m_i + m_j) (u_i - u_j) F_ij
+ *                  sph_elliptic_brookshaw_corrected(k, dim, ..m, u, source, out, status) times tr C / dim
+ *                  sph_elliptic_schwaiger(k, dim, ..m, u, source, out, status)           exact for linear u and constant m, at boundaries, too
+ *                  sph_elliptic_msph(k, dim, ..m, u, source, out, status)                the same numbers for radial gradients; better for the full gradient (16)
+ *                  sph_elliptic_rows_brookshaw(k, dim, ..m, out)                         the same as stencil rows (meshless transmissibilities)
+ *                  sph_elliptic_rows_brookshaw_corrected(k, dim, ..m, out)
+ *                  sph_elliptic_rows_schwaiger(k, dim, ..m, out)
+ *                  sph_elliptic_rows_msph(k, dim, ..m, out)
+ *                  sph_elliptic_rows_anisotropic(k, dim, ..., M, out)                    div(M grad u), M diagonal
+ *                  sph_elliptic_rows_msph_diagonal(k, dim, ..., M, options, out)         as published; inconsistent, for comparison
+ *                  sph_elliptic_rows_boundary(k, dim, ..m, normal, alpha, beta, out)     Dirichlet, Neumann and Robin conditions
+ *                  sph_elliptic_diagnose(k, dim, ..., options, out)                      signs, moments, free-surface indicator
+ *   rows           sph_rows_apply(first, last, n, list, row, diagonal, u, out)             sum_p row[p] (u_j - u_i)
+ *                  sph_rows_monotone(first, last, n, list, row, diagonal, monotone)       how many rows are not those of an M-matrix
+ *                  sph_rows_time_step(first, last, n, list, row, dt)                     longest stable explicit step
+ *                  sph_rows_growth(dim, i, points, list, row, tau, wave, re, im)         von Neumann's growth factor
+ *                  sph_csr_size(first, last, list)                                       entries of the matrix of these rows, at most
+ *                  sph_csr_assemble(first, last, n, list, row, diagonal, drop_zeros, start, column, value, capacity, entries)
  *   pair tier      sph_density_pair  sph_density_value  sph_density_omega  sph_density_mismatch
  *                  sph_gradient_pair_difference  sph_laplacian_weight_brookshaw  sph_laplacian_weight_kernel  sph_boundary_weight_bim
  *                  sph_moment_weight_gradient  sph_test_weights_cspm  sph_test_weights_wls  sph_moments_zero  sph_moments_add  sph_moments_add_value
+ *                  sph_elliptic_gradient_pair  sph_elliptic_gradient_vector  sph_elliptic_projection  sph_mobility_pair  sph_elliptic_weight
+ *                  sph_transmissibility_partial_schwaiger  sph_elliptic_moments_radial  sph_elliptic_invert  sph_elliptic_inverse_times  sph_sym_eigenvalues
  *                  sph_solve_gradient  sph_solve_cspm  sph_solve_block  sph_row_cspm  sph_row_block  sph_row_weight  sph_jet_laplacian
  */
 #ifndef SPH_OPS_H
@@ -64,9 +85,13 @@
 #if SPH_SINGLE && !SPH_OPENCL
 #  define SPHI_COPYSIGN(x, y) copysignf(x, y)
 #  define SPHI_LOG(x) logf(x)
+#  define SPHI_SIN(x) sinf(x)
+#  define SPHI_COS(x) cosf(x)
 #else
 #  define SPHI_COPYSIGN(x, y) copysign(x, y)
 #  define SPHI_LOG(x) log(x)
+#  define SPHI_SIN(x) sin(x)
+#  define SPHI_COS(x) cos(x)
 #endif
 /* clang-format on */
 
@@ -758,6 +783,220 @@ SPH_FN sph_vec sphi_sym_times(int dim, sph_sym s, sph_vec v)
         u.z = s.xz * v.x + s.yz * v.y + s.zz * v.z;
     }
     return u;
+}
+
+/* ================================================================ pair tier: elliptic operator
+ *
+ * L u = div(m grad u) as a sum of two-point fluxes. With e = x_j - x_i (from the particle to its neighbour) and g_ij = grad_i W_ij = -F_ij e,
+ *     L u_i = sum_j T_ij (u_j - u_i),   T_ij = scale_i V_j mu_ij (t_ij - xi_i . g_ij),   t_ij = e . g_ij / |e|^2,   mu_ij = m_i + m_j,
+ * where each particle has, from the moments of its neighbourhood
+ *     Gamma = sum V_j t e e^T,   K = sum V_j e g^T = C^-1,   N = sum V_j g,   N~ = sum V_j t e,
+ *     Brookshaw             scale = 1                    xi = 0
+ *     corrected Brookshaw   scale = tr K^-1 / dim        xi = 0
+ *     Schwaiger             scale = tr Gamma^-1 / dim    xi = K^-1 N
+ *     M-SPH                 scale = tr Gamma^-1 / dim    xi = K^-1 N~      (on request Gamma* = Gamma - sum V_j (xi . g) e e^T for Gamma)
+ * Lukyanov & Vuik 2020, arXiv:1711.11351: (27), (51), (52), (69), and (24), (53), (55), (65), (71) for the moments; T_ij is their meshless transmissibility (90).
+ * Brookshaw 1985, Proc. ASA 6, 207. Schwaiger 2008, IJNME 75, 647.
+ * Exact for: Brookshaw constants only. Corrected Brookshaw linear fields where N = 0. Schwaiger and M-SPH with constant m: linear fields at every particle, for any positions and
+ * volumes; with xx, xy, yy and cubic fields in the interior of lattices. Of the second derivatives only the trace is normalised: in disorder errors are O(1) in the
+ * pointwise sense for all four, at a boundary O(1) for the last two and O(1/h) for the first two.
+ * Signs: L is negative semi-definite where all T >= 0, which is where 1 - xi . e > 0 ((92), (93); sph_elliptic_diagnose). The paper's (1) is -L u - g.
+ * Misprints and misreadings that are corrected here: (52) does have the two-point form, because m_j u_j - m_i u_i - u_i (m_j - m_i) + m_i (u_j - u_i) = (m_i + m_j) (u_j - u_i):
+ * with N = N~ Schwaiger's scheme and M-SPH are the same numbers, for the radial gradients (15), (17), (18), any cloud and any m. (56) and (91) lack 1/|e| and a sign. The factor of the cubic spline
+ * under (12) is 2/3 in 1D, not 3/2. (70) asks whether Gamma* is 0; it must be definite. (69) with a matrix M is inconsistent unless neighbours lie on the axes only
+ * (sph_elliptic_rows_msph_diagonal); sph_elliptic_rows_anisotropic is not. tests/test_elliptic.c shows that the printed forms fail.
+ */
+
+/* Which gradient of the kernel stands for g; nu_i = sum_j V_j W_ij, the particle itself included. All but FULL are radial (along e). */
+typedef enum sph_elliptic_gradient {
+    SPH_GRADIENT_DIFFUSE,         /* (15) grad W */
+    SPH_GRADIENT_FULL,            /* (16) grad (W / nu): nu is differentiated, too. Best at boundaries in M-SPH */
+    SPH_GRADIENT_SHEPARD_DIFFUSE, /* (17) grad W / nu */
+    SPH_GRADIENT_SHEPARD_FULL     /* (18) grad_j (W / nu): with the neighbour's own part of nu differentiated */
+} sph_elliptic_gradient;
+
+/* The mobility of a pair. */
+typedef enum sph_mobility_mean {
+    SPH_MOBILITY_ARITHMETIC, /* (m_i + m_j) / 2: as published */
+    SPH_MOBILITY_HARMONIC,   /* 2 m_i m_j / (m_i + m_j): keeps the flux through a jump */
+    SPH_MOBILITY_UPWIND      /* that of the particle with the higher potential */
+} sph_mobility_mean;
+
+/* nu and grad nu of a particle */
+typedef struct sph_shepard {
+    sph_real nu;
+    sph_vec gradient;
+} sph_shepard;
+
+/* g = radial e + rest */
+typedef struct sph_kernel_gradient {
+    sph_real radial;
+    sph_vec rest; /* 0 but for SPH_GRADIENT_FULL */
+} sph_kernel_gradient;
+
+SPH_FN sph_kernel_gradient sph_elliptic_gradient_pair(int gradient, sph_wf v, sph_real V_j, sph_shepard s)
+{
+    sph_kernel_gradient g;
+    g.radial = -v.f;
+    g.rest.x = g.rest.y = g.rest.z = SPH_R(0);
+    if (gradient == (int)SPH_GRADIENT_FULL) {
+        g.radial /= s.nu;
+        g.rest = sph_scale(-v.w / (s.nu * s.nu), s.gradient);
+    } else if (gradient == (int)SPH_GRADIENT_SHEPARD_DIFFUSE) g.radial /= s.nu;
+    else if (gradient == (int)SPH_GRADIENT_SHEPARD_FULL) g.radial *= (SPH_R(1) - v.w * V_j / s.nu) / s.nu;
+    return g;
+}
+/* g itself, and t = e . g / |e|^2 (for coincident particles its radial part). */
+SPH_FN sph_vec sph_elliptic_gradient_vector(int dim, int gradient, sph_vec e, sph_kernel_gradient g)
+{
+    sph_vec v = sph_scale(g.radial, e);
+    if (gradient == (int)SPH_GRADIENT_FULL) {
+        v.x += g.rest.x;
+        if (dim > 1) v.y += g.rest.y;
+        if (dim > 2) v.z += g.rest.z;
+    }
+    return v;
+}
+SPH_FN sph_real sph_elliptic_projection(int dim, int gradient, sph_vec e, sph_kernel_gradient g)
+{
+    return gradient == (int)SPH_GRADIENT_FULL ? g.radial + sphi_over_q(sph_dot(dim, e, g.rest), sph_dot(dim, e, e)) : g.radial;
+}
+
+/* Twice the mean of the mobilities, mu_ij. upstream: potential_i - potential_j, for SPH_MOBILITY_UPWIND only. */
+SPH_FN sph_real sph_mobility_pair(int mean, sph_real m_i, sph_real m_j, sph_real upstream)
+{
+    if (mean == (int)SPH_MOBILITY_HARMONIC) return SPH_R(4) * m_i * (m_j / (m_i + m_j + SPHI_TINY));
+    if (mean == (int)SPH_MOBILITY_UPWIND) return SPH_R(2) * (upstream >= SPH_R(0) ? m_i : m_j);
+    return m_i + m_j;
+}
+
+typedef struct sph_elliptic_correction {
+    sph_real scale;
+    sph_vec xi;
+} sph_elliptic_correction;
+
+/* T_ij without the mobility: what the weight is for mu = 1. For radial gradients scale V_j t (1 - xi . e). */
+SPH_FN sph_real sph_elliptic_weight(int dim, int gradient, sph_vec e, sph_kernel_gradient g, sph_elliptic_correction c, sph_real V_j)
+{
+    const sph_real t = sph_elliptic_projection(dim, gradient, e, g);
+    if (gradient != (int)SPH_GRADIENT_FULL) return c.scale * V_j * t * (SPH_R(1) - sph_dot(dim, c.xi, e));
+    return c.scale * V_j * (t - sph_dot(dim, c.xi, sph_elliptic_gradient_vector(dim, gradient, e, g)));
+}
+
+/* Schwaiger's partial transmissibility (68) of M-SPH's paper, divided by its row's tr Gamma^-1 / dim: what of his scheme multiplies u_j - u_i when the gradients of m u and m are kept apart, as
+   the paper does. Not a whole operator: that is sph_elliptic_rows_schwaiger. g* for the g that is printed there. */
+SPH_FN sph_real sph_transmissibility_partial_schwaiger(int dim, int gradient, sph_vec e, sph_kernel_gradient g, sph_vec xi, sph_real V_j, sph_real m_i,
+                                                       sph_real m_j)
+{
+    return V_j * (sph_elliptic_projection(dim, gradient, e, g) * (m_i + m_j) - m_i * sph_dot(dim, xi, sph_elliptic_gradient_vector(dim, gradient, e, g)));
+}
+
+/* The moments of a particle. K is kept by rows: kx = sum V e_x g. */
+typedef struct sph_elliptic_moments {
+    sph_sym gamma;
+    sph_vec n, n_tilde, kx, ky, kz;
+} sph_elliptic_moments;
+
+SPH_FN sph_elliptic_moments sph_elliptic_moments_radial(sph_sym gamma, sph_vec n)
+{
+    sph_elliptic_moments m;
+    m.gamma = gamma;
+    m.n = m.n_tilde = n;
+    m.kx.x = gamma.xx;
+    m.kx.y = m.ky.x = gamma.xy;
+    m.kx.z = m.kz.x = gamma.xz;
+    m.ky.y = gamma.yy;
+    m.ky.z = m.kz.y = gamma.yz;
+    m.kz.z = gamma.zz;
+    return m;
+}
+
+/* K^-1, by rows */
+typedef struct sph_elliptic_inverse {
+    sph_vec x, y, z;
+} sph_elliptic_inverse;
+SPH_FN sph_vec sph_elliptic_inverse_times(int dim, sph_elliptic_inverse a, sph_vec v)
+{
+    sph_vec u;
+    u.x = sph_dot(dim, a.x, v);
+    u.y = dim > 1 ? sph_dot(dim, a.y, v) : SPH_R(0);
+    u.z = dim > 2 ? sph_dot(dim, a.z, v) : SPH_R(0);
+    return u;
+}
+/* Returns SPH_OK or SPH_SINGULAR (nothing written). *conditioning: smallest pivot in [0, 1]. */
+SPH_FN int sph_elliptic_invert(int dim, int gradient, const sph_elliptic_moments *m, sph_elliptic_inverse *a, sph_real *conditioning)
+{
+    if (gradient == (int)SPH_GRADIENT_FULL) { /* not symmetric; its entries are of order one, because nu normalises it */
+        sphi_lu s;
+        sph_real b[3][SPHI_MAX];
+        int c, r;
+        s.a[0][0] = m->kx.x;
+        if (dim > 1) s.a[0][1] = m->kx.y, s.a[1][0] = m->ky.x, s.a[1][1] = m->ky.y;
+        if (dim > 2) s.a[0][2] = m->kx.z, s.a[1][2] = m->ky.z, s.a[2][0] = m->kz.x, s.a[2][1] = m->kz.y, s.a[2][2] = m->kz.z;
+        sphi_lu_factor(dim, &s);
+        if (!(s.pivot_min > SPHI_PIVOT_MIN)) return SPH_SINGULAR;
+        for (c = 0; c < 3; c++) {
+            for (r = 0; r < 3; r++) b[c][r] = r == c ? SPH_R(1) : SPH_R(0);
+            if (c < dim) sphi_lu_solve(dim, &s, b[c]);
+        }
+        a->x.x = b[0][0], a->x.y = b[1][0], a->x.z = b[2][0];
+        a->y.x = b[0][1], a->y.y = b[1][1], a->y.z = b[2][1];
+        a->z.x = b[0][2], a->z.y = b[1][2], a->z.z = b[2][2];
+        if (conditioning) *conditioning = s.pivot_min;
+    } else {
+        sph_sym s;
+        const int state = sph_solve_gradient(dim, m->gamma, &s, conditioning);
+        if (state) return state;
+        a->x.x = s.xx;
+        a->x.y = a->y.x = s.xy;
+        a->x.z = a->z.x = s.xz;
+        a->y.y = s.yy;
+        a->y.z = a->z.y = s.yz;
+        a->z.z = s.zz;
+    }
+    return SPH_OK;
+}
+
+/* Eigenvalues of a symmetric tensor, ascending (those beyond dim are 0): Jacobi's rotations, to round-off of the largest. */
+SPH_FN sph_vec sph_sym_eigenvalues(int dim, sph_sym s)
+{
+    sph_real a[3][3], t;
+    sph_vec v;
+    int sweep, p, q, r;
+    a[0][0] = s.xx;
+    a[1][1] = dim > 1 ? s.yy : SPH_R(0);
+    a[2][2] = dim > 2 ? s.zz : SPH_R(0);
+    a[0][1] = a[1][0] = dim > 1 ? s.xy : SPH_R(0);
+    a[0][2] = a[2][0] = dim > 2 ? s.xz : SPH_R(0);
+    a[1][2] = a[2][1] = dim > 2 ? s.yz : SPH_R(0);
+    for (sweep = 0; sweep < (dim > 2 ? 12 : 1); sweep++)
+        for (p = 0; p < dim - 1; p++)
+            for (q = p + 1; q < dim; q++) {
+                sph_real theta, tangent, cosine, sine;
+                if (!(SPHI_ABS(a[p][q]) > SPHI_TINY)) continue;
+                theta = (a[q][q] - a[p][p]) / (SPH_R(2) * a[p][q]);
+                tangent = SPHI_COPYSIGN(SPH_R(1), theta) / (SPHI_ABS(theta) + SPHI_SQRT(theta * theta + SPH_R(1)));
+                cosine = SPH_R(1) / SPHI_SQRT(tangent * tangent + SPH_R(1));
+                sine = tangent * cosine;
+                r = 3 - p - q; /* the axis that is not turned */
+                a[p][p] -= tangent * a[p][q];
+                a[q][q] += tangent * a[p][q];
+                a[p][q] = a[q][p] = SPH_R(0);
+                t = a[r][p];
+                a[r][p] = a[p][r] = cosine * t - sine * a[r][q];
+                a[r][q] = a[q][r] = sine * t + cosine * a[r][q];
+            }
+    for (p = 0; p < dim - 1; p++)
+        for (q = p + 1; q < dim; q++)
+            if (a[q][q] < a[p][p]) {
+                t = a[p][p];
+                a[p][p] = a[q][q];
+                a[q][q] = t;
+            }
+    v.x = a[0][0];
+    v.y = a[1][1];
+    v.z = a[2][2];
+    return v;
 }
 
 /* ================================================================ list tier: views */
@@ -1784,6 +2023,867 @@ SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_index first, s
     }
     return failed;
 }
+
+/* ================================================================ list tier: elliptic operator */
+
+/* What the elliptic sweeps may be told. Zeros are the defaults: gradient (15), arithmetic means, Gamma. */
+typedef struct sph_elliptic_options {
+    int gradient;              /* an sph_elliptic_gradient */
+    int mean;                  /* an sph_mobility_mean */
+    int gamma_star;            /* M-SPH only, 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK */
+    sph_real conditioning_min; /* below: SPH_ILL_CONDITIONED, but computed */
+    sph_scalars potential;     /* for SPH_MOBILITY_UPWIND */
+} sph_elliptic_options;
+
+SPH_FN sph_elliptic_options sph_elliptic_defaults(void)
+{
+    sph_elliptic_options o;
+    o.gradient = (int)SPH_GRADIENT_DIFFUSE;
+    o.mean = (int)SPH_MOBILITY_ARITHMETIC;
+    o.gamma_star = 0;
+    o.conditioning_min = SPH_R(0);
+    o.potential = sph_scalars_array(0);
+    return o;
+}
+
+/* Gamma* counts as definite if its smallest eigenvalue is at least this much of Gamma's. At boundaries it often is not, and nearly singular, where its trace of the inverse would
+   be huge. */
+#define SPHI_GAMMA_STAR_MIN SPH_R(0.1)
+
+/* h_ij = (h_i + h_j) / 2; one h for all costs nothing */
+SPH_FN sph_real sphi_mean_h(int uniform, sph_scalars h, sph_real h_i, sph_index j) { return uniform ? h_i : SPH_R(0.5) * (h_i + sphi_at(h, j)); }
+
+/* What the loops over the neighbours of one particle share. */
+typedef struct sphi_elliptic {
+    sph_points x;
+    sph_list list;
+    sph_scalars h, V, m;
+    sph_elliptic_options options;
+    int uniform;
+} sphi_elliptic;
+
+SPH_FN int sphi_elliptic_check(sph_kernel k, int dim, sph_index first, sph_index last, const sphi_elliptic *a)
+{
+    const sph_elliptic_options o = a->options;
+    sph_index i;
+    int error = sphi_check_sweep(k, dim, first, last, a->x, a->list, a->h, a->V), negative = 0;
+    if (error) return error;
+    if (o.gradient < 0 || o.gradient > (int)SPH_GRADIENT_SHEPARD_FULL || o.mean < 0 || o.mean > (int)SPH_MOBILITY_UPWIND) return SPH_ERROR_VALUE;
+    if (!sphi_finite(o.conditioning_min)) return SPH_ERROR_VALUE;
+    error = sphi_check_field(a->m, a->x.n);
+    if (!error && o.mean == (int)SPH_MOBILITY_UPWIND) error = sphi_check_field(o.potential, a->x.n);
+    if (error || !SPH_CHECK) return error;
+    for (i = 0; i < (a->m.stride ? a->x.n : 1); i++) negative |= sphi_at(a->m, i) < SPH_R(0);
+    return negative ? SPH_ERROR_VALUE : 0;
+}
+
+/* nu and its gradient; not needed, and 1 and 0, for the gradient (15) */
+SPH_FN sph_shepard sphi_elliptic_shepard(sph_kernel k, int dim, const sphi_elliptic *a, sph_index i)
+{
+    const sph_vec x_i = sphi_point(dim, a->x, i);
+    const sph_real h_i = sphi_at(a->h, i);
+    sph_real nu = sphi_at(a->V, i) * sph_kernel_w(k, dim, SPH_R(0), h_i), sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
+    sph_shepard s;
+    sph_index p;
+    if (a->options.gradient == (int)SPH_GRADIENT_DIFFUSE) nu = SPH_R(1);
+    else {
+        SPH_SUM(nu, sx, sy, sz)
+        for (p = a->list.start[i]; p < a->list.start[i + 1]; p++) {
+            const sph_index j = a->list.index[p];
+            const sph_vec e = sphi_separation(dim, a->x, sphi_point(dim, a->x, j), x_i);
+            const sph_wf v = sph_kernel_wf(k, dim, sph_length(dim, e), sphi_mean_h(a->uniform, a->h, h_i, j));
+            const sph_real V_j = sphi_at(a->V, j);
+            nu += V_j * v.w;
+            sx -= V_j * v.f * e.x;
+            if (dim > 1) sy -= V_j * v.f * e.y;
+            if (dim > 2) sz -= V_j * v.f * e.z;
+        }
+    }
+    s.nu = nu;
+    s.gradient.x = sx;
+    s.gradient.y = sy;
+    s.gradient.z = sz;
+    return s;
+}
+
+/* the pair i, j of the list */
+typedef struct sphi_elliptic_pair {
+    sph_vec e;
+    sph_kernel_gradient g;
+    sph_real V_j;
+} sphi_elliptic_pair;
+SPH_FN sphi_elliptic_pair sphi_elliptic_pair_of(sph_kernel k, int dim, const sphi_elliptic *a, sph_shepard s, sph_vec x_i, sph_real h_i, sph_index j)
+{
+    sphi_elliptic_pair c;
+    c.e = sphi_separation(dim, a->x, sphi_point(dim, a->x, j), x_i);
+    c.V_j = sphi_at(a->V, j);
+    c.g = sph_elliptic_gradient_pair(a->options.gradient, sph_kernel_wf(k, dim, sph_length(dim, c.e), sphi_mean_h(a->uniform, a->h, h_i, j)), c.V_j, s);
+    return c;
+}
+
+SPH_FN sph_elliptic_moments sphi_elliptic_moments_of(sph_kernel k, int dim, const sphi_elliptic *a, sph_shepard s, sph_index i)
+{
+    const sph_vec x_i = sphi_point(dim, a->x, i);
+    const sph_real h_i = sphi_at(a->h, i);
+    const int gradient = a->options.gradient;
+    sph_real xx = SPH_R(0), xy = SPH_R(0), yy = SPH_R(0), xz = SPH_R(0), yz = SPH_R(0), zz = SPH_R(0), nx = SPH_R(0), ny = SPH_R(0), nz = SPH_R(0);
+    sph_elliptic_moments m;
+    sph_sym gamma;
+    sph_vec n;
+    sph_index p;
+    SPH_SUM(xx, xy, yy, xz, yz, zz, nx, ny, nz)
+    for (p = a->list.start[i]; p < a->list.start[i + 1]; p++) {
+        const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, a->list.index[p]);
+        const sph_vec te = sph_scale(c.V_j * sph_elliptic_projection(dim, gradient, c.e, c.g), c.e);
+        xx += te.x * c.e.x;
+        nx += te.x;
+        if (dim > 1) {
+            xy += te.x * c.e.y;
+            yy += te.y * c.e.y;
+            ny += te.y;
+        }
+        if (dim > 2) {
+            xz += te.x * c.e.z;
+            yz += te.y * c.e.z;
+            zz += te.z * c.e.z;
+            nz += te.z;
+        }
+    }
+    gamma.xx = xx;
+    gamma.xy = xy;
+    gamma.yy = yy;
+    gamma.xz = xz;
+    gamma.yz = yz;
+    gamma.zz = zz;
+    n.x = nx;
+    n.y = ny;
+    n.z = nz;
+    m = sph_elliptic_moments_radial(gamma, n);
+    if (gradient == (int)SPH_GRADIENT_FULL) { /* K and N are sums of their own */
+        const sph_real own = -sphi_at(a->V, i) * sph_kernel_w(k, dim, SPH_R(0), h_i) / (s.nu * s.nu);
+        sph_real k0 = SPH_R(0), k1 = SPH_R(0), k2 = SPH_R(0), k3 = SPH_R(0), k4 = SPH_R(0), k5 = SPH_R(0), k6 = SPH_R(0), k7 = SPH_R(0), k8 = SPH_R(0);
+        nx = own * s.gradient.x; /* the particle itself: in N only, which is 0 because of it */
+        ny = own * s.gradient.y;
+        nz = own * s.gradient.z;
+        SPH_SUM(k0, k1, k2, k3, k4, k5, k6, k7, k8, nx, ny, nz)
+        for (p = a->list.start[i]; p < a->list.start[i + 1]; p++) {
+            const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, a->list.index[p]);
+            const sph_vec g = sph_scale(c.V_j, sph_elliptic_gradient_vector(dim, gradient, c.e, c.g));
+            k0 += c.e.x * g.x;
+            nx += g.x;
+            if (dim > 1) {
+                k1 += c.e.x * g.y;
+                k3 += c.e.y * g.x;
+                k4 += c.e.y * g.y;
+                ny += g.y;
+            }
+            if (dim > 2) {
+                k2 += c.e.x * g.z;
+                k5 += c.e.y * g.z;
+                k6 += c.e.z * g.x;
+                k7 += c.e.z * g.y;
+                k8 += c.e.z * g.z;
+                nz += g.z;
+            }
+        }
+        m.kx.x = k0, m.kx.y = k1, m.kx.z = k2;
+        m.ky.x = k3, m.ky.y = k4, m.ky.z = k5;
+        m.kz.x = k6, m.kz.y = k7, m.kz.z = k8;
+        m.n.x = nx, m.n.y = ny, m.n.z = nz;
+    }
+    return m;
+}
+
+/* Gamma* = Gamma - sum V_j (xi . g) e e^T, (71) */
+SPH_FN sph_sym sphi_elliptic_gamma_star(sph_kernel k, int dim, const sphi_elliptic *a, sph_shepard s, sph_index i, sph_sym gamma, sph_vec xi)
+{
+    const sph_vec x_i = sphi_point(dim, a->x, i);
+    const sph_real h_i = sphi_at(a->h, i);
+    sph_index p;
+    for (p = a->list.start[i]; p < a->list.start[i + 1]; p++) {
+        const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, a->list.index[p]);
+        const sph_vec we = sph_scale(c.V_j * sph_dot(dim, xi, sph_elliptic_gradient_vector(dim, a->options.gradient, c.e, c.g)), c.e);
+        gamma.xx -= we.x * c.e.x;
+        if (dim > 1) gamma.xy -= we.x * c.e.y, gamma.yy -= we.y * c.e.y;
+        if (dim > 2) gamma.xz -= we.x * c.e.z, gamma.yz -= we.y * c.e.z, gamma.zz -= we.z * c.e.z;
+    }
+    return gamma;
+}
+
+enum { SPHI_ELLIPTIC_BROOKSHAW, SPHI_ELLIPTIC_CORRECTED, SPHI_ELLIPTIC_SCHWAIGER, SPHI_ELLIPTIC_MSPH };
+
+/* scale and xi of a particle; SPH_TOO_FEW and SPH_SINGULAR leave them 0 */
+SPH_FN int sphi_elliptic_correct(int scheme, sph_kernel k, int dim, const sphi_elliptic *a, sph_shepard s, sph_index i, sph_elliptic_correction *c,
+                                 sph_real *conditioning)
+{
+    sph_elliptic_moments m;
+    sph_elliptic_inverse inverse;
+    sph_sym gamma_inverse, gamma_star;
+    sph_real trace;
+    int state = SPH_OK;
+    c->scale = c->xi.x = c->xi.y = c->xi.z = SPH_R(0);
+    *conditioning = SPH_R(1);
+    if (scheme == SPHI_ELLIPTIC_BROOKSHAW) {
+        c->scale = SPH_R(1);
+        return SPH_OK;
+    }
+    *conditioning = SPH_R(0);
+    m = sphi_elliptic_moments_of(k, dim, a, s, i);
+    if (sph_elliptic_invert(dim, a->options.gradient, &m, &inverse, conditioning)) return sphi_singular_status(k, dim, i, a->x, a->list, sphi_at(a->h, i), dim);
+    trace = inverse.x.x + (dim > 1 ? inverse.y.y : SPH_R(0)) + (dim > 2 ? inverse.z.z : SPH_R(0));
+    if (scheme != SPHI_ELLIPTIC_CORRECTED) {
+        c->xi = sph_elliptic_inverse_times(dim, inverse, scheme == SPHI_ELLIPTIC_SCHWAIGER ? m.n : m.n_tilde);
+        if (a->options.gradient == (int)SPH_GRADIENT_FULL) {
+            if (sph_solve_gradient(dim, m.gamma, &gamma_inverse, conditioning)) {
+                c->xi = sph_scale(SPH_R(0), c->xi);
+                return SPH_SINGULAR;
+            }
+            trace = sphi_trace(dim, gamma_inverse);
+        }
+        if (scheme == SPHI_ELLIPTIC_MSPH && a->options.gamma_star) {
+            gamma_star = sphi_elliptic_gamma_star(k, dim, a, s, i, m.gamma, c->xi);
+            if (sph_sym_eigenvalues(dim, gamma_star).x >= SPHI_GAMMA_STAR_MIN * sph_sym_eigenvalues(dim, m.gamma).x &&
+                sph_solve_gradient(dim, gamma_star, &gamma_inverse, 0) == SPH_OK)
+                trace = sphi_trace(dim, gamma_inverse);
+            else state = SPH_FELL_BACK;
+        }
+    }
+    c->scale = trace / SPH_R(dim);
+    if (*conditioning < a->options.conditioning_min) state = SPH_ILL_CONDITIONED;
+    return state;
+}
+
+SPH_FN sph_real sphi_elliptic_mobility(const sphi_elliptic *a, sph_real m_i, sph_real potential_i, sph_index j)
+{
+    const int upwind = a->options.mean == (int)SPH_MOBILITY_UPWIND;
+    return sph_mobility_pair(a->options.mean, m_i, sphi_at(a->m, j), upwind ? potential_i - sphi_at(a->options.potential, j) : SPH_R(0));
+}
+SPH_FN sph_real sphi_elliptic_potential(const sphi_elliptic *a, sph_index i)
+{
+    return a->options.mean == (int)SPH_MOBILITY_UPWIND ? sphi_at(a->options.potential, i) : SPH_R(0);
+}
+
+SPH_FN void sphi_row_answer(sph_row_out out, sph_list list, sph_index i, int with_diagonal, sph_real conditioning, int state)
+{
+    sph_index p;
+    if (out.diagonal && with_diagonal) {
+        sph_real sum = SPH_R(0);
+        for (p = list.start[i]; p < list.start[i + 1]; p++) sum += out.row[p];
+        out.diagonal[i] = -sum;
+    }
+    if (out.factor) out.factor[i] = SPH_R(1);
+    if (out.conditioning) out.conditioning[i] = conditioning;
+    if (out.status) out.status[i] = (unsigned char)state;
+}
+SPH_FN int sphi_unanswered(int state) { return state == SPH_TOO_FEW || state == SPH_SINGULAR || state == SPH_NOT_AVAILABLE || state == SPH_NOT_FINITE; }
+
+SPH_FN sph_index sphi_elliptic_apply(int scheme, sph_kernel k, int dim, sph_index first, sph_index last, const sphi_elliptic *a, sph_scalars u,
+                                     sph_scalars source, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
+{
+    sph_index i, p, failed = 0;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, a->x, i);
+        const sph_real h_i = sphi_at(a->h, i), m_i = sphi_at(a->m, i), u_i = sphi_at(u, i), potential_i = sphi_elliptic_potential(a, i);
+        const sph_shepard s = sphi_elliptic_shepard(k, dim, a, i);
+        sph_elliptic_correction correction;
+        sph_real conditioning, sum = SPH_R(0);
+        int state = sphi_elliptic_correct(scheme, k, dim, a, s, i, &correction, &conditioning);
+        SPH_SUM(sum)
+        for (p = a->list.start[i]; p < a->list.start[i + 1]; p++) {
+            const sph_index j = a->list.index[p];
+            const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, j);
+            sum += sph_elliptic_weight(dim, a->options.gradient, c.e, c.g, correction, c.V_j) * sphi_elliptic_mobility(a, m_i, potential_i, j) *
+                   (sphi_at(u, j) - u_i);
+        }
+        if (source.p) sum += sphi_at(source, i);
+        if (!sphi_finite(sum)) state = SPH_NOT_FINITE;
+        out[i] = sphi_unanswered(state) ? SPH_R(0) : sum;
+        if (status) status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+SPH_FN sph_index sphi_elliptic_row(int scheme, sph_kernel k, int dim, sph_index first, sph_index last, const sphi_elliptic *a, sph_row_out out)
+{
+    SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
+    sph_index i, p, failed = 0;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, a->x, i);
+        const sph_real h_i = sphi_at(a->h, i), m_i = sphi_at(a->m, i), potential_i = sphi_elliptic_potential(a, i);
+        const sph_shepard s = sphi_elliptic_shepard(k, dim, a, i);
+        sph_elliptic_correction correction;
+        sph_real conditioning;
+        int state = sphi_elliptic_correct(scheme, k, dim, a, s, i, &correction, &conditioning);
+        SPH_EACH
+        for (p = a->list.start[i]; p < a->list.start[i + 1]; p++) {
+            const sph_index j = a->list.index[p];
+            const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, j);
+            row[p] = sph_elliptic_weight(dim, a->options.gradient, c.e, c.g, correction, c.V_j) * sphi_elliptic_mobility(a, m_i, potential_i, j);
+        }
+        if (sphi_row_finite(row, a->list.start[i], a->list.start[i + 1])) state = SPH_NOT_FINITE;
+        sphi_row_answer(out, a->list, i, 1, conditioning, state);
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+SPH_FN sphi_elliptic sphi_elliptic_of(sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars m, sph_elliptic_options options, int uniform)
+{
+    sphi_elliptic a;
+    a.x = x;
+    a.list = list;
+    a.h = h;
+    a.V = V;
+    a.m = m;
+    a.options = options;
+    a.uniform = uniform;
+    return a;
+}
+/* u and out, or rows; with one body for one h for all, and one for h of each particle's own */
+SPH_FN sph_index sphi_elliptic_sweep(int scheme, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
+                                     sph_scalars V, sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source, SPH_GLOBAL sph_real *out,
+                                     SPH_GLOBAL unsigned char *status)
+{
+    const sphi_elliptic one = sphi_elliptic_of(x, list, h, V, m, options, 1), own = sphi_elliptic_of(x, list, h, V, m, options, 0);
+    int error = sphi_elliptic_check(k, dim, first, last, &own);
+    if (!error) error = sphi_check_field(u, x.n);
+    if (!error && source.p) error = sphi_check_field(source, x.n);
+    if (!error && !out) error = SPH_ERROR_NULL;
+    if (error) return error;
+    return h.stride ? sphi_elliptic_apply(scheme, k, dim, first, last, &own, u, source, out, status)
+                    : sphi_elliptic_apply(scheme, k, dim, first, last, &one, u, source, out, status);
+}
+SPH_FN sph_index sphi_elliptic_rows(int scheme, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
+                                    sph_scalars V, sph_scalars m, sph_elliptic_options options, sph_row_out out)
+{
+    const sphi_elliptic one = sphi_elliptic_of(x, list, h, V, m, options, 1), own = sphi_elliptic_of(x, list, h, V, m, options, 0);
+    int error = sphi_elliptic_check(k, dim, first, last, &own);
+    if (!error && !out.row) error = SPH_ERROR_NULL;
+    if (error) return error;
+    return h.stride ? sphi_elliptic_row(scheme, k, dim, first, last, &own, out) : sphi_elliptic_row(scheme, k, dim, first, last, &one, out);
+}
+
+/* div(m grad u)_i + source_i, for all four schemes (see the pair tier: formulas, sources, exactness, errors).
+   h        one for all, or each particle's own: pairs then use (h_i + h_j) / 2, and lists must hold every j within support * (h_i + h_j) / 2 (SPH_MEAN).
+   m        mobility (conductivity, permeability, diffusivity), not negative.   options: sph_elliptic_defaults(), or change what it returns.
+   source   sph_scalars_array(0) for none.   Vector unknowns: rows once, and sph_rows_apply for each component.
+   Rows:    div(m grad u)_i = diagonal[i] u_i + sum_p row[p] u_j, p along the list; factor[i] = 1.
+   SPH_TOO_FEW, SPH_SINGULAR: not for Brookshaw's scheme; the neighbours lie on a line or in a plane, or are too few: output and row are 0. SPH_FELL_BACK: Gamma was taken for Gamma*, which
+   is not definite. SPH_ILL_CONDITIONED: computed, with a conditioning (smallest pivot of the scaled Gamma) below conditioning_min.
+   Coincident neighbours get the radial weight of r = 0. */
+SPH_FN sph_index sph_elliptic_brookshaw(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                        sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source, SPH_GLOBAL sph_real *out,
+                                        SPH_GLOBAL unsigned char *status)
+{
+    return sphi_elliptic_sweep(SPHI_ELLIPTIC_BROOKSHAW, k, dim, first, last, x, list, h, V, m, options, u, source, out, status);
+}
+SPH_FN sph_index sph_elliptic_brookshaw_corrected(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
+                                                  sph_scalars V, sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source,
+                                                  SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
+{
+    return sphi_elliptic_sweep(SPHI_ELLIPTIC_CORRECTED, k, dim, first, last, x, list, h, V, m, options, u, source, out, status);
+}
+SPH_FN sph_index sph_elliptic_schwaiger(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                        sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source, SPH_GLOBAL sph_real *out,
+                                        SPH_GLOBAL unsigned char *status)
+{
+    return sphi_elliptic_sweep(SPHI_ELLIPTIC_SCHWAIGER, k, dim, first, last, x, list, h, V, m, options, u, source, out, status);
+}
+SPH_FN sph_index sph_elliptic_msph(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                   sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source, SPH_GLOBAL sph_real *out,
+                                   SPH_GLOBAL unsigned char *status)
+{
+    return sphi_elliptic_sweep(SPHI_ELLIPTIC_MSPH, k, dim, first, last, x, list, h, V, m, options, u, source, out, status);
+}
+SPH_FN sph_index sph_elliptic_rows_brookshaw(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                             sph_scalars m, sph_elliptic_options options, sph_row_out out)
+{
+    return sphi_elliptic_rows(SPHI_ELLIPTIC_BROOKSHAW, k, dim, first, last, x, list, h, V, m, options, out);
+}
+SPH_FN sph_index sph_elliptic_rows_brookshaw_corrected(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
+                                                       sph_scalars V, sph_scalars m, sph_elliptic_options options, sph_row_out out)
+{
+    return sphi_elliptic_rows(SPHI_ELLIPTIC_CORRECTED, k, dim, first, last, x, list, h, V, m, options, out);
+}
+SPH_FN sph_index sph_elliptic_rows_schwaiger(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                             sph_scalars m, sph_elliptic_options options, sph_row_out out)
+{
+    return sphi_elliptic_rows(SPHI_ELLIPTIC_SCHWAIGER, k, dim, first, last, x, list, h, V, m, options, out);
+}
+SPH_FN sph_index sph_elliptic_rows_msph(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                        sph_scalars m, sph_elliptic_options options, sph_row_out out)
+{
+    return sphi_elliptic_rows(SPHI_ELLIPTIC_MSPH, k, dim, first, last, x, list, h, V, m, options, out);
+}
+
+/* -------- a mobility for each axis: div(M grad u), M = diag(M_x, M_y, M_z) */
+
+typedef struct sph_diagonal {
+    sph_scalars x, y, z; /* y, z are not read below dim 2, 3 */
+} sph_diagonal;
+
+SPH_FN sph_vec sphi_diagonal_sum(int dim, sph_diagonal M, sph_index i, sph_index j)
+{
+    sph_vec v;
+    v.x = sphi_at(M.x, i) + sphi_at(M.x, j);
+    v.y = dim > 1 ? sphi_at(M.y, i) + sphi_at(M.y, j) : SPH_R(0);
+    v.z = dim > 2 ? sphi_at(M.z, i) + sphi_at(M.z, j) : SPH_R(0);
+    return v;
+}
+SPH_FN int sphi_check_diagonal(int dim, sph_diagonal M, sph_index n)
+{
+    int error = sphi_check_field(M.x, n), negative = 0;
+    sph_index i;
+    if (!error && dim > 1) error = sphi_check_field(M.y, n);
+    if (!error && dim > 2) error = sphi_check_field(M.z, n);
+    if (error || !SPH_CHECK) return error;
+    for (i = 0; i < n; i++) negative |= sphi_at(M.x, i) < SPH_R(0) || (dim > 1 && sphi_at(M.y, i) < SPH_R(0)) || (dim > 2 && sphi_at(M.z, i) < SPH_R(0));
+    return negative ? SPH_ERROR_VALUE : 0;
+}
+
+/* M-SPH with a matrix, as published: row = scale V_j sum_a (M_i + M_j)_a (e_a g_a / |e|^2 - N~_a (K^-T g)_a), arithmetic means. INCONSISTENT unless M is isotropic or all neighbours lie
+   on the axes (on lattices: support below sqrt(2) spacings): for M = diag(1, 0) and many neighbours it gives 3/2 and 1/2 for x^2 and y^2, not 2 and 0, at any
+   resolution. Here because the paper uses it; sph_elliptic_rows_anisotropic is the one to use. */
+SPH_FN sph_index sph_elliptic_rows_msph_diagonal(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
+                                                 sph_scalars V, sph_diagonal M, sph_elliptic_options options, sph_row_out out)
+{
+    const sphi_elliptic a = sphi_elliptic_of(x, list, h, V, M.x, options, h.stride == 0);
+    sph_index i, p, failed = 0;
+    int error = sphi_elliptic_check(k, dim, first, last, &a);
+    if (!error) error = sphi_check_diagonal(dim, M, x.n);
+    if (!error && options.mean != (int)SPH_MOBILITY_ARITHMETIC) error = SPH_ERROR_VALUE;
+    if (!error && !out.row) error = SPH_ERROR_NULL;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        const sph_real h_i = sphi_at(h, i);
+        const sph_shepard s = sphi_elliptic_shepard(k, dim, &a, i);
+        sph_elliptic_correction correction;
+        sph_elliptic_moments m;
+        sph_elliptic_inverse inverse;
+        sph_real conditioning;
+        int state = sphi_elliptic_correct(SPHI_ELLIPTIC_MSPH, k, dim, &a, s, i, &correction, &conditioning);
+        m = sphi_elliptic_moments_of(k, dim, &a, s, i);
+        if (!sphi_unanswered(state)) state = sph_elliptic_invert(dim, options.gradient, &m, &inverse, 0) ? (int)SPH_SINGULAR : state;
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, s, x_i, h_i, j);
+            const sph_vec g = sph_elliptic_gradient_vector(dim, options.gradient, c.e, c.g);
+            const sph_real inverse_square = sphi_over_q(SPH_R(1), sph_dot(dim, c.e, c.e));
+            sph_vec mu = sphi_diagonal_sum(dim, M, i, j), mn = m.n_tilde;
+            sph_real flux;
+            if (sphi_unanswered(state)) {
+                out.row[p] = SPH_R(0);
+                continue;
+            }
+            mn.x *= mu.x;
+            mn.y *= mu.y;
+            mn.z *= mu.z;
+            mu.x *= c.e.x;
+            mu.y *= c.e.y;
+            mu.z *= c.e.z;
+            flux = sph_dot(dim, mu, g) * inverse_square - sph_dot(dim, sph_elliptic_inverse_times(dim, inverse, mn), g);
+            out.row[p] = correction.scale * c.V_j * flux;
+        }
+        if (sphi_row_finite(out.row, list.start[i], list.start[i + 1])) state = SPH_NOT_FINITE;
+        sphi_row_answer(out, list, i, 1, conditioning, state);
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* Consistent rows of div(M grad u) for a diagonal M on full supports. What (69) gets wrong is the fourth moment: sum_j V_j G e_a e_b M_c e_c^2 / |e|^2, G = -F_ij, is not M_a delta_ab. Here M is replaced
+   by S = T^-1 M with T_ac = sum V_j G e_a^2 e_c^2 / |e|^2, so that it is:
+       row = V_j G sum_c S(M_i + M_j)_c (e_c^2 / |e|^2 - (K^-1 N_c) . e),   N_c = sum V_j G e e_c^2 / |e|^2,   K = sum V_j G e e^T.
+   In the continuum S = ((dim + 2) M - tr M) / 2; with neighbours on the axes only T is diagonal and this is M-SPH, as it is for isotropic M where T is isotropic.
+   This form is this toolkit's. Exact for linear fields (M constant) at every particle and for xx, yy, zz in the interior of lattices; to O(disorder) elsewhere.
+   S may be negative where M_x / M_y is beyond 3 (2D): weights then have both signs, and maximum principles are lost. Gradient (15), arithmetic means.
+   SPH_SINGULAR also where T is: fewer directions of neighbours than axes. */
+SPH_FN sph_index sph_elliptic_rows_anisotropic(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
+                                               sph_scalars V, sph_diagonal M, sph_row_out out)
+{
+    const sph_elliptic_options options = sph_elliptic_defaults();
+    const sphi_elliptic a = sphi_elliptic_of(x, list, h, V, M.x, options, h.stride == 0);
+    sph_shepard none;
+    sph_index i, p, failed = 0;
+    int error = sphi_elliptic_check(k, dim, first, last, &a);
+    if (!error) error = sphi_check_diagonal(dim, M, x.n);
+    if (!error && !out.row) error = SPH_ERROR_NULL;
+    if (error) return error;
+    none.nu = SPH_R(1);
+    none.gradient.x = none.gradient.y = none.gradient.z = SPH_R(0);
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        const sph_real h_i = sphi_at(h, i);
+        sph_sym K = {SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0)}, T = K, K_inverse = K, T_inverse = K;
+        sph_vec nx = {SPH_R(0), SPH_R(0), SPH_R(0)}, ny = nx, nz = nx;
+        sph_real conditioning = SPH_R(0), pivot = SPH_R(0);
+        int state;
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, none, x_i, h_i, list.index[p]);
+            const sph_vec e = c.e, we = sph_scale(c.V_j * c.g.radial, e);
+            const sph_real q = sphi_over_q(SPH_R(1), sph_dot(dim, e, e));
+            const sph_vec wex = sph_scale(e.x * e.x * q, we), wey = sph_scale(e.y * e.y * q, we), wez = sph_scale(e.z * e.z * q, we);
+            K.xx += we.x * e.x;
+            T.xx += wex.x * e.x;
+            nx.x += wex.x;
+            if (dim > 1) {
+                K.xy += we.x * e.y;
+                K.yy += we.y * e.y;
+                T.xy += wey.x * e.x;
+                T.yy += wey.y * e.y;
+                nx.y += wex.y;
+                ny.x += wey.x;
+                ny.y += wey.y;
+            }
+            if (dim > 2) {
+                K.xz += we.x * e.z;
+                K.yz += we.y * e.z;
+                K.zz += we.z * e.z;
+                T.xz += wez.x * e.x;
+                T.yz += wez.y * e.y;
+                T.zz += wez.z * e.z;
+                nx.z += wex.z;
+                ny.z += wey.z;
+                nz.x += wez.x;
+                nz.y += wez.y;
+                nz.z += wez.z;
+            }
+        }
+        state = sph_solve_gradient(dim, K, &K_inverse, &conditioning);
+        if (!state) state = sph_solve_gradient(dim, T, &T_inverse, &pivot);
+        if (state) state = sphi_singular_status(k, dim, i, x, list, h_i, dim);
+        else if (pivot < conditioning) conditioning = pivot;
+        nx = sphi_sym_times(dim, K_inverse, nx);
+        ny = sphi_sym_times(dim, K_inverse, ny);
+        nz = sphi_sym_times(dim, K_inverse, nz);
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, none, x_i, h_i, j);
+            const sph_vec S = sphi_sym_times(dim, T_inverse, sphi_diagonal_sum(dim, M, i, j));
+            const sph_real q = sphi_over_q(SPH_R(1), sph_dot(dim, c.e, c.e));
+            sph_real sum = S.x * (c.e.x * c.e.x * q - sph_dot(dim, nx, c.e));
+            if (dim > 1) sum += S.y * (c.e.y * c.e.y * q - sph_dot(dim, ny, c.e));
+            if (dim > 2) sum += S.z * (c.e.z * c.e.z * q - sph_dot(dim, nz, c.e));
+            out.row[p] = state ? SPH_R(0) : c.V_j * c.g.radial * sum;
+        }
+        if (sphi_row_finite(out.row, list.start[i], list.start[i + 1])) state = SPH_NOT_FINITE;
+        sphi_row_answer(out, list, i, 1, conditioning, state);
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* -------- boundary conditions */
+
+/* Rows of  alpha_i u_i + beta_i m_i n_i . grad u  for the targets with alpha or beta not 0; the rows of others are left as they are: write those of the operator first, then these over
+   them. Dirichlet: alpha = 1, beta = 0. Neumann: alpha = 0, beta = 1: the flux into the domain through a boundary with the outer normal n, (100) of Lukyanov & Vuik 2020 with the corrected
+   gradient, exact for linear fields, error O(h). Robin: both. n need not have unit length. diagonal is needed. A row of SPH_TOO_FEW or SPH_SINGULAR is 0, with its diagonal. */
+SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                            sph_scalars m, sph_elliptic_options options, sph_diagonal normal, sph_scalars alpha, sph_scalars beta,
+                                            sph_row_out out)
+{
+    const sphi_elliptic a = sphi_elliptic_of(x, list, h, V, m, options, h.stride == 0);
+    sph_index i, p, failed = 0;
+    int error = sphi_elliptic_check(k, dim, first, last, &a);
+    if (!error) error = sphi_check_field(alpha, x.n);
+    if (!error) error = sphi_check_field(beta, x.n);
+    if (!error) error = sphi_check_field(normal.x, x.n);
+    if (!error && dim > 1) error = sphi_check_field(normal.y, x.n);
+    if (!error && dim > 2) error = sphi_check_field(normal.z, x.n);
+    if (!error && (!out.row || !out.diagonal)) error = SPH_ERROR_NULL;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_real alpha_i = sphi_at(alpha, i), beta_i = sphi_at(beta, i), flux = beta_i * sphi_at(m, i), h_i = sphi_at(h, i);
+        const sph_vec x_i = sphi_point(dim, x, i);
+        sph_shepard s;
+        sph_elliptic_moments moments;
+        sph_elliptic_inverse inverse;
+        sph_vec n;
+        sph_real conditioning = SPH_R(1), sum = SPH_R(0);
+        int state = SPH_OK;
+        if (alpha_i == SPH_R(0) && beta_i == SPH_R(0)) continue;
+        for (p = list.start[i]; p < list.start[i + 1]; p++) out.row[p] = SPH_R(0);
+        if (beta_i != SPH_R(0)) {
+            s = sphi_elliptic_shepard(k, dim, &a, i);
+            moments = sphi_elliptic_moments_of(k, dim, &a, s, i);
+            conditioning = SPH_R(0);
+            if (sph_elliptic_invert(dim, options.gradient, &moments, &inverse, &conditioning)) state = sphi_singular_status(k, dim, i, x, list, h_i, dim);
+            else {
+                n.x = sphi_at(normal.x, i);
+                n.y = dim > 1 ? sphi_at(normal.y, i) : SPH_R(0);
+                n.z = dim > 2 ? sphi_at(normal.z, i) : SPH_R(0);
+                n = sph_scale(flux, sph_elliptic_inverse_times(dim, inverse, n));
+                for (p = list.start[i]; p < list.start[i + 1]; p++) {
+                    const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, s, x_i, h_i, list.index[p]);
+                    out.row[p] = c.V_j * sph_dot(dim, n, sph_elliptic_gradient_vector(dim, options.gradient, c.e, c.g));
+                }
+            }
+            if (conditioning < options.conditioning_min && !state) state = SPH_ILL_CONDITIONED;
+        }
+        if (sphi_row_finite(out.row, list.start[i], list.start[i + 1])) state = SPH_NOT_FINITE;
+        for (p = list.start[i]; p < list.start[i + 1]; p++) sum += out.row[p];
+        out.diagonal[i] = sphi_unanswered(state) ? SPH_R(0) : alpha_i - sum;
+        sphi_row_answer(out, list, i, 0, conditioning, state);
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* -------- rows of any operator of this file: their use, and what they promise */
+
+/* the range, the list, and that there are rows; n: number of sources */
+SPH_FN int sphi_check_rows(sph_index first, sph_index last, sph_index n, sph_list list, const SPH_GLOBAL sph_real *row)
+{
+    sph_index i, p;
+    if (!list.start) return SPH_ERROR_NULL;
+    if (n < 1) return SPH_ERROR_COUNT;
+    if (first < 0 || first > last || last > n) return SPH_ERROR_RANGE;
+    if (first == last) return 0;
+    if (list.start[first] < 0) return SPH_ERROR_LIST;
+    for (i = first; i < last; i++)
+        if (list.start[i + 1] < list.start[i]) return SPH_ERROR_LIST;
+    if (list.start[last] > list.start[first] && (!row || !list.index)) return SPH_ERROR_NULL;
+    for (i = first; i < last && SPH_CHECK; i++)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            if (list.index[p] < 0 || list.index[p] >= n) return SPH_ERROR_LIST;
+            if (list.index[p] == i) return SPH_ERROR_SELF;
+            if (!sphi_finite(row[p])) return SPH_ERROR_VALUE;
+        }
+    return 0;
+}
+
+/* out_i = sum_p row[p] (u_j - u_i), or, if diagonal is given, diagonal[i] u_i + sum_p row[p] u_j. n: number of particles, all sources. The first is exact for constants. */
+SPH_FN sph_index sph_rows_apply(sph_index first, sph_index last, sph_index n, sph_list list, const SPH_GLOBAL sph_real *row,
+                                const SPH_GLOBAL sph_real *diagonal, sph_scalars u, SPH_GLOBAL sph_real *out)
+{
+    int error = sphi_check_rows(first, last, n, list, row);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_field(u, n);
+    if (!error && !out) error = SPH_ERROR_NULL;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_real u_i = sphi_at(u, i), less = diagonal ? SPH_R(0) : u_i;
+        sph_real sum = diagonal ? diagonal[i] * u_i : SPH_R(0);
+        SPH_SUM(sum)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) sum += row[p] * (sphi_at(u, list.index[p]) - less);
+        failed += sphi_store_finite(out, i, sum);
+    }
+    return failed;
+}
+
+/* Is a row that of an M-matrix: no two off-diagonal weights of different sign, the diagonal of the other sign and at least as large as their sum? Lukyanov & Vuik 2020, Definition 7, but for the
+   strictness of the dominance: rows of an operator have the sum 0. A matrix of such rows, connected, with a Dirichlet row, is monotone: no maximum inside. Returns the number of rows that
+   are not; monotone[i] (may be null): 1 or 0. Weights below round-off of the row's largest do not count. */
+SPH_FN sph_index sph_rows_monotone(sph_index first, sph_index last, sph_index n, sph_list list, const SPH_GLOBAL sph_real *row,
+                                   const SPH_GLOBAL sph_real *diagonal, SPH_GLOBAL unsigned char *monotone)
+{
+    const int error = sphi_check_rows(first, last, n, list, row);
+    sph_index i, p, others = 0;
+    if (error) return error;
+    if (!diagonal) return SPH_ERROR_NULL;
+    for (i = first; i < last; i++) {
+        sph_real least = SPH_R(0), most = SPH_R(0), sum = SPH_R(0), noise;
+        int ok;
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            if (row[p] < least) least = row[p];
+            if (row[p] > most) most = row[p];
+            sum += row[p];
+        }
+        noise = SPH_R(64) * SPH_EPSILON * (most - least);
+        ok = least >= -noise ? diagonal[i] <= -sum + SPH_R(64) * SPH_EPSILON * sum : most <= noise && diagonal[i] >= -sum + SPH_R(64) * SPH_EPSILON * sum;
+        if (most <= noise && least >= -noise) ok = diagonal[i] != SPH_R(0); /* a Dirichlet row of either sign */
+        if (monotone) monotone[i] = (unsigned char)ok;
+        others += !ok;
+    }
+    return others;
+}
+
+/* The longest stable step of du/dt = L u by explicit Euler steps: *dt = 2 / max_i (|sum_p row| + sum_p |row|) (Gershgorin), a bound that holds for sure where all weights of a row have one sign. 1/SPHI_TINY
+   if there is nothing to limit it. For a uniform lattice and its 2 dim nearest neighbours it is dx^2 / (2 dim m). Half of it keeps maxima from growing. */
+SPH_FN sph_index sph_rows_time_step(sph_index first, sph_index last, sph_index n, sph_list list, const SPH_GLOBAL sph_real *row, SPH_GLOBAL sph_real *dt)
+{
+    const int error = sphi_check_rows(first, last, n, list, row);
+    sph_real largest = SPH_R(0);
+    sph_index i, p;
+    if (error) return error;
+    if (!dt) return SPH_ERROR_NULL;
+    for (i = first; i < last; i++) {
+        sph_real sum = SPH_R(0), size = SPH_R(0);
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            sum += row[p];
+            size += SPHI_ABS(row[p]);
+        }
+        if (SPHI_ABS(sum) + size > largest) largest = SPHI_ABS(sum) + size;
+    }
+    *dt = largest > SPH_R(2) * SPHI_TINY ? SPH_R(2) / largest : SPH_R(1) / SPHI_TINY;
+    return 0;
+}
+
+/* The growth factor lambda = 1 + tau sum_p row[p] (exp(i k . e) - 1) of the wave k at particle i under u + tau L u (von Neumann); |lambda| <= 1 is stable. (83) of Lukyanov & Vuik 2020. */
+SPH_FN sph_index sph_rows_growth(int dim, sph_index i, sph_points x, sph_list list, const SPH_GLOBAL sph_real *row, sph_real tau, sph_vec wave,
+                                 SPH_GLOBAL sph_real *re, SPH_GLOBAL sph_real *im)
+{
+    sph_real a = SPH_R(0), b = SPH_R(0);
+    sph_index p;
+    int error;
+    if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
+    if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z) || !re || !im) return SPH_ERROR_NULL;
+    if (i < 0 || i >= x.n) return SPH_ERROR_RANGE;
+    error = sphi_check_rows(i, i + 1, x.n, list, row);
+    if (error) return error;
+    if (!sphi_finite(tau) || !sphi_finite(sph_dot(dim, wave, wave))) return SPH_ERROR_VALUE;
+    for (p = list.start[i]; p < list.start[i + 1]; p++) {
+        const sph_real phase = SPH_R(0.5) * sph_dot(dim, wave, sphi_separation(dim, x, sphi_point(dim, x, list.index[p]), sphi_point(dim, x, i)));
+        const sph_real sine = SPHI_SIN(phase);
+        a -= SPH_R(2) * row[p] * sine * sine; /* cos - 1, without cancellation */
+        b += SPH_R(2) * row[p] * sine * SPHI_COS(phase);
+    }
+    if (!sphi_finite(a * tau) || !sphi_finite(b * tau)) return 1;
+    *re = SPH_R(1) + tau * a;
+    *im = tau * b;
+    return 0;
+}
+
+/* What the neighbourhood of a particle promises, for M-SPH with the gradient of the options; n numbers each, a null pointer is not wanted. */
+typedef struct sph_elliptic_report {
+    SPH_GLOBAL sph_real *sign_least,
+        *sign_most; /* of T_ij / (scale V_j mu t_ij) = 1 - xi . e over the neighbours: all weights have one sign where both have ((92)), and are positive where both are ((93)) */
+    SPH_GLOBAL sph_real *xi;          /* |N~ C|, figure 6 of the paper */
+    SPH_GLOBAL sph_real *continuity;  /* largest V_j e . g / dim: the SPH continuity condition (21) asks for at most 1 */
+    SPH_GLOBAL sph_real *n, *n_bound; /* |N| and its bound sum V_j |g|, (22): the bound is C / h */
+    SPH_GLOBAL sph_real *
+        eigenvalue_least; /* of C^-1 (its symmetric part), near 1 inside, smaller towards a free surface: Marrone et al. 2010, JCP 229, 3652, with gradient (17) */
+    SPH_GLOBAL sph_real *condition; /* largest / smallest eigenvalue of Gamma; 0 where it has none */
+    SPH_GLOBAL unsigned char *status;
+} sph_elliptic_report;
+
+SPH_FN void sphi_report(SPH_GLOBAL sph_real *p, sph_index i, sph_real value, int *lost)
+{
+    if (p) *lost |= sphi_store_finite(p, i, value);
+}
+SPH_FN sph_index sph_elliptic_diagnose(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
+                                       sph_elliptic_options options, sph_elliptic_report out)
+{
+    const sphi_elliptic a = sphi_elliptic_of(x, list, h, V, V, options, h.stride == 0);
+    const int gradient = options.gradient;
+    sph_index i, p, failed = 0;
+    int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    if (!error && (gradient < 0 || gradient > (int)SPH_GRADIENT_SHEPARD_FULL)) error = SPH_ERROR_VALUE;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        const sph_real h_i = sphi_at(h, i);
+        const sph_shepard s = sphi_elliptic_shepard(k, dim, &a, i);
+        const sph_elliptic_moments m = sphi_elliptic_moments_of(k, dim, &a, s, i);
+        sph_elliptic_correction correction;
+        sph_real conditioning, least = SPH_R(0), most = SPH_R(0), continuity = SPH_R(0), bound = SPH_R(0), condition = SPH_R(0);
+        sph_sym K;
+        sph_vec eigen;
+        int lost = 0, any = 0, state = sphi_elliptic_correct(SPHI_ELLIPTIC_MSPH, k, dim, &a, s, i, &correction, &conditioning);
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, s, x_i, h_i, list.index[p]);
+            const sph_vec g = sph_elliptic_gradient_vector(dim, gradient, c.e, c.g);
+            const sph_real t = sph_elliptic_projection(dim, gradient, c.e, c.g);
+            const sph_real sign = SPH_R(1) - (gradient == (int)SPH_GRADIENT_FULL ? sph_dot(dim, correction.xi, g) / t : sph_dot(dim, correction.xi, c.e));
+            if (c.V_j * sph_dot(dim, c.e, g) > continuity * SPH_R(dim)) continuity = c.V_j * sph_dot(dim, c.e, g) / SPH_R(dim);
+            bound += SPHI_ABS(c.V_j) * sph_length(dim, g);
+            if (!(SPHI_ABS(t) > SPH_R(0))) continue; /* out of the support */
+            if (!any || sign < least) least = sign;
+            if (!any || sign > most) most = sign;
+            any = 1;
+        }
+        K.xx = m.kx.x;
+        K.xy = SPH_R(0.5) * (m.kx.y + m.ky.x);
+        K.yy = m.ky.y;
+        K.xz = SPH_R(0.5) * (m.kx.z + m.kz.x);
+        K.yz = SPH_R(0.5) * (m.ky.z + m.kz.y);
+        K.zz = m.kz.z;
+        eigen = sph_sym_eigenvalues(dim, m.gamma);
+        if (eigen.x > SPH_R(0)) condition = (dim == 1 ? eigen.x : dim == 2 ? eigen.y : eigen.z) / eigen.x;
+        sphi_report(out.sign_least, i, sphi_unanswered(state) ? SPH_R(0) : least, &lost);
+        sphi_report(out.sign_most, i, sphi_unanswered(state) ? SPH_R(0) : most, &lost);
+        sphi_report(out.xi, i, sph_length(dim, correction.xi), &lost);
+        sphi_report(out.continuity, i, continuity, &lost);
+        sphi_report(out.n, i, sph_length(dim, m.n), &lost);
+        sphi_report(out.n_bound, i, bound, &lost);
+        sphi_report(out.eigenvalue_least, i, sph_sym_eigenvalues(dim, K).x, &lost);
+        sphi_report(out.condition, i, condition, &lost);
+        if (lost) state = SPH_NOT_FINITE;
+        if (out.status) out.status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* -------- assembly: rows and diagonals into a CSR matrix on the caller's memory */
+
+#if !SPH_OPENCL
+/* entries that sph_csr_assemble may need for these targets: those of the rows, and one diagonal each */
+SPH_FN int64_t sph_csr_size(sph_index first, sph_index last, sph_list list)
+{
+    if (!list.start || first < 0 || last < first) return 0;
+    return (int64_t)list.start[last] - list.start[first] + (last - first);
+}
+
+/* ascending columns; Shell's method, which costs next to nothing for rows that are sorted or nearly so (SPH_LIST_SORTED) */
+SPH_FN void sphi_sort_entries(sph_index *column, sph_real *value, sph_index n)
+{
+    sph_index gap = 1, i, j;
+    while (gap < n / 3) gap = 3 * gap + 1;
+    for (; gap > 0; gap /= 3)
+        for (i = gap; i < n; i++) {
+            const sph_index c = column[i];
+            const sph_real v = value[i];
+            for (j = i; j >= gap && column[j - gap] > c; j -= gap) {
+                column[j] = column[j - gap];
+                value[j] = value[j - gap];
+            }
+            column[j] = c;
+            value[j] = v;
+        }
+}
+
+/* The matrix of the targets first ... last - 1: row r belongs to target first + r and has the entries start[r] ... start[r + 1] - 1, columns ascending, the diagonal always there, weights of a neighbour that
+   a list names twice added up. drop_zeros = 1 leaves out off-diagonal entries that are 0 (neighbours out of reach, Dirichlet rows); 0 keeps the pattern of the lists.
+   start: last - first + 1 numbers; column, value: capacity, at least sph_csr_size. *entries (may be null): how many there are.
+   Returns 0, or SPH_ERROR_CAPACITY (nothing written) if capacity is below sph_csr_size, or that beyond the range of sph_index. Must not overlap its inputs. */
+SPH_FN sph_index sph_csr_assemble(sph_index first, sph_index last, sph_index n, sph_list list, const sph_real *row, const sph_real *diagonal, int drop_zeros,
+                                  sph_index *start, sph_index *column, sph_real *value, int64_t capacity, int64_t *entries)
+{
+    const int error = sphi_check_rows(first, last, n, list, row);
+    sph_index i, p, at = 0;
+    if (error) return error;
+    if (!diagonal || !start || !column || !value) return SPH_ERROR_NULL;
+    for (i = first; i < last && SPH_CHECK; i++)
+        if (!sphi_finite(diagonal[i])) return SPH_ERROR_VALUE;
+    if (capacity < sph_csr_size(first, last, list) || (int64_t)(sph_index)sph_csr_size(first, last, list) != sph_csr_size(first, last, list))
+        return SPH_ERROR_CAPACITY;
+    for (i = first; i < last; i++) {
+        const sph_index begin = at;
+        sph_index end, from;
+        start[i - first] = begin;
+        column[at] = i;
+        value[at++] = diagonal[i];
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            if (drop_zeros && row[p] == SPH_R(0)) continue;
+            column[at] = list.index[p];
+            value[at++] = row[p];
+        }
+        sphi_sort_entries(column + begin, value + begin, at - begin);
+        for (end = begin, from = begin + 1; from < at; from++)
+            if (column[from] == column[end]) value[end] += value[from];
+            else {
+                end++;
+                column[end] = column[from];
+                value[end] = value[from];
+            }
+        at = end + 1;
+    }
+    start[last - first] = at;
+    if (entries) *entries = at;
+    return 0;
+}
+#endif
 
 #endif /* SPH_OPS_H */
 
