@@ -2072,7 +2072,8 @@ SPH_FN int sphi_elliptic_check(sph_kernel k, int dim, sph_index first, sph_index
     if (!sphi_finite(o.conditioning_min)) return SPH_ERROR_VALUE;
     error = sphi_check_field(a->m, a->x.n);
     if (!error && o.mean == (int)SPH_MOBILITY_UPWIND) error = sphi_check_field(o.potential, a->x.n);
-    if (error || !SPH_CHECK) return error;
+    if (error) return error;
+    if (!SPH_CHECK) return 0;
     for (i = 0; i < (a->m.stride ? a->x.n : 1); i++) negative |= sphi_at(a->m, i) < SPH_R(0);
     return negative ? SPH_ERROR_VALUE : 0;
 }
@@ -2435,7 +2436,8 @@ SPH_FN int sphi_check_diagonal(int dim, sph_diagonal M, sph_index n)
     sph_index i;
     if (!error && dim > 1) error = sphi_check_field(M.y, n);
     if (!error && dim > 2) error = sphi_check_field(M.z, n);
-    if (error || !SPH_CHECK) return error;
+    if (error) return error;
+    if (!SPH_CHECK) return 0;
     for (i = 0; i < n; i++) negative |= sphi_at(M.x, i) < SPH_R(0) || (dim > 1 && sphi_at(M.y, i) < SPH_R(0)) || (dim > 2 && sphi_at(M.z, i) < SPH_R(0));
     return negative ? SPH_ERROR_VALUE : 0;
 }
