@@ -13,8 +13,9 @@ HEADERS = sph.h sph_ops.h sph_kernels.h
 COMMON = $(wildcard examples/common/*.h) $(wildcard examples/papers/*.h)
 
 # The papers and their drivers (examples/papers/<driver>.c). A driver's name starts with its paper's.
-PAPERS = icspm
+PAPERS = icspm elliptic
 DRIVERS_icspm = icspm_uniform icspm_random icspm_dimensions
+DRIVERS_elliptic = $(patsubst examples/papers/%.c,%,$(wildcard examples/papers/elliptic_*.c))
 DRIVERS = $(foreach p,$(PAPERS),$(DRIVERS_$(p)))
 
 # Tests of the headers are built twice, in double and in float; tests of what the examples share in double only.
