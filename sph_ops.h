@@ -2461,7 +2461,7 @@ SPH_FN sph_index sph_elliptic_rows_msph_diagonal(sph_kernel k, int dim, sph_inde
         const sph_shepard s = sphi_elliptic_shepard(k, dim, &a, i);
         sph_elliptic_correction correction;
         sph_elliptic_moments m;
-        sph_elliptic_inverse inverse;
+        sph_elliptic_inverse inverse = {{SPH_R(0), SPH_R(0), SPH_R(0)}, {SPH_R(0), SPH_R(0), SPH_R(0)}, {SPH_R(0), SPH_R(0), SPH_R(0)}};
         sph_real conditioning;
         int state = sphi_elliptic_correct(SPHI_ELLIPTIC_MSPH, k, dim, &a, s, i, &correction, &conditioning);
         m = sphi_elliptic_moments_of(k, dim, &a, s, i);
