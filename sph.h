@@ -14,7 +14,11 @@
  *     sph_grid_lists(3, &grid, x, SPH_GATHER, sph_scalars_same(&R), sph_scalars_same(&R), 0, start, index, pairs, &pairs);
  *
  * Counting costs about as much as filling: keep the memory from step to step, with some room to spare, and call once; SPH_ERROR_CAPACITY says how much is needed.
- * Particles in storage order near to the order of the cells (sph_grid_order, sph_permute) make every sweep faster: sort once in a while.
+ * Particles in storage order near to the order of the cells make every sweep faster, and lists take half of the time: sort once in a while, between build and lists,
+ *
+ *     sph_permute(n, sph_grid_order(&grid), px, 1, sorted); ...                              each array of yours, positions too
+ *     sph_grid_renumber(&grid);
+ *
  * Lists can be kept for several steps: build them with the radius + a skin, and again when sph_rebuild_due says so. A workspace may be used again for any cloud that is not larger.
  *
  * Pairs whose distance is within a few rounding errors of the radius (8 units in the last place of the radius; in a box, of the largest of radius, box length and coordinates) may be in or out, depending
@@ -26,6 +30,7 @@
  *   sph_index sph_grid_build(dim, sources, reach, work, work_size, grid)      sorts the sources into cells of about the size of reach
  *   sph_index sph_grid_lists(dim, grid, targets, criterion, target_radius, source_radius, flags, start, index, capacity, pairs)   neighbour lists
  *   const sph_index *sph_grid_order(grid)                                     order[slot] = particle: the permutation into cell order
+ *   sph_index sph_grid_renumber(grid)                                         once the arrays are permuted: the grid goes by the new numbers, with no second build
  *   sph_index sph_permute(n, order, in, stride, out)                          out[slot] = in[order[slot]], for each of the caller's arrays
  *   sph_index sph_permute_inverse(n, order, inverse)                          inverse[order[slot]] = slot
  *   int       sph_rebuild_due(dim, now, then, skin)                           1 if a particle has moved by more than skin / 2
@@ -119,11 +124,19 @@ enum {
     SPHI_FARTHEST = 32 /* largest radius / reach: bounds the number of cells that a row looks at */
 };
 
+/* Bytes of a slot's coordinates: in this memory the buckets of the particles wait until all have their slots. */
+SPH_FN size_t sphi_place_size(int dim)
+{
+    const size_t coordinates = (size_t)dim * sizeof(sph_real);
+    return coordinates > sizeof(sph_index) ? coordinates : sizeof(sph_index);
+}
+/* even, so that arrays of four-byte numbers do not take those of eight bytes behind them off their alignment */
+SPH_FN size_t sphi_padded(sph_index n) { return ((size_t)n + SPHI_PAD + 1) / 2 * 2; }
 SPH_FN size_t sph_grid_workspace(int dim, sph_index n)
 {
-    const size_t bytes = (size_t)(dim > 0 ? dim : 0) * sizeof(sph_real) + 3 * sizeof(sph_index);
-    if (dim < 1 || dim > 3 || n < 1 || (uint64_t)n + SPHI_PAD > SIZE_MAX / bytes / 2) return 0;
-    return ((size_t)n + SPHI_PAD) * bytes;
+    const size_t bytes = sphi_place_size(dim > 0 && dim < 4 ? dim : 1) + 3 * sizeof(sph_index);
+    if (dim < 1 || dim > 3 || n < 1 || (uint64_t)n + SPHI_PAD + 1 > SIZE_MAX / bytes / 2) return 0;
+    return sphi_padded(n) * bytes;
 }
 
 /* Number of a cell along an axis, within [0, cells): never falls as x rises, so all between x - R and x + R lie between the cells of these. */
@@ -156,6 +169,8 @@ SPH_FN sph_vec sphi_wrap_point(int dim, const sph_grid *g, sph_vec p)
     return p;
 }
 
+SPH_FN int sphi_boxed(int dim, sph_vec box) { return box.x > SPH_R(0) || (dim > 1 && box.y > SPH_R(0)) || (dim > 2 && box.z > SPH_R(0)); }
+
 /* bucket of the first cell of a row along x */
 SPH_FN size_t sphi_row_bucket(const sph_grid *g, int64_t cy, int64_t cz)
 {
@@ -185,6 +200,15 @@ SPH_FN int sphi_check_points(int dim, sph_points x)
     if (dim > 1 && !sphi_all_finite(sph_scalars_strided(x.y, x.stride), x.n)) return SPH_ERROR_POSITION;
     if (dim > 2 && !sphi_all_finite(sph_scalars_strided(x.z, x.stride), x.n)) return SPH_ERROR_POSITION;
     return 0;
+}
+SPH_FN void sphi_enclose(sph_vec p, sph_vec *low, sph_vec *high)
+{
+    low->x = p.x < low->x ? p.x : low->x;
+    low->y = p.y < low->y ? p.y : low->y;
+    low->z = p.z < low->z ? p.z : low->z;
+    high->x = p.x > high->x ? p.x : high->x;
+    high->y = p.y > high->y ? p.y : high->y;
+    high->z = p.z > high->z ? p.z : high->z;
 }
 /* Lays the grid out over the axes: low, inverse_width, cells. `fine` cells per reach. Returns their product, which may be huge. */
 SPH_FN double sphi_axes(int dim, sph_grid *g, sph_vec low, sph_vec high, sph_real reach, int fine)
@@ -220,31 +244,53 @@ SPH_FN double sphi_axes(int dim, sph_grid *g, sph_vec low, sph_vec high, sph_rea
     return product;
 }
 
-/* The bucket of a source, and its place inside the box. Compiled once: the counting and the placing loop must agree to the last bit, also where the compiler may round as it
-   likes (-ffast-math), or slots would be left unfilled. */
-SPHI_LARGE size_t sphi_source(int dim, const sph_grid *g, sph_vec x, sph_vec *inside)
+/* part of n, in so many parts */
+SPH_FN sph_index sphi_first(sph_index n, int part, int parts) { return (sph_index)((int64_t)n * part / parts); }
+SPH_FN int sphi_parts(void)
 {
-    *inside = sphi_wrap_point(dim, g, x);
-    return sphi_bucket(dim, g, *inside);
+#if SPH_OPENMP
+    return omp_get_max_threads();
+#else
+    return 1;
+#endif
 }
 
+/* Where a source is kept. The one compiled copy of its kind: the loop that finds a particle's bucket and the one that stores its place must take it to the same side of the box to the
+   last bit, also where the compiler may round as it likes (-ffast-math). */
+SPHI_LARGE sph_vec sphi_source(int dim, const sph_grid *g, sph_points s, sph_index i) { return sphi_wrap_point(dim, g, sphi_point(dim, s, i)); }
+
+/* Three loops over the particles - buckets, slots, coordinates - of which the second alone has to go in turn: where the storage order is far from that of the cells, each then waits
+   for one kind of far memory only, and for many at a time. */
 SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real reach, sph_grid *g)
 {
+    const double most = 2.0 * (double)s.n < (double)SPHI_INDEX_MAX ? 2.0 * (double)s.n : (double)SPHI_INDEX_MAX;
+    const int parts = sphi_parts(), boxed = sphi_boxed(dim, g->box);
+    sph_index *const bucket_of = (sph_index *)(void *)g->x;
     sph_vec low = sphi_point(dim, s, 0), high = low;
-    size_t b, last = 0;
-    sph_index i, jumps = 0;
-    int fine;
-    for (i = 1; i < s.n; i++) {
-        const sph_vec p = sphi_point(dim, s, i);
-        if (p.x < low.x) low.x = p.x;
-        if (p.x > high.x) high.x = p.x;
-        if (p.y < low.y) low.y = p.y;
-        if (p.y > high.y) high.y = p.y;
-        if (p.z < low.z) low.z = p.z;
-        if (p.z > high.z) high.z = p.z;
+    sph_index i, jumps = 0, last = 0;
+    size_t b;
+    int fine, part;
+#if SPH_OPENMP
+#pragma omp parallel for
+#endif
+    for (part = 0; part < parts; part++) {
+        const sph_index end = sphi_first(s.n, part + 1, parts);
+        sph_index k = sphi_first(s.n, part, parts);
+        sph_vec l = sphi_point(dim, s, k), h = l;
+        for (; k < end; k++) {
+            const sph_vec p = sphi_point(dim, s, k);
+            sphi_enclose(p, &l, &h);
+        }
+#if SPH_OPENMP
+#pragma omp critical(sphi_bounds)
+#endif
+        {
+            sphi_enclose(l, &low, &high);
+            sphi_enclose(h, &low, &high);
+        }
     }
     g->hashed = 0;
-    for (fine = SPHI_FINE; sphi_axes(dim, g, low, high, reach, fine) > 2.0 * (double)s.n; fine /= 2)
+    for (fine = SPHI_FINE; sphi_axes(dim, g, low, high, reach, fine) > most; fine /= 2)
         if (fine == 1) {
             g->hashed = 1;
             break;
@@ -253,24 +299,40 @@ SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real reach, sph_grid *
         for (g->buckets = 1; g->buckets <= (size_t)s.n; g->buckets *= 2) {}
     else g->buckets = (size_t)(g->cells[0] * g->cells[1] * g->cells[2]);
 
+#if SPH_OPENMP
+#pragma omp parallel for
+#endif
+    for (part = 0; part < parts; part++) {
+        const sph_index end = sphi_first(s.n, part + 1, parts);
+        sph_index k;
+        for (k = sphi_first(s.n, part, parts); k < end; k++) {
+            const sph_vec p = boxed ? sphi_source(dim, g, s, k) : sphi_point(dim, s, k);
+            bucket_of[k] = (sph_index)sphi_bucket(dim, g, p);
+        }
+    }
     /* counting sort: first[b + 2] counts, then first[b + 1] is the next free slot of bucket b, and ends as the first of b + 1 */
     for (b = 0; b < g->buckets + 2; b++) g->first[b] = 0;
     for (i = 0; i < s.n; i++) {
-        sph_vec p;
-        const size_t bucket = sphi_source(dim, g, sphi_point(dim, s, i), &p);
-        jumps += bucket > last + 2 * SPHI_FINE || bucket + 2 * SPHI_FINE < last;
+        const sph_index bucket = bucket_of[i];
+        jumps += bucket - last > 2 * SPHI_FINE || last - bucket > 2 * SPHI_FINE;
         last = bucket;
-        g->first[bucket + 2]++;
+        g->first[(size_t)bucket + 2]++;
     }
     g->scattered = jumps > s.n / 4;
     for (b = 2; b < g->buckets + 2; b++) g->first[b] += g->first[b - 1];
-    for (i = 0; i < s.n; i++) {
-        sph_vec p;
-        const sph_index slot = g->first[sphi_source(dim, g, sphi_point(dim, s, i), &p) + 1]++;
-        g->member[slot] = i;
-        g->x[slot] = p.x;
-        if (dim > 1) g->y[slot] = p.y;
-        if (dim > 2) g->z[slot] = p.z;
+    for (i = 0; i < s.n; i++) g->member[g->first[(size_t)bucket_of[i] + 1]++] = i;
+#if SPH_OPENMP
+#pragma omp parallel for
+#endif
+    for (part = 0; part < parts; part++) {
+        const sph_index end = sphi_first(s.n, part + 1, parts);
+        sph_index k;
+        for (k = sphi_first(s.n, part, parts); k < end; k++) {
+            const sph_vec p = boxed ? sphi_source(dim, g, s, g->member[k]) : sphi_point(dim, s, g->member[k]);
+            g->x[k] = p.x;
+            if (dim > 1) g->y[k] = p.y;
+            if (dim > 2) g->z[k] = p.z;
+        }
     }
     for (i = 0; i < SPHI_PAD; i++) { /* read in whole lanes, never used */
         g->member[s.n + i] = 0;
@@ -281,12 +343,12 @@ SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real reach, sph_grid *
 }
 
 /* Sorts the sources into cells; reach is the radius that will mostly be searched (others work, too). The coordinates are copied: later changes of the arrays do not matter until the
-   next build. work must be aligned for sph_real. Along axes with a box length, reach may be half of it. Returns 0 or a negative sph_error: SPH_ERROR_CAPACITY if work_size is below
+   next build. work must be aligned for sph_real and sph_index, as memory of malloc is. Along axes with a box length, reach may be half of it. Returns 0 or a negative sph_error: SPH_ERROR_CAPACITY if work_size is below
    sph_grid_workspace(dim, sources.n). */
 SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_real reach, void *work, size_t work_size, sph_grid *grid)
 {
     const int error = sphi_check_points(dim, sources);
-    const size_t padded = (size_t)(sources.n > 0 ? sources.n : 0) + SPHI_PAD;
+    const size_t padded = sphi_padded(sources.n > 0 ? sources.n : 0);
     if (error) return error;
     if (!work || !grid) return SPH_ERROR_NULL;
     if (sph_grid_workspace(dim, sources.n) == 0) return SPH_ERROR_COUNT;
@@ -300,7 +362,7 @@ SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_real reach, voi
     grid->x = (sph_real *)work;
     grid->y = grid->x + (dim > 1 ? padded : 0);
     grid->z = grid->y + (dim > 2 ? padded : 0);
-    grid->member = (sph_index *)(void *)(grid->z + padded);
+    grid->member = (sph_index *)(void *)((char *)work + padded * sphi_place_size(dim));
     grid->first = grid->member + padded;
     if (dim == 1) sphi_grid_fill(1, sources, reach, grid);
     else if (dim == 2) sphi_grid_fill(2, sources, reach, grid);
@@ -309,6 +371,17 @@ SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_real reach, voi
 }
 
 SPH_FN const sph_index *sph_grid_order(const sph_grid *grid) { return grid->member; }
+
+/* For a host that has put all its arrays into cell order (sph_permute with sph_grid_order): from here on the grid speaks of particles by their new numbers, as if it had been built
+   of the new arrays, and sph_grid_order is the identity. The old order is lost: permute first. Returns 0, or SPH_ERROR_NULL. */
+SPH_FN sph_index sph_grid_renumber(sph_grid *grid)
+{
+    sph_index s;
+    if (!grid) return SPH_ERROR_NULL;
+    for (s = 0; s < grid->n; s++) grid->member[s] = s;
+    grid->scattered = 0;
+    return 0;
+}
 
 /* ================================================================ lists */
 
@@ -709,8 +782,7 @@ SPH_FN int64_t sphi_pass_part(int mode, const sphi_job *job, sph_index first, sp
     }
 }
 
-/* part of n, and of the room, in so many parts */
-SPH_FN sph_index sphi_first(sph_index n, int part, int parts) { return (sph_index)((int64_t)n * part / parts); }
+/* where a part's share of the room begins */
 SPH_FN int64_t sphi_from(int64_t room, int part, int parts) { return part < parts ? room / parts * part : room; }
 
 /* A pass by all threads. Each part appends to its own part of index, or places where start says. *spilt: a part of index proved too small. */
@@ -737,12 +809,7 @@ SPHI_LARGE int64_t sphi_pass_threads(int mode, const sphi_job *job, int parts, i
 SPHI_LARGE int64_t sphi_lists(const sphi_job *job)
 {
     const sph_index n = job->targets.n;
-#if SPH_OPENMP
-    const int parts = omp_get_max_threads();
-#else
-    const int parts = 1;
-#endif
-    const int append = job->capacity > 0 && !job->by_slots;
+    const int parts = sphi_parts(), append = job->capacity > 0 && !job->by_slots;
     sph_index *const start = job->start, i, p;
     int spilt, part;
     const int64_t total = sphi_pass_threads(append ? SPHI_APPEND : SPHI_LENGTHS, job, parts, &spilt);
@@ -806,7 +873,7 @@ SPH_FN sph_index sph_grid_lists(int dim, const sph_grid *grid, sph_points target
     plain = !grid->hashed && (!by_source || uniform);
     job.g = grid;
     job.targets = targets;
-    job.kind = !plain ? SPHI_ANY : grid->box.x > SPH_R(0) || grid->box.y > SPH_R(0) || grid->box.z > SPH_R(0) ? SPHI_BOXED : SPHI_OPEN;
+    job.kind = !plain ? SPHI_ANY : sphi_boxed(dim, grid->box) ? SPHI_BOXED : SPHI_OPEN;
     job.criterion = plain ? (int)SPH_GATHER : criterion;
     job.flags = flags;
     job.target_radius = uniform ? source_radius : target_radius;

@@ -1047,6 +1047,48 @@ static void test_order(void)
             }
 }
 
+/* A grid that is told of the new numbers is the grid of the sorted particles. */
+static void test_renumber(void)
+{
+    enum { N = 131 };
+    const sph_real radius = SPH_R(0.23);
+    int dim, kind, mask, criterion;
+    pcg32 random;
+    pcg32_seed(&random, 9, 1);
+    CHECK(sph_grid_renumber(0) == SPH_ERROR_NULL);
+    for (dim = 1; dim <= 3; dim++)
+        for (kind = 0; kind < KINDS; kind++)
+            for (mask = 0; mask < 1 << dim; mask++) {
+                cloud c = make(kind, dim, N, 1, &random), sorted = cloud_new(dim, N);
+                sph_real *const from[3] = {c.x, c.y, c.z}, *const to[3] = {sorted.x, sorted.y, sorted.z}, *const R = random_radii(N, radius, &random);
+                const sph_real box[3] = {SPH_R(mask & 1), SPH_R(mask >> 1 & 1), SPH_R(mask >> 2)};
+                sph_points x;
+                problem p;
+                grid g;
+                sph_index s;
+                long moved = 0;
+                int a;
+                for (a = 0; a < dim; a++)
+                    for (s = 0; s < N; s++) from[a][s] += SPH_R(mask >> a & 1 ? (double)(s % 3 - 1) : 0.0); /* other images, too */
+                now.name = kind_name[kind];
+                g = grid_new(dim, sph_points_periodic(points(&c), box[0], box[1], box[2]), radius);
+                for (a = 0; a < dim; a++) CHECK(sph_permute(N, sph_grid_order(&g.g), from[a], 1, to[a]) == 0);
+                CHECK(sph_grid_renumber(&g.g) == 0);
+                for (s = 0; s < N; s++) moved += sph_grid_order(&g.g)[s] != s;
+                CHECK(moved == 0);
+                x = sph_points_periodic(points(&sorted), box[0], box[1], box[2]);
+                p = problem_new(dim, x, x, sph_scalars_same(&radius), sph_scalars_same(&radius));
+                for (criterion = 0; criterion < CRITERIA; criterion++) check_lists("renumbered", &p, &g, criterion, next_flags());
+                p.source_radius = p.target_radius = sph_scalars_array(R);
+                for (criterion = 0; criterion < CRITERIA; criterion++) check_lists("renumbered, a radius for each", &p, &g, criterion, next_flags());
+                problem_free(&p);
+                grid_free(&g);
+                free(R);
+                cloud_free(&c);
+                cloud_free(&sorted);
+            }
+}
+
 /* the cells do bring neighbours together: in the order of the cells they are nearer, on the whole, than at random */
 static void test_locality(void)
 {
@@ -1374,6 +1416,7 @@ int main(int count, char **word)
     test_radii();
     test_box_errors();
     test_order();
+    test_renumber();
     test_locality();
     test_rebuild();
     test_skin();

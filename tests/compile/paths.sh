@@ -50,8 +50,10 @@ for cc in gcc clang; do
         done
         [ $single = 1 ] || check "$cc, 3 threads: all pairs" env OMP_NUM_THREADS=3 "$scratch/openmp" quick
     done
-    sums $cc-64 -DSPH_INDEX=int64_t -march=native
-    check "$cc, 64-bit indices: the pairs of the portable path" same_pairs $cc-64 $cc-portable-0
+    for single in 0 1; do
+        sums $cc-64-$single -DSPH_SINGLE=$single -DSPH_INDEX=int64_t -march=native
+        check "$cc, 64-bit indices, SPH_SINGLE=$single: the pairs of the portable path" same_pairs $cc-64-$single $cc-portable-$single
+    done
 done
 if [ -s "$scratch/gcc-portable-0.sums" ] && [ -s "$scratch/clang-portable-0.sums" ]; then
     check "the pairs of gcc and clang" same_pairs clang-portable-0 gcc-portable-0
