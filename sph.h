@@ -426,52 +426,92 @@ SPH_FN int sphi_in_run(int dim, const sph_grid *g, sph_index slot, const sphi_ru
     return dim < 3 || sphi_cell(g->z[slot], g->low.z, g->inverse_width.z, g->cells[2]) == run->z;
 }
 
-/* What is known when the loops are compiled: anything (hashed cells, radii of pairs), one radius in some box, one radius in an open domain. */
-enum { SPHI_ANY, SPHI_BOXED, SPHI_OPEN };
+/* What is known when the loops are compiled: hashed cells and any radii, or no hashed cells and radii of pairs, one radius in some box, one radius in an open domain. */
+enum { SPHI_HASHED, SPHI_RADII, SPHI_BOXED, SPHI_OPEN };
+
+/* The squares of the pairs' radii for slots m ... m + n - 1. */
+SPH_FN void sphi_limits_by(int criterion, const sph_grid *g, const sphi_search *s, sph_index m, int n, sph_real *limit)
+{
+    const sph_real own = s->own, widest = s->widest;
+    int l;
+    for (l = 0; l < n; l++) {
+        const sph_real R = sphi_lesser(sphi_pair_radius(criterion, own, sphi_at(s->source, g->member[m + l])), widest);
+        limit[l] = R * R;
+    }
+}
+SPH_FN void sphi_limits(const sph_grid *g, const sphi_search *s, sph_index m, int n, sph_real *limit)
+{
+    int l;
+    if (s->criterion == SPH_SCATTER) sphi_limits_by(SPH_SCATTER, g, s, m, n, limit);
+    else if (s->criterion == SPH_LARGER) sphi_limits_by(SPH_LARGER, g, s, m, n, limit);
+    else if (s->criterion == SPH_MEAN) sphi_limits_by(SPH_MEAN, g, s, m, n, limit);
+    else
+        for (l = 0; l < n; l++) limit[l] = s->radius * s->radius;
+}
+
+/* 1 for numbers below 0, by the sign bit: read where it is, it costs less than a comparison */
+SPH_FN unsigned sphi_negative(sph_real x)
+{
+#if SPH_SINGLE
+    union {
+        float f;
+        uint32_t u;
+    } v;
+    v.f = x;
+    return v.u >> 31;
+#else
+    union {
+        double f;
+        uint64_t u;
+    } v;
+    v.f = x;
+    return (unsigned)(v.u >> 63);
+#endif
+}
 
 /* Slots a ... b - 1: puts the neighbours to out[count] as long as count < room, and counts on; returns the new count. */
 SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, sph_index a, sph_index b, sph_index *out,
                                     int64_t room, int64_t count)
 {
-    enum { LANES = 8, TILE = 64 };
     const sph_vec p = s->p, shift = run->shift;
     const sph_real limit = s->radius * s->radius;
     const sph_index skip = s->skip, least = s->least;
-    const int store = kind != SPHI_ANY && count + (int64_t)(b - a) + 1 <= room, tally = kind != SPHI_ANY && room <= 0;
-    for (; a < b; a += TILE) {
-        const int n = b - a < TILE ? (int)(b - a) : (int)TILE;
+    const int store = kind != SPHI_HASHED && count + (int64_t)(b - a) + 1 <= room, tally = kind != SPHI_HASHED && room <= 0;
+    for (; a < b; a += SPHI_TILE) {
+        const int n = b - a < SPHI_TILE ? (int)(b - a) : (int)SPHI_TILE;
         const sph_index *const member = g->member + a;
-        sph_real d2[TILE];
+        sph_real limits[SPHI_TILE], excess[SPHI_TILE]; /* of the square of the distance over that of the radius: negative for neighbours */
         int c, l;
-        for (c = 0; c < n; c += LANES)
-            for (l = c; l < c + LANES; l++) {
+        if (kind <= SPHI_RADII) sphi_limits(g, s, a, (n + SPHI_LANES - 1) / SPHI_LANES * SPHI_LANES, limits);
+        for (c = 0; c < n; c += SPHI_LANES)
+            for (l = c; l < c + SPHI_LANES; l++) {
                 const sph_real dx = (p.x - g->x[a + l]) - shift.x;
                 const sph_real dy = dim > 1 ? (p.y - g->y[a + l]) - shift.y : SPH_R(0);
                 const sph_real dz = dim > 2 ? (p.z - g->z[a + l]) - shift.z : SPH_R(0);
-                d2[l] = dx * dx + (dim > 1 ? dy * dy : SPH_R(0)) + (dim > 2 ? dz * dz : SPH_R(0));
+                const sph_real d2 = dx * dx + (dim > 1 ? dy * dy : SPH_R(0)) + (dim > 2 ? dz * dz : SPH_R(0));
+                excess[l] = d2 - (kind <= SPHI_RADII ? limits[l] : limit);
             }
         if (store) { /* without a branch: every candidate is stored, and overwritten by the next if it is no neighbour */
             sph_index *next = out + count;
             if (least == 0)
                 for (l = 0; l < n; l++) {
                     *next = member[l];
-                    next += (d2[l] < limit) & (member[l] != skip);
+                    next += sphi_negative(excess[l]) & (member[l] != skip);
                 }
             else
                 for (l = 0; l < n; l++) {
                     *next = member[l];
-                    next += (d2[l] < limit) & (member[l] != skip) & (member[l] >= least);
+                    next += sphi_negative(excess[l]) & (member[l] != skip) & (member[l] >= least);
                 }
             count = next - out;
         } else if (tally) {
-            int found = 0;
-            for (l = 0; l < n; l++) found += (d2[l] < limit) & (member[l] != skip) & (member[l] >= least);
+            unsigned found = 0;
+            for (l = 0; l < n; l++) found += sphi_negative(excess[l]) & (member[l] != skip) & (member[l] >= least);
             count += found;
         } else
             for (l = 0; l < n; l++) {
                 const sph_index j = member[l];
-                const sph_real R = kind != SPHI_ANY ? s->radius : sphi_lesser(sphi_pair_radius(s->criterion, s->own, sphi_at(s->source, j)), s->widest);
-                if (!(d2[l] < R * R) || j == skip || j < least || (kind == SPHI_ANY && g->hashed && !sphi_in_run(dim, g, a + l, run))) continue;
+                if (!sphi_negative(excess[l]) || j == skip || j < least || (kind == SPHI_HASHED && !sphi_in_run(dim, g, a + l, run))) continue;
                 if (count < room) out[count] = j;
                 count++;
             }
@@ -493,19 +533,19 @@ SPH_FN void sphi_compress8(sph_index *out, __m256i j, unsigned mask)
 #endif
 }
 
+/* Of the eight slots from m on, those nearer than the limit, or than the eight limits if there are any. Squares. */
 #if SPH_SINGLE
-/* squares of eight distances along an axis */
 SPH_FN __m256 sphi_square8(float p, const float *x, float shift)
 {
     const __m256 d = _mm256_sub_ps(_mm256_sub_ps(_mm256_set1_ps(p), _mm256_loadu_ps(x)), _mm256_set1_ps(shift));
     return _mm256_mul_ps(d, d);
 }
-SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, float limit)
+SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, float limit, const float *limits)
 {
     __m256 d2 = sphi_square8(s->p.x, g->x + m, shift.x);
     if (dim > 1) d2 = _mm256_add_ps(d2, sphi_square8(s->p.y, g->y + m, shift.y));
     if (dim > 2) d2 = _mm256_add_ps(d2, sphi_square8(s->p.z, g->z + m, shift.z));
-    return (unsigned)_mm256_movemask_ps(_mm256_cmp_ps(d2, _mm256_set1_ps(limit), _CMP_LT_OQ));
+    return (unsigned)_mm256_movemask_ps(_mm256_cmp_ps(d2, limits ? _mm256_loadu_ps(limits) : _mm256_set1_ps(limit), _CMP_LT_OQ));
 }
 #elif SPH_AVX512
 SPH_FN __m512d sphi_square8(double p, const double *x, double shift)
@@ -513,12 +553,12 @@ SPH_FN __m512d sphi_square8(double p, const double *x, double shift)
     const __m512d d = _mm512_sub_pd(_mm512_sub_pd(_mm512_set1_pd(p), _mm512_loadu_pd(x)), _mm512_set1_pd(shift));
     return _mm512_mul_pd(d, d);
 }
-SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, double limit)
+SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, double limit, const double *limits)
 {
     __m512d d2 = sphi_square8(s->p.x, g->x + m, shift.x);
     if (dim > 1) d2 = _mm512_add_pd(d2, sphi_square8(s->p.y, g->y + m, shift.y));
     if (dim > 2) d2 = _mm512_add_pd(d2, sphi_square8(s->p.z, g->z + m, shift.z));
-    return _mm512_cmp_pd_mask(d2, _mm512_set1_pd(limit), _CMP_LT_OQ);
+    return _mm512_cmp_pd_mask(d2, limits ? _mm512_loadu_pd(limits) : _mm512_set1_pd(limit), _CMP_LT_OQ);
 }
 #else
 SPH_FN __m256d sphi_square4(double p, const double *x, double shift)
@@ -526,30 +566,34 @@ SPH_FN __m256d sphi_square4(double p, const double *x, double shift)
     const __m256d d = _mm256_sub_pd(_mm256_sub_pd(_mm256_set1_pd(p), _mm256_loadu_pd(x)), _mm256_set1_pd(shift));
     return _mm256_mul_pd(d, d);
 }
-SPH_FN unsigned sphi_nearer4(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, double limit)
+SPH_FN unsigned sphi_nearer4(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, double limit, const double *limits)
 {
     __m256d d2 = sphi_square4(s->p.x, g->x + m, shift.x);
     if (dim > 1) d2 = _mm256_add_pd(d2, sphi_square4(s->p.y, g->y + m, shift.y));
     if (dim > 2) d2 = _mm256_add_pd(d2, sphi_square4(s->p.z, g->z + m, shift.z));
-    return (unsigned)_mm256_movemask_pd(_mm256_cmp_pd(d2, _mm256_set1_pd(limit), _CMP_LT_OQ));
+    return (unsigned)_mm256_movemask_pd(_mm256_cmp_pd(d2, limits ? _mm256_loadu_pd(limits) : _mm256_set1_pd(limit), _CMP_LT_OQ));
 }
-SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, double limit)
+SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, double limit, const double *limits)
 {
-    return sphi_nearer4(dim, g, s, m, shift, limit) | sphi_nearer4(dim, g, s, m + 4, shift, limit) << 4;
+    return sphi_nearer4(dim, g, s, m, shift, limit, limits) | sphi_nearer4(dim, g, s, m + 4, shift, limit, limits ? limits + 4 : 0) << 4;
 }
 #endif
 
 /* store = 0: counts only, and out is not touched */
-SPH_FN int64_t sphi_filter_wide(int dim, const sph_grid *g, const sphi_search *s, sph_vec shift, sph_index a, sph_index b, sph_index *out, int store,
+SPH_FN int64_t sphi_filter_wide(int dim, int kind, const sph_grid *g, const sphi_search *s, sph_vec shift, sph_index a, sph_index b, sph_index *out, int store,
                                 int64_t count)
 {
     const sph_real limit = s->radius * s->radius;
     const __m256i skip = _mm256_set1_epi32((int)s->skip), least = _mm256_set1_epi32((int)s->least);
+    sph_real limits[SPHI_TILE];
     sph_index m;
     for (m = a; m < b; m += 8) {
+        const int at = (int)((m - a) % SPHI_TILE);
         const __m256i j = _mm256_loadu_si256((const __m256i *)(const void *)(g->member + m));
         const __m256i drop = _mm256_or_si256(_mm256_cmpeq_epi32(j, skip), _mm256_cmpgt_epi32(least, j));
-        unsigned mask = sphi_nearer8(dim, g, s, m, shift, limit) & ~(unsigned)_mm256_movemask_ps(_mm256_castsi256_ps(drop));
+        unsigned mask;
+        if (kind == SPHI_RADII && at == 0) sphi_limits(g, s, m, b - m < SPHI_TILE ? (int)((b - m + 7) / 8 * 8) : (int)SPHI_TILE, limits);
+        mask = sphi_nearer8(dim, g, s, m, shift, limit, kind == SPHI_RADII ? limits + at : 0) & ~(unsigned)_mm256_movemask_ps(_mm256_castsi256_ps(drop));
         mask &= b - m < 8 ? (1u << (b - m)) - 1u : 0xffu;
         if (store) sphi_compress8(out + count, j, mask);
         count += __builtin_popcount(mask);
@@ -558,12 +602,12 @@ SPH_FN int64_t sphi_filter_wide(int dim, const sph_grid *g, const sphi_search *s
 }
 /* The same where the room may not do for whole lanes: not the portable loop, because that may be rounded otherwise (where the compiler contracts it to fused operations), and a row would
    not be as long as it was counted. */
-SPHI_LARGE int64_t sphi_filter_tight(int dim, const sph_grid *g, const sphi_search *s, sph_vec shift, sph_index a, sph_index b, sph_index *out, int64_t room,
-                                     int64_t count)
+SPHI_LARGE int64_t sphi_filter_tight(int dim, int kind, const sph_grid *g, const sphi_search *s, sph_vec shift, sph_index a, sph_index b, sph_index *out,
+                                     int64_t room, int64_t count)
 {
     for (; a < b; a += 8) {
         sph_index some[8];
-        const int64_t found = sphi_filter_wide(dim, g, s, shift, a, b - a < 8 ? b : a + 8, some, 1, 0);
+        const int64_t found = sphi_filter_wide(dim, kind, g, s, shift, a, b - a < 8 ? b : a + 8, some, 1, 0);
         int64_t c;
         for (c = 0; c < found && count + c < room; c++) out[count + c] = some[c];
         count += found;
@@ -577,9 +621,9 @@ SPH_FN int64_t sphi_filter(int dim, int kind, const sph_grid *g, const sphi_sear
 {
 #if SPH_AVX512 || SPH_AVX2
     const int store = count + (int64_t)(b - a) + 8 <= room;
-    if (kind != SPHI_ANY && SPHI_WIDE_PATH) {
-        if (store || room <= 0) return sphi_filter_wide(dim, g, s, run->shift, a, b, out, store, count);
-        return sphi_filter_tight(dim, g, s, run->shift, a, b, out, room, count);
+    if (kind != SPHI_HASHED && SPHI_WIDE_PATH) {
+        if (store || room <= 0) return sphi_filter_wide(dim, kind, g, s, run->shift, a, b, out, store, count);
+        return sphi_filter_tight(dim, kind, g, s, run->shift, a, b, out, room, count);
     }
 #endif
     return sphi_filter_portable(dim, kind, g, s, run, a, b, out, room, count);
@@ -608,7 +652,7 @@ SPH_FN int64_t sphi_image(int64_t cells, int64_t *c)
 /* The neighbours of one target: filters, or with count_all just counts the candidates. Adds their number to *candidates. */
 SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search *s, int count_all, sph_index *out, int64_t room, int64_t *candidates)
 {
-    const int boxed = kind != SPHI_OPEN, hashed = kind == SPHI_ANY && g->hashed;
+    const int boxed = kind != SPHI_OPEN, hashed = kind == SPHI_HASHED;
     const sph_vec box = g->box;
     int64_t x0, x1, y0 = 0, y1 = 0, z0 = 0, z1 = 0, x, y, z, count = 0;
     sphi_run run;
@@ -727,7 +771,7 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
             row = index + job->start[i];
         }
         s.own = job->criterion == SPH_SCATTER ? SPH_R(0) : sphi_at(job->target_radius, i);
-        s.radius = sphi_lesser(kind != SPHI_ANY ? s.own : sphi_pair_radius(job->criterion, s.own, job->source_largest), s.widest);
+        s.radius = sphi_lesser(kind > SPHI_RADII ? s.own : sphi_pair_radius(job->criterion, s.own, job->source_largest), s.widest);
         s.skip = job->flags & (SPH_LIST_SELF | SPH_LIST_FOREIGN) ? -1 : i;
         s.least = job->flags & SPH_LIST_HALF ? i : 0;
         buffered = mode == SPHI_PLACE && row_room <= SPHI_BUFFER / 2;
@@ -748,9 +792,12 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
     { \
         return sphi_pass(dim, kind, mode, job, first, last, index, room); \
     }
-SPHI_PASS(sphi_pass_any_1, 1, SPHI_ANY)
-SPHI_PASS(sphi_pass_any_2, 2, SPHI_ANY)
-SPHI_PASS(sphi_pass_any_3, 3, SPHI_ANY)
+SPHI_PASS(sphi_pass_hashed_1, 1, SPHI_HASHED)
+SPHI_PASS(sphi_pass_hashed_2, 2, SPHI_HASHED)
+SPHI_PASS(sphi_pass_hashed_3, 3, SPHI_HASHED)
+SPHI_PASS(sphi_pass_radii_1, 1, SPHI_RADII)
+SPHI_PASS(sphi_pass_radii_2, 2, SPHI_RADII)
+SPHI_PASS(sphi_pass_radii_3, 3, SPHI_RADII)
 SPHI_PASS(sphi_pass_boxed_1, 1, SPHI_BOXED)
 SPHI_PASS(sphi_pass_boxed_2, 2, SPHI_BOXED)
 SPHI_PASS(sphi_pass_boxed_3, 3, SPHI_BOXED)
@@ -761,12 +808,18 @@ SPHI_PASS(sphi_pass_open_3, 3, SPHI_OPEN)
 SPH_FN int64_t sphi_pass_part(int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room)
 {
     switch (job->kind * 4 + job->g->dim) {
-    case SPHI_ANY * 4 + 1:
-        return sphi_pass_any_1(mode, job, first, last, index, room);
-    case SPHI_ANY * 4 + 2:
-        return sphi_pass_any_2(mode, job, first, last, index, room);
-    case SPHI_ANY * 4 + 3:
-        return sphi_pass_any_3(mode, job, first, last, index, room);
+    case SPHI_HASHED * 4 + 1:
+        return sphi_pass_hashed_1(mode, job, first, last, index, room);
+    case SPHI_HASHED * 4 + 2:
+        return sphi_pass_hashed_2(mode, job, first, last, index, room);
+    case SPHI_HASHED * 4 + 3:
+        return sphi_pass_hashed_3(mode, job, first, last, index, room);
+    case SPHI_RADII * 4 + 1:
+        return sphi_pass_radii_1(mode, job, first, last, index, room);
+    case SPHI_RADII * 4 + 2:
+        return sphi_pass_radii_2(mode, job, first, last, index, room);
+    case SPHI_RADII * 4 + 3:
+        return sphi_pass_radii_3(mode, job, first, last, index, room);
     case SPHI_BOXED * 4 + 1:
         return sphi_pass_boxed_1(mode, job, first, last, index, room);
     case SPHI_BOXED * 4 + 2:
@@ -873,7 +926,7 @@ SPH_FN sph_index sph_grid_lists(int dim, const sph_grid *grid, sph_points target
     plain = !grid->hashed && (!by_source || uniform);
     job.g = grid;
     job.targets = targets;
-    job.kind = !plain ? SPHI_ANY : sphi_boxed(dim, grid->box) ? SPHI_BOXED : SPHI_OPEN;
+    job.kind = grid->hashed ? SPHI_HASHED : !plain ? SPHI_RADII : sphi_boxed(dim, grid->box) ? SPHI_BOXED : SPHI_OPEN;
     job.criterion = plain ? (int)SPH_GATHER : criterion;
     job.flags = flags;
     job.target_radius = uniform ? source_radius : target_radius;
