@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: MIT
+# The figures of the paper on the elliptic operator, from the data files in `dir`:
+#     gnuplot -e "dir='build/figures/'" examples/papers/elliptic.gp
+set datafile separator ","
+set grid linecolor rgb "#dddddd"
+there(name) = system(sprintf("test -r %s%s.csv && echo yes", dir, name)) eq "yes"
+array gradient[4] = ["(15)", "(16)", "(17)", "(18)"]
+array color[4] = ["#0072b2", "#d55e00", "#009e73", "#000000"]
+array mark[4] = [6, 7, 2, 4]
+
+if (there("elliptic_fig12")) {
+    set output dir."elliptic_fig12.png"
+    set terminal pngcairo size 1200,500 font "sans,12"
+    set multiplot layout 1,2 title "div grad (x^2 + y^2) along y = 0, 11 x 11 nodes, f = 1"
+    set xlabel "x"
+    set key bottom center
+    set title "Figure 1: Brookshaw"
+    plot dir."elliptic_fig12.csv" using 1:3 every ::1 with linespoints pointtype 6 linecolor rgb color[1] title "(27), grad W", \
+        "" using 1:4 every ::1 with linespoints pointtype 7 linecolor rgb color[2] title "(27), grad* W", \
+        "" using 1:5 every ::1 with linespoints pointtype 4 linecolor rgb color[3] title "(51)", \
+        "" using 1:2 every ::1 with lines linewidth 2 linecolor rgb "black" title "exact"
+    set title "Figure 2: Schwaiger"
+    plot dir."elliptic_fig12.csv" using 1:6 every ::1 with linespoints pointtype 6 linecolor rgb color[1] title "(52), grad W", \
+        "" using 1:7 every ::1 with linespoints pointtype 7 linecolor rgb color[2] title "(52), grad* W in the first sum", \
+        "" using 1:2 every ::1 with lines linewidth 2 linecolor rgb "black" title "exact"
+    unset multiplot
+}
+
+array patch[2] = ["elliptic_fig3", "elliptic_fig4"]
+array patch_title[2] = ["Figure 3: div grad (x^3 + y^3) along y = 2.5, 21 x 21 nodes, f = 1.2", "Figure 4: div((x + y) grad (x + y)) along y = 2.5, 21 x 21 nodes, f = 1.2"]
+array scheme_title[4] = ["CB-SPH (51)", "S-SPH (52)", "M-SPH (69), Gamma", "M-SPH (69), Gamma*"]
+do for [f = 1:2] {
+    if (there(patch[f])) {
+        set output dir.patch[f].".png"
+        set terminal pngcairo size 1200,900 font "sans,12"
+        set multiplot layout 2,2 title patch_title[f]
+        set xlabel "x"
+        set key bottom center
+        do for [s = 1:4] {
+            set title scheme_title[s]
+            plot for [g = 1:4] dir.patch[f].".csv" using 1:(column(4 * s + g - 2)) every ::1 with linespoints pointtype mark[g] linecolor rgb color[g] title gradient[g], \
+                "" using 1:2 every ::1 with lines linewidth 2 linecolor rgb "gray40" title "exact"
+        }
+        unset multiplot
+    }
+}
+
+if (there("elliptic_fig5")) {
+    set output dir."elliptic_fig5.png"
+    set terminal pngcairo size 1500,950 font "sans,12"
+    set multiplot layout 2,3 title "Figure 5: growth factors, 21 x 21 nodes, f = 1.2, tau = dx^2 / 4 (all particles and waves; the circle is |lambda| = 1)"
+    set xlabel "Re"
+    set ylabel "Im"
+    set xrange [-1.15:1.15]
+    set yrange [-1.15:1.15]
+    set size ratio 1
+    set key top left
+    set parametric
+    set trange [0:2*pi]
+    array scheme[3] = ["CB", "S", "M"]
+    array layout[2] = ["uniform", "perturbed"]
+    do for [l = 1:2] {
+        do for [s = 1:3] {
+            set title scheme[s]."-SPH, ".layout[l]
+            plot for [g = 1:4] dir."elliptic_fig5.csv" using (strcol(1) eq layout[l] && strcol(2) eq scheme[s] && strcol(3) eq gradient[g] ? $4 : NaN):5 every ::1 \
+                with points pointtype mark[g] pointsize 0.5 linecolor rgb color[g] title gradient[g], cos(t), sin(t) with lines linecolor rgb "gray40" notitle
+        }
+    }
+    unset multiplot
+    unset parametric
+    set size noratio
+    set autoscale
+    unset ylabel
+}
+
+if (there("elliptic_fig6")) {
+    set output dir."elliptic_fig6.png"
+    set terminal pngcairo size 1200,500 font "sans,12"
+    set multiplot layout 1,2 title "Figure 6: |xi| of 50 random neighbourhoods in the unit disc"
+    set logscale xy
+    set xlabel "neighbours"
+    set key top right
+    array smoothing[2] = ["1", "0.5005"]
+    array quantity[2] = ["mean", "deviation"]
+    do for [q = 1:2] {
+        set title quantity[q]
+        plot for [a = 1:2] dir."elliptic_fig6.csv" using (strcol(1) eq smoothing[a] ? $2 : NaN):(column(2 + q)) every ::1 with linespoints pointtype mark[a] linecolor rgb color[a] \
+            title "h = ".smoothing[a], (q == 1 ? 2.6 : 1.3) / sqrt(x) with lines dashtype 2 linecolor rgb "gray40" title "slope -1/2"
+    }
+    unset multiplot
+    unset logscale
+}
+
+if (there("elliptic_table1")) {
+    set output dir."elliptic_table1.png"
+    set terminal pngcairo size 900,560 font "sans,12"
+    set title "Table 1: error of the flow through a slit, explicit steps, nu = dt / dx^2"
+    set xlabel "t"
+    set ylabel "log10 E"
+    set key bottom left
+    set xrange [0:10]
+    array nu[4] = ["0.1", "0.2", "0.25", "0.26"]
+    plot for [a = 1:4] dir."elliptic_table1.csv" using (strcol(1) eq nu[a] && $2 < 0.9 ? $3 : NaN):4 every ::2 with lines linewidth 2 linecolor rgb color[a] title "nu = ".nu[a].", five points", \
+        "" using (strcol(1) eq "0.26" && $2 > 0.9 ? $3 : NaN):4 every ::2 with lines linewidth 2 dashtype 2 linecolor rgb "#d55e00" title "nu = 0.26, nine points"
+    unset ylabel
+}

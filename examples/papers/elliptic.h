@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * elliptic.h - the setting of the paper on the elliptic operator (Lukyanov & Vuik 2020, arXiv:1711.11351), shared by its drivers: clouds of particles, their
+ * neighbour lists, the four schemes with the four gradients of the kernel, the data files of the figures.
+ *
+ *     cloud c = {0};
+ *     cloud_lattice(&c, 2, 21, 2.0, 0.05);          particles, volumes, m = 1
+ *     cloud_neighbours(&c, 1.2 * c.dx);             h and lists; again after the particles were moved
+ *     ... fill c.u (and c.m)
+ *     cloud_apply(&c, SCHEME_M, sph_elliptic_defaults());   div(m grad u) in c.value, or
+ *     cloud_rows(&c, SCHEME_M, sph_elliptic_defaults());    its rows in c.row, c.diagonal
+ *     cloud_close(&c);
+ */
+#ifndef ELLIPTIC_H
+#define ELLIPTIC_H
+
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wpass-failed" /* the gradient is chosen at run time here: some loops then do not vectorise */
+#endif
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "../../sph.h"
+#include "../common/random.h"
+#include "../common/report.h"
+
+#define ELLIPTIC_KERNEL SPH_CUBIC_SPLINE /* (12) */
+
+static const double elliptic_pi = 3.14159265358979323846;
+
+/* Brookshaw (27), corrected Brookshaw (51), Schwaiger (52), the paper's own (69) */
+enum { SCHEME_B, SCHEME_CB, SCHEME_S, SCHEME_M, SCHEMES };
+static const char *const elliptic_scheme_name[SCHEMES] = {"B", "CB", "S", "M"};
+
+/* the gradients of the kernel, in the order of sph_elliptic_gradient */
+enum { GRADIENTS = 4 };
+static const char *const elliptic_gradient_name[GRADIENTS] = {"(15)", "(16)", "(17)", "(18)"};
+
+static inline sph_elliptic_options elliptic_with_gradient(int gradient)
+{
+    sph_elliptic_options o = sph_elliptic_defaults();
+    o.gradient = gradient;
+    return o;
+}
+
+/* Particles with one h for all, and their neighbours. All zeros is an empty cloud. */
+typedef struct cloud {
+    int dim, n;
+    double dx, h;
+    double jitter;                        /* largest displacement from the lattice along an axis */
+    double low[3], high[3];               /* the faces of the domain: particles on them are boundary particles */
+    double *x, *y, *z;                    /* those beyond dim are 0 */
+    double *depth;                        /* distance from the boundary of the domain */
+    double *V, *m, *u, *value, *diagonal; /* m = 1 until it is set */
+    unsigned char *status;
+    sph_index *start, *index;
+    double *row; /* as long as index */
+    void *work;
+    int capacity;
+    size_t work_size, pair_capacity;
+} cloud;
+
+static inline void *elliptic_memory(void *old, size_t size)
+{
+    void *p = realloc(old, size);
+    if (!p) {
+        fprintf(stderr, "elliptic: out of memory (%lu bytes)\n", (unsigned long)size);
+        exit(2);
+    }
+    return p;
+}
+
+static inline void elliptic_expect(sph_index answer)
+{
+    if (answer < 0) {
+        fprintf(stderr, "elliptic: %s\n", sph_status_text((int)answer));
+        exit(2);
+    }
+}
+
+/* Room for n particles; what they were is lost. */
+static inline void cloud_size(cloud *c, int dim, int n)
+{
+    double **const arrays[] = {&c->x, &c->y, &c->z, &c->depth, &c->V, &c->m, &c->u, &c->value, &c->diagonal};
+    size_t a, size;
+    int i;
+    if (n > c->capacity) {
+        for (a = 0; a < sizeof arrays / sizeof *arrays; a++) *arrays[a] = (double *)elliptic_memory(*arrays[a], (size_t)n * sizeof(double));
+        c->status = (unsigned char *)elliptic_memory(c->status, (size_t)n);
+        c->start = (sph_index *)elliptic_memory(c->start, ((size_t)n + 1) * sizeof *c->start);
+        c->capacity = n;
+    }
+    size = sph_grid_workspace(dim, n);
+    if (size > c->work_size) {
+        c->work = elliptic_memory(c->work, size);
+        c->work_size = size;
+    }
+    c->dim = dim;
+    c->n = n;
+    c->jitter = 0;
+    for (i = 0; i < n; i++) {
+        c->x[i] = c->y[i] = c->z[i] = c->u[i] = 0;
+        c->m[i] = 1;
+    }
+}
+
+static inline void cloud_close(cloud *c)
+{
+    void *const arrays[] = {c->x, c->y, c->z, c->depth, c->V, c->m, c->u, c->value, c->diagonal, c->status, c->start, c->index, c->row, c->work};
+    size_t a;
+    for (a = 0; a < sizeof arrays / sizeof *arrays; a++) free(arrays[a]);
+}
+
+static inline sph_points cloud_points(const cloud *c) { return sph_points_separate(c->n, c->x, c->y, c->z); }
+static inline sph_list cloud_list(const cloud *c)
+{
+    sph_list l;
+    l.start = c->start;
+    l.index = c->index;
+    return l;
+}
+/* axis 0, 1, 2 */
+static inline double *cloud_axis(const cloud *c, int axis) { return axis == 0 ? c->x : axis == 1 ? c->y : c->z; }
+
+static inline void cloud_depths(cloud *c)
+{
+    int i, a;
+    for (i = 0; i < c->n; i++) {
+        c->depth[i] = HUGE_VAL;
+        for (a = 0; a < c->dim; a++) c->depth[i] = fmin(c->depth[i], fmin(cloud_axis(c, a)[i] - c->low[a], c->high[a] - cloud_axis(c, a)[i]));
+    }
+}
+
+/* side^dim particles in the nodes low + i dx, boundary included, V = dx^dim; particle (i, j, k) is i + side (j + side k). */
+static inline void cloud_lattice(cloud *c, int dim, int side, double low, double dx)
+{
+    const int n = dim == 1 ? side : dim == 2 ? side * side : side * side * side;
+    int i, a;
+    cloud_size(c, dim, n);
+    c->dx = dx;
+    for (i = 0; i < n; i++) {
+        const int at[3] = {i % side, i / side % side, i / side / side};
+        for (a = 0; a < dim; a++) cloud_axis(c, a)[i] = low + at[a] * dx;
+        c->V[i] = pow(dx, dim);
+    }
+    for (a = 0; a < 3; a++) {
+        c->low[a] = low;
+        c->high[a] = low + (side - 1) * dx;
+    }
+    cloud_depths(c);
+}
+
+/* Section 5's layout of the unit square: N x N particles in the middle of cells, then 4 N boundary particles in the middle of the outer faces of cells, in the order y = 0, x = 1, y = 1, x = 0.
+   All have the volume dx^2. */
+static inline void cloud_cells(cloud *c, int N)
+{
+    const double dx = 1.0 / N;
+    int i;
+    cloud_size(c, 2, N * N + 4 * N);
+    c->dx = dx;
+    for (i = 0; i < c->n; i++) c->V[i] = dx * dx;
+    for (i = 0; i < N * N; i++) {
+        c->x[i] = (i % N + 0.5) * dx;
+        c->y[i] = (i / N + 0.5) * dx;
+    }
+    for (i = 0; i < N; i++) {
+        const int y0 = N * N + i, x1 = y0 + N, y1 = x1 + N, x0 = y1 + N;
+        c->x[y0] = c->y[x1] = c->x[y1] = c->y[x0] = (i + 0.5) * dx;
+        c->y[y0] = c->x[x0] = 0;
+        c->x[x1] = c->y[y1] = 1;
+    }
+    for (i = 0; i < 3; i++) {
+        c->low[i] = 0;
+        c->high[i] = 1;
+    }
+    cloud_depths(c);
+}
+
+/* Moves each particle that is not on the boundary by up to amplitude dx along each axis. */
+static inline void cloud_perturb(cloud *c, double amplitude, pcg32 *g)
+{
+    int i, a;
+    for (i = 0; i < c->n; i++)
+        if (c->depth[i] > 1e-9 * c->dx)
+            for (a = 0; a < c->dim; a++) cloud_axis(c, a)[i] += amplitude * c->dx * (2 * pcg32_uniform(g) - 1);
+    c->jitter = amplitude * c->dx;
+    cloud_depths(c);
+}
+
+/* Is the support of particle i full? One more layer of a lattice would lie beyond its reach. */
+static inline int cloud_inside(const cloud *c, int i)
+{
+    const double reach = c->h * sph_kernel_support(ELLIPTIC_KERNEL);
+    return c->depth[i] + c->dx - c->jitter >= reach * (1 - 1e-9);
+}
+
+/* Neighbours for the smoothing length h. */
+static inline void cloud_neighbours(cloud *c, double h)
+{
+    const double radius = h * sph_kernel_support(ELLIPTIC_KERNEL);
+    const sph_scalars R = sph_scalars_same(&radius);
+    sph_grid grid;
+    int64_t pairs;
+    c->h = h;
+    elliptic_expect(sph_grid_build(c->dim, cloud_points(c), radius, c->work, c->work_size, &grid));
+    elliptic_expect(sph_grid_lists(c->dim, &grid, cloud_points(c), SPH_GATHER, R, R, SPH_LIST_SORTED, c->start, NULL, 0, &pairs));
+    if ((size_t)pairs > c->pair_capacity) {
+        c->pair_capacity = (size_t)pairs;
+        c->index = (sph_index *)elliptic_memory(c->index, c->pair_capacity * sizeof *c->index);
+        c->row = (double *)elliptic_memory(c->row, c->pair_capacity * sizeof *c->row);
+    }
+    elliptic_expect(sph_grid_lists(c->dim, &grid, cloud_points(c), SPH_GATHER, R, R, SPH_LIST_SORTED, c->start, c->index, pairs, &pairs));
+}
+
+/* The sweeps fold for a constant dimension, so there is one copy for each. */
+SPH_FN sph_index cloud_rows_in(int dim, cloud *c, int scheme, sph_elliptic_options o)
+{
+    const sph_points x = cloud_points(c);
+    const sph_scalars h = sph_scalars_same(&c->h), V = sph_scalars_array(c->V), m = sph_scalars_array(c->m);
+    sph_row_out out = {0};
+    out.row = c->row;
+    out.diagonal = c->diagonal;
+    out.status = c->status;
+    if (scheme == SCHEME_B) return sph_elliptic_rows_brookshaw(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, out);
+    if (scheme == SCHEME_CB) return sph_elliptic_rows_brookshaw_corrected(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, out);
+    if (scheme == SCHEME_S) return sph_elliptic_rows_schwaiger(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, out);
+    return sph_elliptic_rows_msph(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, out);
+}
+SPH_FN sph_index cloud_apply_in(int dim, cloud *c, int scheme, sph_elliptic_options o)
+{
+    const sph_points x = cloud_points(c);
+    const sph_scalars h = sph_scalars_same(&c->h), V = sph_scalars_array(c->V), m = sph_scalars_array(c->m);
+    const sph_scalars u = sph_scalars_array(c->u), none = sph_scalars_array(NULL);
+    if (scheme == SCHEME_B) return sph_elliptic_brookshaw(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, u, none, c->value, c->status);
+    if (scheme == SCHEME_CB) return sph_elliptic_brookshaw_corrected(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, u, none, c->value, c->status);
+    if (scheme == SCHEME_S) return sph_elliptic_schwaiger(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, u, none, c->value, c->status);
+    return sph_elliptic_msph(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, u, none, c->value, c->status);
+}
+
+/* div(m grad u) as rows, or of c->u into c->value. Both return how many particles are not ok (c->status tells). */
+static inline int cloud_rows(cloud *c, int scheme, sph_elliptic_options o)
+{
+    const sph_index bad = c->dim == 1 ? cloud_rows_in(1, c, scheme, o) : c->dim == 2 ? cloud_rows_in(2, c, scheme, o) : cloud_rows_in(3, c, scheme, o);
+    elliptic_expect(bad);
+    return (int)bad;
+}
+static inline int cloud_apply(cloud *c, int scheme, sph_elliptic_options o)
+{
+    const sph_index bad = c->dim == 1 ? cloud_apply_in(1, c, scheme, o) : c->dim == 2 ? cloud_apply_in(2, c, scheme, o) : cloud_apply_in(3, c, scheme, o);
+    elliptic_expect(bad);
+    return (int)bad;
+}
+
+/* A value that the paper shows in an image, or not at all, against the one that this toolkit had when it was checked against an independent implementation. */
+static inline void elliptic_regression(report *r, const char *item, const char *at, const char *quantity, double known, double measured)
+{
+    const double tolerance = 1e-6 * fmax(fabs(known), 1e-4);
+    char criterion[REPORT_CRITERION];
+    snprintf(criterion, sizeof criterion, "own regression %.9g: rel <= 1e-06", known);
+    report_number_row(r, item, at, quantity, (double)NAN, measured, criterion, NULL, fabs(measured - known) <= tolerance ? REPORT_MATCH : REPORT_DIFFERS);
+}
+
+/* Opens the data file of a figure; a comma-separated header line follows. */
+static inline FILE *elliptic_figure(const char *dir, const char *name)
+{
+    char path[4096];
+    FILE *out;
+    if (snprintf(path, sizeof path, "%s/%s.csv", dir, name) >= (int)sizeof path || !(out = fopen(path, "w"))) {
+        fprintf(stderr, "elliptic: cannot write %s/%s.csv; does the folder exist and may you write there? (-figures names it)\n", dir, name);
+        exit(2);
+    }
+    return out;
+}
+static inline void elliptic_figure_close(FILE *out)
+{
+    const int broken = ferror(out);
+    if (fclose(out) != 0 || broken) {
+        fprintf(stderr, "elliptic: writing a figure's data failed; is the disk full?\n");
+        exit(2);
+    }
+}
+
+#endif
