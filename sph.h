@@ -859,11 +859,33 @@ SPHI_LARGE int64_t sphi_pass_threads(int mode, const sphi_job *job, int parts, i
     return total;
 }
 
+/* Moves entries down. Threads share as many at a time as the gap is wide: no further, because what lies there is to be overwritten. */
+SPHI_LARGE void sphi_close_gap(sph_index *to, const sph_index *from, int64_t length, int parts)
+{
+    const int64_t gap = from - to;
+    const int shares = gap < 16384 ? 1 : parts;
+    while (gap > 0 && length > 0) {
+        const int64_t step = shares == 1 || length < gap ? length : gap;
+        int share;
+#if SPH_OPENMP
+#pragma omp parallel for schedule(static, 1)
+#endif
+        for (share = 0; share < shares; share++) {
+            const int64_t end = sphi_from(step, share + 1, shares);
+            int64_t p;
+            for (p = sphi_from(step, share, shares); p < end; p++) to[p] = from[p];
+        }
+        to += step;
+        from += step;
+        length -= step;
+    }
+}
+
 SPHI_LARGE int64_t sphi_lists(const sphi_job *job)
 {
     const sph_index n = job->targets.n;
     const int parts = sphi_parts(), append = job->capacity > 0 && !job->by_slots;
-    sph_index *const start = job->start, i, p;
+    sph_index *const start = job->start, i;
     int spilt, part;
     const int64_t total = sphi_pass_threads(append ? SPHI_APPEND : SPHI_LENGTHS, job, parts, &spilt);
     if (total > SPHI_INDEX_MAX || (job->capacity > 0 && total > job->capacity)) return total;
@@ -872,11 +894,9 @@ SPHI_LARGE int64_t sphi_lists(const sphi_job *job)
     if (job->capacity == 0) return total;
     if (!append || spilt) sphi_pass_threads(SPHI_PLACE, job, parts, &spilt);
     else
-        for (part = 1; part < parts; part++) { /* close the gaps between the parts, downwards */
-            const sph_index *const from = job->index + sphi_from(job->capacity, part, parts);
+        for (part = 1; part < parts; part++) { /* each part down to the end of the one before */
             const sph_index begin = start[sphi_first(n, part, parts)], length = start[sphi_first(n, part + 1, parts)] - begin;
-            if (from == job->index + begin) continue;
-            for (p = 0; p < length; p++) job->index[begin + p] = from[p];
+            sphi_close_gap(job->index + begin, job->index + sphi_from(job->capacity, part, parts), length, parts);
         }
     return total;
 }

@@ -1358,11 +1358,12 @@ static void print_checksum(int dim, int kind, int periodic, sph_index n)
         const int flags = (criterion + kind) % 8;
         const sph_scalars radii = sph_scalars_array(R);
         sph_index *const start = (sph_index *)cloud_memory((size_t)n + 1, sizeof *start), *index, i, q;
-        int64_t pairs = 0, clear = 0;
+        int64_t pairs = 0, clear = 0, capacity;
         uint64_t sum = 0, ordered = 0;
         if (sph_grid_lists(dim, &g.g, x, criterion, radii, radii, flags, start, 0, 0, &pairs) != 0) abort();
-        index = (sph_index *)cloud_memory((size_t)pairs, sizeof *index);
-        if (sph_grid_lists(dim, &g.g, x, criterion, radii, radii, flags, start, index, pairs, &pairs) != 0) abort();
+        capacity = pairs + pairs / 2; /* so that the parts of several threads are far apart */
+        index = (sph_index *)cloud_memory((size_t)capacity, sizeof *index);
+        if (sph_grid_lists(dim, &g.g, x, criterion, radii, radii, flags, start, index, capacity, &pairs) != 0) abort();
         for (i = 0; i < n; i++) {
             ordered = mix(ordered + (uint64_t)start[i + 1]);
             for (q = start[i]; q < start[i + 1]; q++) {
