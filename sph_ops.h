@@ -66,11 +66,32 @@
  *                  sph_rows_growth(dim, i, points, list, row, tau, wave, re, im)         von Neumann's growth factor
  *                  sph_csr_size(first, last, list)                                       entries of the matrix of these rows, at most
  *                  sph_csr_assemble(first, last, n, list, row, diagonal, drop_zeros, start, column, value, capacity, entries)
+ *   fluid          sph_fluid_rates_monaghan(k, dim, ..., fluid, acceleration, rate, heating)     (2.2), (2.3): pressure and artificial viscosity, density rate, heating
+ *                  sph_fluid_rates_colagrossi(k, dim, ..., fluid, acceleration, rate, heating)   (5.23), (5.24): for density jumps
+ *                  sph_fluid_rates_hu_adams(k, dim, ..., fluid, acceleration, rate, heating)     volume-weighted: for density jumps
+ *                  sph_density_number(k, dim, ..., m, rho)                               m_i sum_j W_ij
+ *                  sph_viscous_mu_morris(k, dim, ..., m, rho, v, mu, eta, acceleration)  physical viscosity
+ *                  sph_viscous_mu_monaghan_cleary(k, dim, ..., m, rho, v, mu, eta, acceleration)
+ *                  sph_velocity_xsph(k, dim, ..., m, rho, v, epsilon, change)
+ *                  sph_wall_adami(k, dim, ..., share, rho, p, v, wall_velocity, gravity, normal, p_wall, v_wall, status)
+ *   collisions     sph_collide_sequential(dim, first, last, points, list, distance, inverse_mass, restitution, vx, vy, vz, stride, report)
+ *                  sph_collision_count(dim, first, last, points, list, distance, inverse_mass, v, count)
+ *                  sph_collision_change_weighted(dim, first, last, points, list, distance, inverse_mass, restitution, v, count, change)
+ *                  sph_collision_change_literal, sph_collision_acceleration_literal      as printed: energy grows; for comparison
+ *   distribution   sph_nearest_distance(dim, first, last, targets, sources, list, distance, status)
+ *                  sph_hexatic_order(first, last, points, list, order, status)
+ *                  sph_radial_distribution(dim, first, last, points, list, reach, number_density, bins, g)
+ *                  sph_count_coincident(dim, first, last, points, list, distance)
+ *                  sph_separate_coincident(dim, first, last, points, list, within, distance, position)
+ *                  sph_conserved_sums(dim, first, last, points, m, v, out)               mass, momentum, angular momentum, kinetic energy
  *   pair tier      sph_density_pair  sph_density_value  sph_density_omega  sph_density_mismatch
  *                  sph_gradient_pair_difference  sph_laplacian_weight_brookshaw  sph_laplacian_weight_kernel  sph_boundary_weight_bim
  *                  sph_moment_weight_gradient  sph_test_weights_cspm  sph_test_weights_wls  sph_moments_zero  sph_moments_add  sph_moments_add_value
  *                  sph_elliptic_gradient_pair  sph_elliptic_gradient_vector  sph_elliptic_projection  sph_mobility_pair  sph_elliptic_weight
  *                  sph_transmissibility_partial_schwaiger  sph_elliptic_moments_radial  sph_elliptic_invert  sph_elliptic_inverse_times  sph_sym_eigenvalues
+ *                  sph_pressure_pair_monaghan  sph_pressure_pair_colagrossi  sph_pressure_pair_hu_adams  sph_viscosity_pair_monaghan  sph_viscosity_pair_linear
+ *                  sph_viscosity_pair_signal  sph_viscosity_mu_pair_morris  sph_viscosity_mu_pair_monaghan_cleary  sph_pressure_tait  sph_density_tait
+ *                  sph_sound_speed_tait  sph_time_step_sound  sph_time_step_force  sph_time_step_viscous_nu  sph_collision_pair  sph_collision_acceleration_pair
  *                  sph_solve_gradient  sph_solve_cspm  sph_solve_block  sph_row_cspm  sph_row_block  sph_row_weight  sph_jet_laplacian
  */
 #ifndef SPH_OPS_H
@@ -85,11 +106,13 @@
 #if SPH_SINGLE && !SPH_OPENCL
 #  define SPHI_COPYSIGN(x, y) copysignf(x, y)
 #  define SPHI_LOG(x) logf(x)
+#  define SPHI_POW(x, y) powf(x, y)
 #  define SPHI_SIN(x) sinf(x)
 #  define SPHI_COS(x) cosf(x)
 #else
 #  define SPHI_COPYSIGN(x, y) copysign(x, y)
 #  define SPHI_LOG(x) log(x)
+#  define SPHI_POW(x, y) pow(x, y)
 #  define SPHI_SIN(x) sin(x)
 #  define SPHI_COS(x) cos(x)
 #endif
@@ -999,6 +1022,105 @@ SPH_FN sph_vec sph_sym_eigenvalues(int dim, sph_sym s)
     return v;
 }
 
+/* ================================================================ pair tier: weakly compressible fluid
+ *
+ * Notation: v_ij = v_i - v_j, vx = v_ij . x_ij (negative for particles that approach), rho density, p pressure, c sound speed, m mass, V = m / rho.
+ * Accelerations are  a_i = -sum_j m_j (P_ij + Pi_ij) F_ij x_ij  with a pressure term P_ij and an artificial viscosity Pi_ij, both symmetric in i and j: forces are equal and opposite
+ * along the line between the particles where F is (one h for both), and momentum and angular momentum are conserved to round-off.
+ */
+
+/* P_ij = p_i / rho_i^2 + p_j / rho_j^2: the variational partner of the summation density, (2.3) of Korzilius, Schilders & Anthonissen; Monaghan 1992, ARA&A 30, 543, (3.3).
+   Wrong where the density jumps: it then differs from particle to particle of one pressure. */
+SPH_FN sph_real sph_pressure_pair_monaghan(sph_real p_i, sph_real rho_i, sph_real p_j, sph_real rho_j) { return p_i / (rho_i * rho_i) + p_j / (rho_j * rho_j); }
+/* P_ij = (p_i + p_j) / (rho_i rho_j): the partner of the continuity equation in volumes (5.23), (5.24) there; Colagrossi & Landrini 2003, JCP 191, 448. Takes density jumps. */
+SPH_FN sph_real sph_pressure_pair_colagrossi(sph_real p_i, sph_real rho_i, sph_real p_j, sph_real rho_j) { return (p_i + p_j) / (rho_i * rho_j); }
+/* P_ij = (V_i^2 p_i + V_j^2 p_j) / (m_i m_j), V = m / rho: the partner of rho_i = m_i sum_j W_ij (sph_density_number). Hu & Adams 2006, JCP 213, 844, (16). Takes density jumps. */
+SPH_FN sph_real sph_pressure_pair_hu_adams(sph_real p_i, sph_real rho_i, sph_real m_i, sph_real p_j, sph_real rho_j, sph_real m_j)
+{
+    return m_i / m_j * p_i / (rho_i * rho_i) + m_j / m_i * p_j / (rho_j * rho_j);
+}
+
+/* Artificial viscosity Pi_ij >= 0, for particles that approach only: (-alpha c mu + beta mu^2) / rho with mu = h vx / (r^2 + eta^2 h^2), and means of c and rho. Monaghan & Gingold 1983, JCP 52, 374;
+   Monaghan 1992, (4.1), (4.2). eta^2 = 0.01 is usual. A pair at one point feels nothing. Linear term: a kinematic shear viscosity of about alpha h c / (2 (dim + 2)) where all pairs count. */
+SPH_FN sph_real sph_viscosity_pair_monaghan(sph_real alpha, sph_real beta, sph_real eta, sph_real h, sph_real c_mean, sph_real rho_mean, sph_real vx,
+                                            sph_real r)
+{
+    const sph_real mu = h * SPH_R(0.5) * (vx - SPHI_ABS(vx)) / (r * r + eta * eta * h * h + SPHI_TINY);
+    return (beta * mu - alpha * c_mean) * mu / rho_mean;
+}
+/* The linear term for particles that recede, too: a Navier-Stokes viscosity (shear and bulk). It may be negative. Monaghan 2005, Rep. Prog. Phys. 68, 1703, section 4. */
+SPH_FN sph_real sph_viscosity_pair_linear(sph_real alpha, sph_real eta, sph_real h, sph_real c_mean, sph_real rho_mean, sph_real vx, sph_real r)
+{
+    return -alpha * c_mean * h * vx / ((r * r + eta * eta * h * h + SPHI_TINY) * rho_mean);
+}
+/* By the speed at which the two particles see each other's signal: -alpha/2 v_sig w / rho, w = min(vx, 0) / r, v_sig = c_i + c_j - beta w. Monaghan 1997, JCP 136, 298, (4.13) with K = alpha/2; beta = 3 there.
+   Independent of h. */
+SPH_FN sph_real sph_viscosity_pair_signal(sph_real alpha, sph_real beta, sph_real c_mean, sph_real rho_mean, sph_real vx, sph_real r)
+{
+    const sph_real w = SPH_R(0.5) * (vx - SPHI_ABS(vx)) / (r + SPHI_TINY);
+    return SPH_R(-0.5) * alpha * (SPH_R(2) * c_mean - beta * w) * w / (rho_mean * (r + SPHI_TINY)) * r;
+}
+
+/* Physical viscosity with the dynamic viscosities mu_i, mu_j (mu = nu rho). Morris: the coefficient B of a_i = sum_j m_j B v_ij, B = (mu_i + mu_j) / (rho_i rho_j) F r^2 / (r^2 + eta^2 h^2) <= 0: exact for linear velocities in the
+   interior, conserves momentum but not angular momentum. Morris, Fox & Zhu 1997, JCP 136, 214, (22). */
+SPH_FN sph_real sph_viscosity_mu_pair_morris(sph_real mu_i, sph_real rho_i, sph_real mu_j, sph_real rho_j, sph_real F, sph_real r, sph_real h, sph_real eta)
+{
+    return (mu_i + mu_j) / (rho_i * rho_j) * F * (r * r / (r * r + eta * eta * h * h + SPHI_TINY));
+}
+/* Monaghan & Cleary: the coefficient B of a_i = sum_j m_j B x_ij, B = 2 (dim + 2) 2 mu_i mu_j / (mu_i + mu_j) / (rho_i rho_j) vx / (r^2 + eta^2 h^2) F: along the line between the particles, so that angular momentum is
+   conserved, too; takes jumps of mu. Cleary & Monaghan 1999, JCP 148, 227; Monaghan 2005, (4.13); the factor 2 (dim + 2) makes it div(mu grad v) for incompressible flow. */
+SPH_FN sph_real sph_viscosity_mu_pair_monaghan_cleary(int dim, sph_real mu_i, sph_real rho_i, sph_real mu_j, sph_real rho_j, sph_real F, sph_real vx,
+                                                      sph_real r, sph_real h, sph_real eta)
+{
+    return SPH_R(4 * (dim + 2)) * mu_i * (mu_j / (mu_i + mu_j + SPHI_TINY)) / (rho_i * rho_j) * vx / (r * r + eta * eta * h * h + SPHI_TINY) * F;
+}
+
+/* p = p0 + rho0 c^2 / gamma ((rho / rho0)^gamma - 1), its inverse, and the sound speed sqrt(dp/drho): the equation of state called after Tait, in Macdonald's form (2.4). gamma = 1: p0 + c^2 (rho - rho0); 7: water.
+   p0 is the pressure at rho0, a background where it is not 0. Cole 1948; Macdonald 1966, Rev. Mod. Phys. 38, 669; Monaghan 1994, JCP 110, 399. The inverse is 0 where no density has that pressure. */
+SPH_FN sph_real sph_pressure_tait(sph_real rho, sph_real rho0, sph_real c, sph_real gamma, sph_real p0)
+{
+    const sph_real e = rho / rho0;
+    return p0 + rho0 * c * c / gamma * (gamma == SPH_R(1) ? e - SPH_R(1) : SPHI_POW(e, gamma) - SPH_R(1));
+}
+SPH_FN sph_real sph_density_tait(sph_real p, sph_real rho0, sph_real c, sph_real gamma, sph_real p0)
+{
+    const sph_real e = SPH_R(1) + gamma * (p - p0) / (rho0 * c * c);
+    if (!(e > SPH_R(0))) return SPH_R(0);
+    return rho0 * (gamma == SPH_R(1) ? e : SPHI_POW(e, SPH_R(1) / gamma));
+}
+SPH_FN sph_real sph_sound_speed_tait(sph_real rho, sph_real rho0, sph_real c, sph_real gamma)
+{
+    return gamma == SPH_R(1) ? c : c * SPHI_POW(rho / rho0, SPH_R(0.5) * (gamma - SPH_R(1)));
+}
+
+/* Longest steps of explicit schemes, one particle: sound (Courant), 0.25 h / (c + |v|); force, 0.25 sqrt(h / |a|); viscosity, 0.125 h^2 / nu. Monaghan 1992; Morris et al. 1997, (33)-(35). Take the least over all
+   particles. What limits nothing gives 1/SPHI_TINY. */
+SPH_FN sph_real sphi_limit(sph_real a, sph_real b) { return b > SPHI_TINY * a ? a / b : SPH_R(1) / SPHI_TINY; }
+SPH_FN sph_real sph_time_step_sound(sph_real h, sph_real c, sph_real speed) { return sphi_limit(SPH_R(0.25) * h, c + speed); }
+SPH_FN sph_real sph_time_step_force(sph_real h, sph_real acceleration) { return SPH_R(0.25) * SPHI_SQRT(sphi_limit(h, acceleration)); }
+SPH_FN sph_real sph_time_step_viscous_nu(sph_real h, sph_real nu) { return sphi_limit(SPH_R(0.125) * h * h, nu); }
+
+/* ================================================================ pair tier: collisions
+ *
+ * Two particles that are closer than a collision distance exchange an impulse along the line between them, as two balls of restitution C_R do: 0 inelastic, 1 elastic. Korzilius, Schilders & Anthonissen, section IV.
+ * In inverse masses w = 1/m, so that a wall is w = 0: the velocity of i changes by
+ *     dv_i = -(1 + C_R) w_i / (w_i + w_j) (v_ij . e) e,   e = x_ij / r,
+ * and m_i dv_i = -m_j dv_j: momentum and angular momentum are kept exactly, a single pair loses mu (1 - C_R^2) (v_ij . e)^2 / 2, mu = 1 / (w_i + w_j).
+ * (4.20) there sums this over all pairs at once, receding ones, too: particles then stick and energy grows without bounds (tests/test_collisions.c). Only approaching pairs collide here, one after the
+ * other (sequential) or at once with the weight 1 / max(n_i, n_j), n: number of collisions of a particle; both never gain energy for C_R <= 1.
+ */
+
+/* dv_i = coefficient x_ij: -(1 + C_R) w_i / (w_i + w_j) vx / r^2. Undefined at r = 0 and for two walls. */
+SPH_FN sph_real sph_collision_pair(sph_real restitution, sph_real w_i, sph_real w_j, sph_real vx, sph_real r2)
+{
+    return -(SPH_R(1) + restitution) * (w_i / (w_i + w_j)) * vx / r2;
+}
+/* The acceleration form (4.22): dv_i / t with the contact time t = N r / |v_ij|: coefficient of x_ij. */
+SPH_FN sph_real sph_collision_acceleration_pair(sph_real restitution, sph_real w_i, sph_real w_j, sph_real vx, sph_real r, sph_real speed, sph_real N)
+{
+    return sph_collision_pair(restitution, w_i, w_j, vx, r * r) * speed / (N * r);
+}
+
 /* ================================================================ list tier: views */
 
 typedef struct sph_points {
@@ -1182,44 +1304,62 @@ SPH_FN int sphi_check_box(int dim, sph_points x, sph_real largest)
     return error;
 }
 
-/* The arguments that all sweeps share; h, V and list as sweeps use them. The sums reach as far as support * h. */
-SPH_FN int sphi_check_reach(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_real support, sph_scalars V)
+/* The arguments that all sweeps over lists share. */
+SPH_FN int sphi_check_frame(int dim, sph_index first, sph_index last, sph_points x, sph_list list)
 {
-    sph_real largest = SPH_R(0);
     if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
-    if ((int)k < 0 || (int)k >= (int)SPH_KERNEL_COUNT) return SPH_ERROR_KERNEL;
-    if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z) || !list.start || !h.p || !V.p) return SPH_ERROR_NULL;
+    if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z) || !list.start) return SPH_ERROR_NULL;
     if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
-    if (first < 0 || first > last || last > x.n) return SPH_ERROR_RANGE;
-    if (!SPH_CHECK) return sphi_check_box(dim, x, largest);
-    {
-        const sph_index h_count = h.stride ? x.n : 1;
-        sph_index i, p;
-        int outside = 0, self = 0, error;
-        for (i = 0; i < h_count; i++) {
-            if (!sphi_finite(sphi_at(h, i)) || !(sphi_at(h, i) > SPH_R(0))) return SPH_ERROR_H;
-            if (sphi_at(h, i) > largest) largest = sphi_at(h, i);
-        }
+    return first < 0 || first > last || last > x.n ? SPH_ERROR_RANGE : 0;
+}
+/* The positions, the box for sums that reach as far as `largest`, and the rows first ... last - 1. Without SPH_CHECK the box lengths alone. */
+SPH_FN int sphi_check_scan(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real largest)
+{
+    sph_index i, p;
+    int outside = 0, self = 0, error;
+    if (SPH_CHECK) {
         if (!sphi_all_finite(sph_scalars_strided(x.x, x.stride), x.n)) return SPH_ERROR_POSITION;
         if (dim > 1 && !sphi_all_finite(sph_scalars_strided(x.y, x.stride), x.n)) return SPH_ERROR_POSITION;
         if (dim > 2 && !sphi_all_finite(sph_scalars_strided(x.z, x.stride), x.n)) return SPH_ERROR_POSITION;
-        if (!sphi_all_finite(V, x.n)) return SPH_ERROR_VALUE;
-        error = sphi_check_box(dim, x, support * largest);
-        if (error || first == last) return error;
-        if (list.start[first] < 0) return SPH_ERROR_LIST;
-        for (i = first; i < last; i++)
-            if (list.start[i + 1] < list.start[i]) return SPH_ERROR_LIST;
-        if (list.start[last] > list.start[first] && !list.index) return SPH_ERROR_NULL;
-        for (i = first; i < last; i++)
-            for (p = list.start[i]; p < list.start[i + 1]; p++) {
-                const sph_index j = list.index[p];
-                outside |= (j < 0) | (j >= x.n);
-                self |= j == i;
-            }
-        if (outside) return SPH_ERROR_LIST;
-        if (self) return SPH_ERROR_SELF;
     }
-    return 0;
+    error = sphi_check_box(dim, x, largest);
+    if (error || first == last) return error;
+    if (!SPH_CHECK) return 0;
+    if (list.start[first] < 0) return SPH_ERROR_LIST;
+    for (i = first; i < last; i++)
+        if (list.start[i + 1] < list.start[i]) return SPH_ERROR_LIST;
+    if (list.start[last] > list.start[first] && !list.index) return SPH_ERROR_NULL;
+    for (i = first; i < last; i++)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            outside |= (j < 0) | (j >= x.n);
+            self |= j == i;
+        }
+    if (outside) return SPH_ERROR_LIST;
+    return self ? SPH_ERROR_SELF : 0;
+}
+/* Sweeps without a kernel: lists that reach as far as `distance`. */
+SPH_FN int sphi_check_list(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance)
+{
+    const int error = sphi_check_frame(dim, first, last, x, list);
+    return error ? error : sphi_check_scan(dim, first, last, x, list, distance);
+}
+/* Sweeps with one: h and V, too. The sums reach as far as support * h. */
+SPH_FN int sphi_check_reach(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_real support, sph_scalars V)
+{
+    sph_real largest = SPH_R(0);
+    const int error = sphi_check_frame(dim, first, last, x, list);
+    sph_index i;
+    if (error == SPH_ERROR_DIM) return error;
+    if ((int)k < 0 || (int)k >= (int)SPH_KERNEL_COUNT) return SPH_ERROR_KERNEL;
+    if (!h.p || !V.p) return SPH_ERROR_NULL;
+    if (error) return error;
+    for (i = 0; SPH_CHECK && i < (h.stride ? x.n : 1); i++) {
+        if (!sphi_finite(sphi_at(h, i)) || !(sphi_at(h, i) > SPH_R(0))) return SPH_ERROR_H;
+        if (sphi_at(h, i) > largest) largest = sphi_at(h, i);
+    }
+    if (SPH_CHECK && !sphi_all_finite(V, x.n)) return SPH_ERROR_VALUE;
+    return sphi_check_scan(dim, first, last, x, list, support * largest);
 }
 SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V)
 {
@@ -2886,6 +3026,726 @@ SPH_FN sph_index sph_csr_assemble(sph_index first, sph_index last, sph_index n, 
     return 0;
 }
 #endif
+
+/* ================================================================ list tier: weakly compressible fluid */
+
+/* three component arrays, of which dim are read (or written) */
+typedef struct sph_vectors {
+    sph_scalars x, y, z;
+} sph_vectors;
+typedef struct sph_vector_out {
+    SPH_GLOBAL sph_real *x, *y, *z;
+} sph_vector_out;
+
+SPH_FN sph_vec sphi_vector_at(int dim, sph_vectors v, sph_index i)
+{
+    sph_vec a;
+    a.x = sphi_at(v.x, i);
+    a.y = dim > 1 ? sphi_at(v.y, i) : SPH_R(0);
+    a.z = dim > 2 ? sphi_at(v.z, i) : SPH_R(0);
+    return a;
+}
+SPH_FN int sphi_check_vectors(int dim, sph_vectors v, sph_index n)
+{
+    int error = sphi_check_field(v.x, n);
+    if (!error && dim > 1) error = sphi_check_field(v.y, n);
+    if (!error && dim > 2) error = sphi_check_field(v.z, n);
+    return error;
+}
+/* Stores a vector, or 0 if a component overflowed; returns 1 then. */
+SPH_FN int sphi_store_vector(int dim, sph_vector_out out, sph_index i, sph_vec a)
+{
+    const int lost = !sphi_finite(a.x) || (dim > 1 && !sphi_finite(a.y)) || (dim > 2 && !sphi_finite(a.z));
+    out.x[i] = lost ? SPH_R(0) : a.x;
+    if (dim > 1) out.y[i] = lost ? SPH_R(0) : a.y;
+    if (dim > 2) out.z[i] = lost ? SPH_R(0) : a.z;
+    return lost;
+}
+SPH_FN int sphi_all_positive(sph_scalars a, sph_index n)
+{
+    sph_index i;
+    int bad = 0;
+    for (i = 0; i < (a.stride ? n : 1); i++) bad |= !(sphi_at(a, i) > SPH_R(0));
+    return !bad;
+}
+SPH_FN int sphi_check_positive(sph_scalars a, sph_index n)
+{
+    const int error = sphi_check_field(a, n);
+    if (error) return error;
+    return SPH_CHECK && !sphi_all_positive(a, n) ? SPH_ERROR_VALUE : 0;
+}
+
+/* rho_i = m_i sum_j W_ij, the particle itself included: the number density times the own mass, so that a light particle beside heavy ones keeps its density. Hu & Adams 2006, JCP 213, 844, (15). m: of
+   the targets. V_i = m_i / rho_i is 1 / sum_j W_ij. */
+SPH_FN sph_index sph_density_number(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars m,
+                                    SPH_GLOBAL sph_real *rho)
+{
+    const int error = sphi_check_sweep(k, dim, first, last, x, list, h, m);
+    sph_index i, p, failed = 0;
+    if (error) return error;
+    if (!rho) return SPH_ERROR_NULL;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        const sph_real h_i = sphi_at(h, i);
+        sph_real sum = sph_kernel_w(k, dim, SPH_R(0), h_i);
+        SPH_SUM(sum)
+        for (p = list.start[i]; p < list.start[i + 1]; p++)
+            sum += sph_kernel_w(k, dim, sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, list.index[p]))), h_i);
+        failed += sphi_store_finite(rho, i, sphi_at(m, i) * sum);
+    }
+    return failed;
+}
+
+typedef enum sph_viscosity {
+    SPH_VISCOSITY_NONE,
+    SPH_VISCOSITY_MONAGHAN, /* sph_viscosity_pair_monaghan: approaching pairs */
+    SPH_VISCOSITY_LINEAR,   /* sph_viscosity_pair_linear: all pairs */
+    SPH_VISCOSITY_SIGNAL    /* sph_viscosity_pair_signal: by signal speed */
+} sph_viscosity;
+
+/* What moves a fluid; n numbers each, all sources. One h for a pair, (h_i + h_j) / 2: lists by SPH_MEAN, or by any criterion where h is one for all. */
+typedef struct sph_fluid {
+    sph_scalars m, rho, p, c; /* c is read for artificial viscosity only */
+    sph_vectors v;
+    int viscosity; /* an sph_viscosity */
+    sph_real alpha, beta, eta;
+} sph_fluid;
+
+enum { SPHI_MONAGHAN, SPHI_COLAGROSSI, SPHI_HU_ADAMS };
+SPH_FN sph_real sphi_fluid_pressure(int form, const sph_fluid *f, sph_real p_i, sph_real rho_i, sph_real m_i, sph_index j)
+{
+    const sph_real p_j = sphi_at(f->p, j), rho_j = sphi_at(f->rho, j);
+    if (form == SPHI_MONAGHAN) return sph_pressure_pair_monaghan(p_i, rho_i, p_j, rho_j);
+    if (form == SPHI_COLAGROSSI) return sph_pressure_pair_colagrossi(p_i, rho_i, p_j, rho_j);
+    return sph_pressure_pair_hu_adams(p_i, rho_i, m_i, p_j, rho_j, sphi_at(f->m, j));
+}
+SPH_FN sph_real sphi_fluid_viscosity(const sph_fluid *f, sph_real h, sph_real c_i, sph_real rho_i, sph_index j, sph_real vx, sph_real r)
+{
+    sph_real c_mean, rho_mean;
+    if (f->viscosity == (int)SPH_VISCOSITY_NONE) return SPH_R(0);
+    c_mean = SPH_R(0.5) * (c_i + sphi_at(f->c, j));
+    rho_mean = SPH_R(0.5) * (rho_i + sphi_at(f->rho, j));
+    if (f->viscosity == (int)SPH_VISCOSITY_MONAGHAN) return sph_viscosity_pair_monaghan(f->alpha, f->beta, f->eta, h, c_mean, rho_mean, vx, r);
+    if (f->viscosity == (int)SPH_VISCOSITY_LINEAR) return sph_viscosity_pair_linear(f->alpha, f->eta, h, c_mean, rho_mean, vx, r);
+    return sph_viscosity_pair_signal(f->alpha, f->beta, c_mean, rho_mean, vx, r);
+}
+
+SPH_FN sph_index sphi_fluid_range(int form, int uniform, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
+                                  const sph_fluid *f, sph_vector_out a, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
+{
+    sph_index i, p, failed = 0;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(dim, f->v, i);
+        const sph_real h_i = sphi_at(h, i), m_i = sphi_at(f->m, i), rho_i = sphi_at(f->rho, i), p_i = sphi_at(f->p, i);
+        const sph_real c_i = f->viscosity == (int)SPH_VISCOSITY_NONE ? SPH_R(0) : sphi_at(f->c, i);
+        sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0), divergence = SPH_R(0), work = SPH_R(0);
+        sph_vec sum;
+        int lost;
+        SPH_SUM(ax, ay, az, divergence, work)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
+            const sph_real r = sph_length(dim, x_ij), h_ij = sphi_mean_h(uniform, h, h_i, j);
+            const sph_real vx = sph_dot(dim, sph_subtract(dim, v_i, sphi_vector_at(dim, f->v, j)), x_ij);
+            /* coincident particles: a direction of rounding errors is none */
+            const sph_real F = r > SPH_R(1e-12) * h_ij ? sph_kernel_f(k, dim, r, h_ij) : SPH_R(0), m_j = sphi_at(f->m, j);
+            const sph_real Pi = sphi_fluid_viscosity(f, h_ij, c_i, rho_i, j, vx, r);
+            const sph_real b = m_j * (sphi_fluid_pressure(form, f, p_i, rho_i, m_i, j) + Pi) * F;
+            ax -= b * x_ij.x;
+            if (dim > 1) ay -= b * x_ij.y;
+            if (dim > 2) az -= b * x_ij.z;
+            divergence += (form == SPHI_MONAGHAN ? m_j : m_j * rho_i / sphi_at(f->rho, j)) * vx * F;
+            work += SPH_R(0.5) * m_j * Pi * vx * F;
+        }
+        sum.x = ax;
+        sum.y = ay;
+        sum.z = az;
+        lost = sphi_store_vector(dim, a, i, sum);
+        if (rate) lost |= sphi_store_finite(rate, i, divergence);
+        if (heating) lost |= sphi_store_finite(heating, i, work);
+        failed += lost;
+    }
+    return failed;
+}
+SPH_FN sph_index sphi_fluid_rates(int form, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_fluid f,
+                                  sph_vector_out a, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
+{
+    int error = sphi_check_sweep(k, dim, first, last, x, list, h, f.m);
+    if (!error && (f.viscosity < 0 || f.viscosity > (int)SPH_VISCOSITY_SIGNAL)) error = SPH_ERROR_VALUE;
+    if (!error && (!sphi_finite(f.alpha) || !sphi_finite(f.beta) || !sphi_finite(f.eta))) error = SPH_ERROR_VALUE;
+    if (!error) error = sphi_check_positive(f.m, x.n);
+    if (!error) error = sphi_check_positive(f.rho, x.n);
+    if (!error) error = sphi_check_field(f.p, x.n);
+    if (!error && f.viscosity != (int)SPH_VISCOSITY_NONE) error = sphi_check_field(f.c, x.n);
+    if (!error) error = sphi_check_vectors(dim, f.v, x.n);
+    if (!error) error = sphi_check_vector(dim, a.x, a.y, a.z);
+    if (error) return error;
+    return h.stride ? sphi_fluid_range(form, 0, k, dim, first, last, x, list, h, &f, a, rate, heating)
+                    : sphi_fluid_range(form, 1, k, dim, first, last, x, list, h, &f, a, rate, heating);
+}
+
+/* Acceleration, density rate and viscous heating of the targets, in one pass:
+       a_i = -sum_j m_j (P_ij + Pi_ij) grad_i W_ij,   the rate of density that belongs to it,   du_i/dt = sum_j m_j Pi_ij v_ij . grad_i W_ij / 2.
+   monaghan: (2.2), (2.3) of Korzilius, Schilders & Anthonissen; drho_i/dt = sum_j m_j v_ij . grad W.   colagrossi: (5.23), (5.24); drho_i/dt = rho_i sum_j m_j/rho_j v_ij . grad W.
+   hu_adams: volume-weighted; with sph_density_number, or the rate of (5.23).
+   Signs: F <= 0, so pressure pushes apart; no gravity. rate, heating may be null. Pairs closer than 1e-12 h exert no force on each other (sph_count_coincident finds them).
+   Errors as of all sweeps, and SPH_ERROR_VALUE for densities or masses that are not positive. */
+SPH_FN sph_index sph_fluid_rates_monaghan(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_fluid fluid,
+                                          sph_vector_out acceleration, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
+{
+    return sphi_fluid_rates(SPHI_MONAGHAN, k, dim, first, last, x, list, h, fluid, acceleration, rate, heating);
+}
+SPH_FN sph_index sph_fluid_rates_colagrossi(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_fluid fluid,
+                                            sph_vector_out acceleration, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
+{
+    return sphi_fluid_rates(SPHI_COLAGROSSI, k, dim, first, last, x, list, h, fluid, acceleration, rate, heating);
+}
+SPH_FN sph_index sph_fluid_rates_hu_adams(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_fluid fluid,
+                                          sph_vector_out acceleration, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
+{
+    return sphi_fluid_rates(SPHI_HU_ADAMS, k, dim, first, last, x, list, h, fluid, acceleration, rate, heating);
+}
+
+enum { SPHI_MORRIS, SPHI_MONAGHAN_CLEARY };
+SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars m,
+                              sph_scalars rho, sph_vectors v, sph_scalars mu, sph_real eta, sph_vector_out a)
+{
+    int error = sphi_check_sweep(k, dim, first, last, x, list, h, m);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_positive(rho, x.n);
+    if (!error) error = sphi_check_field(mu, x.n);
+    if (!error) error = sphi_check_vectors(dim, v, x.n);
+    if (!error) error = sphi_check_vector(dim, a.x, a.y, a.z);
+    if (!error && !sphi_finite(eta)) error = SPH_ERROR_VALUE;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(dim, v, i);
+        const sph_real h_i = sphi_at(h, i), rho_i = sphi_at(rho, i), mu_i = sphi_at(mu, i);
+        sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0);
+        sph_vec sum;
+        SPH_SUM(ax, ay, az)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j)), v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
+            const sph_real r = sph_length(dim, x_ij), h_ij = SPH_R(0.5) * (h_i + sphi_at(h, j)), F = sph_kernel_f(k, dim, r, h_ij), m_j = sphi_at(m, j);
+            const sph_real b = m_j * (form == SPHI_MORRIS ? sph_viscosity_mu_pair_morris(mu_i, rho_i, sphi_at(mu, j), sphi_at(rho, j), F, r, h_ij, eta)
+                                                          : sph_viscosity_mu_pair_monaghan_cleary(dim, mu_i, rho_i, sphi_at(mu, j), sphi_at(rho, j), F,
+                                                                                                  sph_dot(dim, v_ij, x_ij), r, h_ij, eta));
+            const sph_vec along = form == SPHI_MORRIS ? v_ij : x_ij;
+            ax += b * along.x;
+            if (dim > 1) ay += b * along.y;
+            if (dim > 2) az += b * along.z;
+        }
+        sum.x = ax;
+        sum.y = ay;
+        sum.z = az;
+        failed += sphi_store_vector(dim, a, i, sum);
+    }
+    return failed;
+}
+/* a_i = (1 / rho) div(mu grad v) by physical viscosity, mu (dynamic, = nu rho) of each particle; see the pair tier for the two forms. eta = 0.1 is usual. */
+SPH_FN sph_index sph_viscous_mu_morris(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars m,
+                                       sph_scalars rho, sph_vectors v, sph_scalars mu, sph_real eta, sph_vector_out acceleration)
+{
+    return sphi_viscous(SPHI_MORRIS, k, dim, first, last, x, list, h, m, rho, v, mu, eta, acceleration);
+}
+SPH_FN sph_index sph_viscous_mu_monaghan_cleary(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
+                                                sph_scalars m, sph_scalars rho, sph_vectors v, sph_scalars mu, sph_real eta, sph_vector_out acceleration)
+{
+    return sphi_viscous(SPHI_MONAGHAN_CLEARY, k, dim, first, last, x, list, h, m, rho, v, mu, eta, acceleration);
+}
+
+/* What XSPH adds to the velocity that moves a particle: epsilon sum_j 2 m_j / (rho_i + rho_j) (v_j - v_i) W_ij. Monaghan 1989, JCP 82, 1. epsilon = 0.5 is usual. Keeps linear and angular momentum. */
+SPH_FN sph_index sph_velocity_xsph(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars m,
+                                   sph_scalars rho, sph_vectors v, sph_real epsilon, sph_vector_out change)
+{
+    int error = sphi_check_sweep(k, dim, first, last, x, list, h, m);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_positive(rho, x.n);
+    if (!error) error = sphi_check_vectors(dim, v, x.n);
+    if (!error) error = sphi_check_vector(dim, change.x, change.y, change.z);
+    if (!error && !sphi_finite(epsilon)) error = SPH_ERROR_VALUE;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(dim, v, i);
+        const sph_real h_i = sphi_at(h, i), rho_i = sphi_at(rho, i);
+        sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0);
+        sph_vec sum;
+        SPH_SUM(ax, ay, az)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sph_vec v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
+            const sph_real r = sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, j)));
+            const sph_real b = SPH_R(-2) * epsilon * sphi_at(m, j) / (rho_i + sphi_at(rho, j)) * sph_kernel_w(k, dim, r, SPH_R(0.5) * (h_i + sphi_at(h, j)));
+            ax += b * v_ij.x;
+            if (dim > 1) ay += b * v_ij.y;
+            if (dim > 2) az += b * v_ij.z;
+        }
+        sum.x = ax;
+        sum.y = ay;
+        sum.z = az;
+        failed += sphi_store_vector(dim, change, i, sum);
+    }
+    return failed;
+}
+
+/* Pressure and velocity of wall particles from the fluid in front of them, so that walls push and drag as a fluid would: over the neighbours j of a wall particle w that are fluid (share[j] = 1, walls 0)
+       p_w = (sum p_j W + (g - a_w) . sum rho_j x_wj W) / sum W,   v_w = 2 u_w - sum v_j W / sum W (no-slip; free slip: only the part along the normal is turned round),
+   u_w, a_w: the wall's own velocity and acceleration. Adami, Hu & Adams 2012, JCP 231, 7057, (22), (23), (27). normal (may have null arrays): free slip.
+   Without fluid in reach: p = 0, v = u, SPH_TOO_FEW, and the particle pushes nobody. status may be null. */
+SPH_FN sph_index sph_wall_adami(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars share,
+                                sph_scalars rho, sph_scalars p, sph_vectors v, sph_vectors wall_velocity, sph_vec effective_gravity, sph_vectors normal,
+                                SPH_GLOBAL sph_real *p_wall, sph_vector_out v_wall, SPH_GLOBAL unsigned char *status)
+{
+    int error = sphi_check_sweep(k, dim, first, last, x, list, h, share);
+    const int free_slip = normal.x.p != 0;
+    sph_index i, q, failed = 0;
+    if (!error) error = sphi_check_field(rho, x.n);
+    if (!error) error = sphi_check_field(p, x.n);
+    if (!error) error = sphi_check_vectors(dim, v, x.n);
+    if (!error) error = sphi_check_vectors(dim, wall_velocity, x.n);
+    if (!error && free_slip) error = sphi_check_vectors(dim, normal, x.n);
+    if (!error && !p_wall) error = SPH_ERROR_NULL;
+    if (!error) error = sphi_check_vector(dim, v_wall.x, v_wall.y, v_wall.z);
+    if (!error && !sphi_finite(sph_dot(dim, effective_gravity, effective_gravity))) error = SPH_ERROR_VALUE;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i), u = sphi_vector_at(dim, wall_velocity, i);
+        const sph_real h_i = sphi_at(h, i);
+        sph_real sum = SPH_R(0), sp = SPH_R(0), vx = SPH_R(0), vy = SPH_R(0), vz = SPH_R(0);
+        sph_vec answer = u;
+        int state = SPH_OK;
+        SPH_SUM(sum, sp, vx, vy, vz)
+        for (q = list.start[i]; q < list.start[i + 1]; q++) {
+            const sph_index j = list.index[q];
+            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j)), v_j = sphi_vector_at(dim, v, j);
+            const sph_real w = sphi_at(share, j) * sph_kernel_w(k, dim, sph_length(dim, x_ij), SPH_R(0.5) * (h_i + sphi_at(h, j)));
+            sum += w;
+            sp += w * (sphi_at(p, j) + sphi_at(rho, j) * sph_dot(dim, effective_gravity, x_ij));
+            vx += w * v_j.x;
+            if (dim > 1) vy += w * v_j.y;
+            if (dim > 2) vz += w * v_j.z;
+        }
+        if (!(sum > SPH_R(0))) {
+            state = SPH_TOO_FEW;
+            sp = SPH_R(0);
+        } else {
+            sph_vec mean;
+            mean.x = vx / sum;
+            mean.y = vy / sum;
+            mean.z = vz / sum;
+            sp /= sum;
+            if (free_slip) {
+                const sph_vec n = sphi_vector_at(dim, normal, i), relative = sph_subtract(dim, mean, u);
+                const sph_real nn = sph_dot(dim, n, n), across = nn > SPH_R(0) ? SPH_R(2) * sph_dot(dim, relative, n) / nn : SPH_R(0);
+                answer = sph_subtract(dim, mean, sph_scale(across, n));
+            } else answer = sph_subtract(dim, sph_scale(SPH_R(2), u), mean);
+        }
+        if (sphi_store_finite(p_wall, i, sp) | sphi_store_vector(dim, v_wall, i, answer)) state = SPH_NOT_FINITE;
+        if (status) status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* ================================================================ list tier: collisions */
+
+/* What collides: positions, lists that reach as far as the collision distance (rows for the targets; walls may be sources only), inverse masses (0: a wall), velocities. */
+SPH_FN int sphi_check_collisions(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance, sph_scalars inverse_mass,
+                                 sph_real restitution)
+{
+    sph_index i;
+    int error, negative = 0;
+    if (!sphi_finite(distance) || !(distance > SPH_R(0))) return SPH_ERROR_H;
+    if (!sphi_finite(restitution) || restitution < SPH_R(0)) return SPH_ERROR_VALUE;
+    error = sphi_check_list(dim, first, last, x, list, distance);
+    if (!error) error = sphi_check_field(inverse_mass, x.n);
+    if (error) return error;
+    if (!SPH_CHECK) return 0;
+    for (i = 0; i < (inverse_mass.stride ? x.n : 1); i++) negative |= sphi_at(inverse_mass, i) < SPH_R(0);
+    return negative ? SPH_ERROR_VALUE : 0;
+}
+/* Do these two collide? 0 no, 1 yes, -1 they coincide (closer than 1e-12 of the distance): no direction. all: receding ones, too. */
+SPH_FN int sphi_collides(sph_real r2, sph_real distance, sph_real vx, int all)
+{
+    if (!(r2 < distance * distance)) return 0;
+    if (!(r2 > SPH_R(1e-24) * distance * distance)) return -1;
+    return all || vx < SPH_R(0);
+}
+
+#if !SPH_OPENCL
+typedef struct sph_collision_report {
+    int64_t collisions, coincident; /* pairs; coincident ones exchange nothing */
+    sph_real energy;                /* change of the kinetic energy, <= 0 for restitution <= 1 (walls have none) */
+} sph_collision_report;
+
+/* Collisions one after the other, in the order of rows and lists, each with the velocities that the one before left: changes v (stride as given) of sources, too, if they are not walls; the one sweep that writes
+   beyond its targets, so never on two ranges at once. Each pair once, also if both rows name it. Momentum and angular momentum to round-off; energy never grows for restitution <= 1.
+   Returns 0 or an error; report may be null. */
+SPH_FN sph_index sph_collide_sequential(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance, sph_scalars inverse_mass,
+                                        sph_real restitution, sph_real *vx, sph_real *vy, sph_real *vz, size_t stride, sph_collision_report *report)
+{
+    int error = sphi_check_collisions(dim, first, last, x, list, distance, inverse_mass, restitution);
+    sph_collision_report r;
+    sph_index i, p;
+    r.collisions = r.coincident = 0;
+    r.energy = SPH_R(0);
+    if (!error) error = sphi_check_vector(dim, vx, vy, vz);
+    if (!error && stride < 1) error = SPH_ERROR_COUNT;
+    if (!error && SPH_CHECK) {
+        sph_vectors v;
+        v.x = sph_scalars_strided(vx, stride);
+        v.y = sph_scalars_strided(vy, stride);
+        v.z = sph_scalars_strided(vz, stride);
+        error = sphi_check_vectors(dim, v, x.n);
+    }
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        const sph_real w_i = sphi_at(inverse_mass, i);
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const size_t a = (size_t)i * stride, b = (size_t)j * stride;
+            const sph_real w_j = sphi_at(inverse_mass, j);
+            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
+            const sph_real r2 = sph_dot(dim, x_ij, x_ij);
+            sph_real c, d, v = (vx[a] - vx[b]) * x_ij.x;
+            int what;
+            if (j < i && j >= first) continue; /* its own row has had it */
+            if (dim > 1) v += (vy[a] - vy[b]) * x_ij.y;
+            if (dim > 2) v += (vz[a] - vz[b]) * x_ij.z;
+            what = w_i + w_j > SPH_R(0) ? sphi_collides(r2, distance, v, 0) : 0;
+            r.coincident += what < 0;
+            if (what <= 0) continue;
+            c = sph_collision_pair(restitution, w_i, w_j, v, r2);
+            d = sph_collision_pair(restitution, w_j, w_i, v, r2);
+            vx[a] += c * x_ij.x;
+            vx[b] -= d * x_ij.x;
+            if (dim > 1) {
+                vy[a] += c * x_ij.y;
+                vy[b] -= d * x_ij.y;
+            }
+            if (dim > 2) {
+                vz[a] += c * x_ij.z;
+                vz[b] -= d * x_ij.z;
+            }
+            r.collisions++;
+            r.energy -= SPH_R(0.5) * (SPH_R(1) - restitution * restitution) / (w_i + w_j) * v * v / r2;
+        }
+    }
+    if (report) *report = r;
+    return 0;
+}
+#endif
+
+/* How many collisions each target is in: the first half of the simultaneous form. Full lists. Returns how many targets coincide with a neighbour (they do not collide with it), or an error. A host with
+   halo particles exchanges the counts before the second half. */
+SPH_FN sph_index sph_collision_count(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance, sph_scalars inverse_mass,
+                                     sph_vectors v, SPH_GLOBAL sph_index *count)
+{
+    int error = sphi_check_collisions(dim, first, last, x, list, distance, inverse_mass, SPH_R(0));
+    sph_index i, p, coincident = 0;
+    if (!error) error = sphi_check_vectors(dim, v, x.n);
+    if (!error && !count) error = SPH_ERROR_NULL;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(dim, v, i);
+        sph_index n = 0, same = 0;
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
+            const int what = sphi_collides(sph_dot(dim, x_ij, x_ij), distance, sph_dot(dim, sph_subtract(dim, v_i, sphi_vector_at(dim, v, j)), x_ij), 0);
+            if (!(sphi_at(inverse_mass, i) + sphi_at(inverse_mass, j) > SPH_R(0))) continue;
+            n += what > 0;
+            same |= what < 0;
+        }
+        count[i] = n;
+        coincident += same;
+    }
+    return coincident;
+}
+
+enum { SPHI_COLLIDE_WEIGHTED, SPHI_COLLIDE_LITERAL, SPHI_COLLIDE_ACCELERATION };
+SPH_FN sph_index sphi_collide(int form, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance, sph_scalars inverse_mass,
+                              sph_real restitution, sph_vectors v, const SPH_GLOBAL sph_index *count, sph_real N, sph_vector_out change)
+{
+    int error = sphi_check_collisions(dim, first, last, x, list, distance, inverse_mass, restitution);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_vectors(dim, v, x.n);
+    if (!error) error = sphi_check_vector(dim, change.x, change.y, change.z);
+    if (!error && form == SPHI_COLLIDE_WEIGHTED && !count) error = SPH_ERROR_NULL;
+    if (!error && form == SPHI_COLLIDE_ACCELERATION && !(sphi_finite(N) && N > SPH_R(0))) error = SPH_ERROR_VALUE;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(dim, v, i);
+        const sph_real w_i = sphi_at(inverse_mass, i);
+        sph_vec sum = sph_scale(SPH_R(0), x_i);
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sph_real w_j = sphi_at(inverse_mass, j);
+            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j)), v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
+            const sph_real r2 = sph_dot(dim, x_ij, x_ij), vx = sph_dot(dim, v_ij, x_ij);
+            sph_real c;
+            if (!(w_i + w_j > SPH_R(0)) || sphi_collides(r2, distance, vx, form != SPHI_COLLIDE_WEIGHTED) <= 0) continue;
+            if (form == SPHI_COLLIDE_ACCELERATION) c = sph_collision_acceleration_pair(restitution, w_i, w_j, vx, SPHI_SQRT(r2), sph_length(dim, v_ij), N);
+            else c = sph_collision_pair(restitution, w_i, w_j, vx, r2);
+            if (form == SPHI_COLLIDE_WEIGHTED) { /* a wall takes any number of impulses: its count does not matter */
+                const sph_index n_i = w_i > SPH_R(0) ? count[i] : 1, n_j = w_j > SPH_R(0) ? count[j] : 1;
+                c /= (sph_real)(n_i > n_j ? n_i : n_j > 1 ? n_j : 1);
+            }
+            sum = sph_subtract(dim, sum, sph_scale(-c, x_ij));
+        }
+        failed += sphi_store_vector(dim, change, i, sum);
+    }
+    return failed;
+}
+/* The change of velocity of each target by all its collisions at once, each with the weight 1 / max(n_i, n_j); count: from sph_collision_count, for the targets and the sources that are no walls. Full lists; order-independent, any
+   ranges in parallel; momentum and angular momentum to round-off, and energy never grows for restitution <= 1 (a particle in n > 1 collisions loses some also at 1). The host adds it to v. */
+SPH_FN sph_index sph_collision_change_weighted(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance,
+                                               sph_scalars inverse_mass, sph_real restitution, sph_vectors v, const SPH_GLOBAL sph_index *count,
+                                               sph_vector_out change)
+{
+    return sphi_collide(SPHI_COLLIDE_WEIGHTED, dim, first, last, x, list, distance, inverse_mass, restitution, v, count, SPH_R(1), change);
+}
+/* (4.20) as printed: all pairs in reach, receding ones, too, at once. DO NOT USE in a simulation: pairs that part are pulled back, and the energy of a particle with several contacts grows without bounds. Here to
+   compare with. */
+SPH_FN sph_index sph_collision_change_literal(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance,
+                                              sph_scalars inverse_mass, sph_real restitution, sph_vectors v, sph_vector_out change)
+{
+    return sphi_collide(SPHI_COLLIDE_LITERAL, dim, first, last, x, list, distance, inverse_mass, restitution, v, 0, SPH_R(1), change);
+}
+/* (4.22) as printed: the same as an acceleration, with the contact time N r / |v_ij|; (4.20) / dt for N = |v_ij| dt / r. The same warning. */
+SPH_FN sph_index sph_collision_acceleration_literal(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance,
+                                                    sph_scalars inverse_mass, sph_real restitution, sph_vectors v, sph_real N, sph_vector_out acceleration)
+{
+    return sphi_collide(SPHI_COLLIDE_ACCELERATION, dim, first, last, x, list, distance, inverse_mass, restitution, v, 0, N, acceleration);
+}
+
+/* ================================================================ list tier: the distribution of particles, and what it conserves */
+
+/* The distance from each target to its nearest source in the list; 0 and SPH_TOO_FEW where the list is empty. targets and sources may be the same points, or probes and particles (lists by SPH_LIST_FOREIGN): then the share of
+   probes with none within a distance is the void fraction. */
+SPH_FN sph_index sph_nearest_distance(int dim, sph_index first, sph_index last, sph_points targets, sph_points sources, sph_list list,
+                                      SPH_GLOBAL sph_real *distance, SPH_GLOBAL unsigned char *status)
+{
+    sph_index i, p, failed = 0;
+    if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
+    if (!targets.x || !sources.x || (dim > 1 && (!targets.y || !sources.y)) || (dim > 2 && (!targets.z || !sources.z)) || !list.start || !distance)
+        return SPH_ERROR_NULL;
+    if (targets.n < 1 || sources.n < 1) return SPH_ERROR_COUNT;
+    if (first < 0 || first > last || last > targets.n) return SPH_ERROR_RANGE;
+    for (i = first; i < last; i++) {
+        if (list.start[i] < 0 || list.start[i + 1] < list.start[i]) return SPH_ERROR_LIST;
+        if (list.start[i + 1] > list.start[i] && !list.index) return SPH_ERROR_NULL;
+        for (p = list.start[i]; p < list.start[i + 1] && SPH_CHECK; p++)
+            if (list.index[p] < 0 || list.index[p] >= sources.n) return SPH_ERROR_LIST;
+    }
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, targets, i);
+        sph_real least = SPH_R(-1);
+        int state = SPH_OK;
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_real r = sph_length(dim, sphi_separation(dim, sources, x_i, sphi_point(dim, sources, list.index[p])));
+            if (least < SPH_R(0) || r < least) least = r;
+        }
+        if (least < SPH_R(0)) {
+            state = SPH_TOO_FEW;
+            least = SPH_R(0);
+        } else if (!sphi_finite(least)) {
+            state = SPH_NOT_FINITE;
+            least = SPH_R(0);
+        }
+        distance[i] = least;
+        if (status) status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* The hexatic order |sum exp(6 i theta)| / 6 over the six nearest neighbours, 2D: 1 on a hexagonal lattice, about 0.36 for random particles. 0 and SPH_TOO_FEW where there are fewer than six. Nelson & Halperin 1979, PRB 19, 2457. */
+SPH_FN sph_index sph_hexatic_order(sph_index first, sph_index last, sph_points x, sph_list list, SPH_GLOBAL sph_real *order, SPH_GLOBAL unsigned char *status)
+{
+    const int error = sphi_check_list(2, first, last, x, list, SPH_R(0));
+    sph_index i, p, failed = 0;
+    if (error) return error;
+    if (!order) return SPH_ERROR_NULL;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(2, x, i);
+        sph_real r2[6], re[6], im[6], a = SPH_R(0), b = SPH_R(0);
+        int n = 0, c, state = SPH_OK;
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_vec e = sphi_separation(2, x, sphi_point(2, x, list.index[p]), x_i);
+            const sph_real d = sph_dot(2, e, e);
+            sph_real u, v, uu;
+            if (!(d > SPH_R(0)) || (n == 6 && !(d < r2[5]))) continue;
+            if (n < 6) n++;
+            u = e.x * e.x / d, v = e.y * e.x / d; /* cos^2, cos sin: angles doubled and tripled from them */
+            u = SPH_R(2) * u - SPH_R(1);
+            v = SPH_R(2) * v;
+            uu = u * u - SPH_R(3) * v * v;
+            for (c = n - 1; c > 0 && r2[c - 1] > d; c--) {
+                r2[c] = r2[c - 1];
+                re[c] = re[c - 1];
+                im[c] = im[c - 1];
+            }
+            r2[c] = d;
+            re[c] = u * uu; /* cos 6 theta = cos 3 (2 theta) */
+            im[c] = v * (SPH_R(3) * u * u - v * v);
+        }
+        for (c = 0; c < n; c++) {
+            a += re[c];
+            b += im[c];
+        }
+        a = SPHI_SQRT(a * a + b * b) / SPH_R(6);
+        if (n < 6) state = SPH_TOO_FEW;
+        else if (!sphi_finite(a)) state = SPH_NOT_FINITE;
+        order[i] = state ? SPH_R(0) : a;
+        if (status) status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* The radial distribution function: g[b] for r between b and b + 1 times reach / bins: pairs found in a shell per target over those expected at the number density (particles per volume). 1 far from a particle in a large
+   cloud. Full lists that hold every pair within reach. */
+SPH_FN sph_index sph_radial_distribution(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real reach, sph_real number_density,
+                                         int bins, SPH_GLOBAL sph_real *g)
+{
+    int error, b;
+    sph_index i, p;
+    if (!sphi_finite(reach) || !(reach > SPH_R(0))) return SPH_ERROR_H;
+    error = sphi_check_list(dim, first, last, x, list, reach);
+    if (error) return error;
+    if (!g) return SPH_ERROR_NULL;
+    if (bins < 1) return SPH_ERROR_COUNT;
+    if (first == last || !sphi_finite(number_density) || !(number_density > SPH_R(0))) return SPH_ERROR_VALUE;
+    for (b = 0; b < bins; b++) g[b] = SPH_R(0);
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_real r = sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, list.index[p])));
+            if (r < reach) {
+                const int at = (int)(r / reach * (sph_real)bins);
+                g[at < bins ? at : bins - 1] += SPH_R(1);
+            }
+        }
+    }
+    for (b = 0; b < bins; b++) {
+        const sph_real width = reach / (sph_real)bins, in = width * (sph_real)b, out = in + width;
+        const sph_real volume = dim == 1   ? SPH_R(2) * (out - in)
+                                : dim == 2 ? SPH_R(3.14159265358979323846) * (out * out - in * in)
+                                           : SPH_R(4.18879020478639098462) * (out * out * out - in * in * in);
+        g[b] /= (sph_real)(last - first) * number_density * volume;
+    }
+    return 0;
+}
+
+/* Coincident pairs: targets that have a source within `distance` (1e-12 h: what the forces leave alone). Returns their number. */
+SPH_FN sph_index sph_count_coincident(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance)
+{
+    sph_index i, p, found = 0;
+    int error;
+    if (!sphi_finite(distance) || distance < SPH_R(0)) return SPH_ERROR_H;
+    error = sphi_check_list(dim, first, last, x, list, distance);
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        int near_by = 0;
+        for (p = list.start[i]; p < list.start[i + 1]; p++)
+            near_by |= !(sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, list.index[p]))) > distance);
+        found += near_by;
+    }
+    return found;
+}
+/* Where to put target i so that it leaves those that it coincides with: a step of `distance` in a direction that depends on its index only (the golden angle, so that no two nearby indices get the same): no force has a
+   direction there, and neither kernels nor collisions separate such a pair. Writes the new position; those who coincide with nobody keep theirs. Returns how many were moved. The host wraps and stores them. */
+SPH_FN sph_index sph_separate_coincident(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real within, sph_real distance,
+                                         sph_vector_out position)
+{
+    sph_index i, moved = 0;
+    const sph_index error = sph_count_coincident(dim, first, first, x, list, within);
+    if (error < 0) return error;
+    if (!sphi_finite(distance)) return SPH_ERROR_H;
+    if (sphi_check_vector(dim, position.x, position.y, position.z)) return SPH_ERROR_NULL;
+    {
+        const sph_index all = sph_count_coincident(dim, first, last, x, list, within);
+        if (all < 0) return all;
+    }
+    for (i = first; i < last; i++) {
+        sph_vec at = sphi_point(dim, x, i);
+        sph_index p;
+        int coincides = 0;
+        for (p = list.start[i]; p < list.start[i + 1]; p++)
+            coincides |= !(sph_length(dim, sphi_separation(dim, x, at, sphi_point(dim, x, list.index[p]))) > within);
+        if (coincides) {
+            const sph_real turn = SPH_R(2.39996322972865332) * (sph_real)(i % 100003), up = SPH_R(i % 7 - 3) / SPH_R(4),
+                           flat = dim > 2 ? SPHI_SQRT(SPH_R(1) - up * up) : SPH_R(1);
+            if (dim == 1) at.x += i % 2 ? distance : -distance;
+            else {
+                at.x += distance * flat * SPHI_COS(turn);
+                at.y += distance * flat * SPHI_SIN(turn);
+                if (dim > 2) at.z += distance * up;
+            }
+            moved++;
+        }
+        position.x[i] = at.x;
+        if (dim > 1) position.y[i] = at.y;
+        if (dim > 2) position.z[i] = at.z;
+    }
+    return moved;
+}
+
+/* Mass, momentum, angular momentum about the origin and kinetic energy of particles first ... last - 1; sums of compensated rounding (Kahan), for the last digits of what ought not to change. */
+typedef struct sph_conserved {
+    sph_real mass, kinetic_energy;
+    sph_vec momentum, angular_momentum; /* in 2D the z component only */
+} sph_conserved;
+SPH_FN void sphi_add_compensated(sph_real *sum, sph_real *lost, sph_real value)
+{
+    const sph_real a = value - *lost, b = *sum + a;
+    *lost = (b - *sum) - a;
+    *sum = b;
+}
+/* Returns 0, 1 if a sum overflowed (*out then 0), or an error. x, v as they are: positions of a periodic box must be those that were not wrapped for the angular momentum to mean anything. */
+SPH_FN sph_index sph_conserved_sums(int dim, sph_index first, sph_index last, sph_points x, sph_scalars m, sph_vectors v, sph_conserved *out)
+{
+    sph_real sum[8], lost[8];
+    sph_index i;
+    int c, error, ok = 1;
+    if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
+    if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z) || !out) return SPH_ERROR_NULL;
+    if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
+    if (first < 0 || first > last || last > x.n) return SPH_ERROR_RANGE;
+    error = sphi_check_field(m, x.n);
+    if (!error) error = sphi_check_vectors(dim, v, x.n);
+    if (error) return error;
+    for (c = 0; c < 8; c++) sum[c] = lost[c] = SPH_R(0);
+    for (i = first; i < last; i++) {
+        const sph_vec r = sphi_point(dim, x, i), u = sphi_vector_at(dim, v, i);
+        const sph_real m_i = sphi_at(m, i);
+        sph_real term[8];
+        term[0] = m_i;
+        term[1] = SPH_R(0.5) * m_i * sph_dot(dim, u, u);
+        term[2] = m_i * u.x;
+        term[3] = m_i * u.y;
+        term[4] = m_i * u.z;
+        term[5] = m_i * (r.y * u.z - r.z * u.y);
+        term[6] = m_i * (r.z * u.x - r.x * u.z);
+        term[7] = m_i * (r.x * u.y - r.y * u.x);
+        for (c = 0; c < 8; c++) sphi_add_compensated(&sum[c], &lost[c], term[c]);
+    }
+    for (c = 0; c < 8; c++) ok = ok && sphi_finite(sum[c]);
+    for (c = 0; c < 8 && !ok; c++) sum[c] = SPH_R(0);
+    out->mass = sum[0];
+    out->kinetic_energy = sum[1];
+    out->momentum.x = sum[2];
+    out->momentum.y = sum[3];
+    out->momentum.z = sum[4];
+    out->angular_momentum.x = sum[5];
+    out->angular_momentum.y = sum[6];
+    out->angular_momentum.z = sum[7];
+    return !ok;
+}
 
 #endif /* SPH_OPS_H */
 
