@@ -74,7 +74,7 @@
  *                  sph_viscous_mu_monaghan_cleary(k, dim, ..., m, rho, v, mu, eta, acceleration)
  *                  sph_velocity_xsph(k, dim, ..., m, rho, v, epsilon, change)
  *                  sph_wall_adami(k, dim, ..., share, rho, p, v, wall_velocity, gravity, normal, p_wall, v_wall, status)
- *   collisions     sph_collide_sequential(dim, first, last, points, list, distance, inverse_mass, restitution, vx, vy, vz, stride, report)
+ *   collisions     sph_collide_sequential(dim, first, last, points, list, distance, inverse_mass, restitution, vx, vy, vz, stride, out)
  *                  sph_collision_count(dim, first, last, points, list, distance, inverse_mass, v, count)
  *                  sph_collision_change_weighted(dim, first, last, points, list, distance, inverse_mass, restitution, v, count, change)
  *                  sph_collision_change_literal, sph_collision_acceleration_literal      as printed: energy grows; for comparison
@@ -3381,9 +3381,9 @@ typedef struct sph_collision_report {
 
 /* Collisions one after the other, in the order of rows and lists, each with the velocities that the one before left: changes v (stride as given) of sources, too, if they are not walls; the one sweep that writes
    beyond its targets, so never on two ranges at once. Each pair once, also if both rows name it. Momentum and angular momentum to round-off; energy never grows for restitution <= 1.
-   Returns 0 or an error; report may be null. */
+   Returns 0 or an error; out may be null. */
 SPH_FN sph_index sph_collide_sequential(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance, sph_scalars inverse_mass,
-                                        sph_real restitution, sph_real *vx, sph_real *vy, sph_real *vz, size_t stride, sph_collision_report *report)
+                                        sph_real restitution, sph_real *vx, sph_real *vy, sph_real *vz, size_t stride, sph_collision_report *out)
 {
     int error = sphi_check_collisions(dim, first, last, x, list, distance, inverse_mass, restitution);
     sph_collision_report r;
@@ -3433,7 +3433,7 @@ SPH_FN sph_index sph_collide_sequential(int dim, sph_index first, sph_index last
             r.energy -= SPH_R(0.5) * (SPH_R(1) - restitution * restitution) / (w_i + w_j) * v * v / r2;
         }
     }
-    if (report) *report = r;
+    if (out) *out = r;
     return 0;
 }
 #endif

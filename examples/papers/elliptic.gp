@@ -104,3 +104,62 @@ if (there("elliptic_table1")) {
         "" using (strcol(1) eq "0.26" && $2 > 0.9 ? $3 : NaN):4 every ::2 with lines linewidth 2 dashtype 2 linecolor rgb "#d55e00" title "nu = 0.26, nine points"
     unset ylabel
 }
+
+# figures 7, 8: solutions on 40 x 40
+do for [f = 7:8] {
+    name = sprintf("elliptic_fig%d", f)
+    if (there(name)) {
+        reset
+        set datafile separator ","
+        set output dir.name.".png"
+        set terminal pngcairo size 1200,1000 font "sans,12"
+        set multiplot layout 2,2 title sprintf("Figure %d: Laplace's equation, %s conditions, 40 x 40, f = 1.001", f, f == 7 ? "Dirichlet" : "mixed")
+        set size ratio -1
+    set autoscale fix
+        set palette rgbformulae 33,13,10
+        array panel[4] = ["exact", "TPFA = MPFA", "mimetic", "M-SPH"]
+        do for [p = 1:4] {
+            set title panel[p]
+            plot dir.name.".csv" using 1:2:2+p every ::1 with image notitle
+        }
+        unset multiplot
+    }
+}
+
+# figures 9, 10: permeability, solution, relative error
+maps = system(sprintf("cd '%s' && ls elliptic_fig10_*.csv 2> /dev/null", dir))
+do for [file in maps] {
+    reset
+    set datafile separator ","
+    set output dir.file[1:strlen(file) - 4].".png"
+    set terminal pngcairo size 1500,520 font "sans,12"
+    set multiplot layout 1,3 title "Figures 9, 10: ".file[16:strlen(file) - 4]." (a layer of the block in 3D), M-SPH, f = 1.001, arithmetic means" noenhanced
+    set size ratio -1
+    set autoscale fix
+    set palette rgbformulae 33,13,10
+    set title "log10 of the permeability"
+    plot dir.file using 1:2:3 every ::1 with image notitle
+    set title "u"
+    plot dir.file using 1:2:4 every ::1 with image notitle
+    set title "|u - TPFA| / |TPFA|, logarithm"
+    set logscale cb
+    plot dir.file using 1:2:($5 > 1e-8 ? $5 : 1e-8) every ::1 with image notitle
+    unset multiplot
+}
+
+# figures 11, 12: residuals of GMRES
+curves = system(sprintf("cd '%s' && ls elliptic_fig11_*.csv elliptic_fig12_*.csv 2> /dev/null", dir))
+do for [file in curves] {
+    reset
+    set datafile separator ","
+    set output dir.file[1:strlen(file) - 4].".png"
+    set terminal pngcairo size 900,560 font "sans,12"
+    set title sprintf("Figure %s: GMRES without restarts, rows scaled to a diagonal of 1 (%s)", file[13:14], file[16:strlen(file) - 4]) noenhanced
+    set logscale y
+    set format y "10^{%L}"
+    set xlabel "iteration"
+    set ylabel "residual"
+    set grid linecolor rgb "#dddddd"
+    array curve[6] = ["TPFA", "TPFA, Jacobi", "TPFA, ILU(0)", "M-SPH = Schwaiger", "M-SPH = Schwaiger, Jacobi", "M-SPH = Schwaiger, ILU(0)"]
+    plot for [c = 1:6] dir.file using 1:(column(c + 1)) every ::1 with lines linewidth (c > 3 ? 3 : 1) title curve[c]
+}

@@ -23,12 +23,11 @@
 #include <stdlib.h>
 
 #include "../../sph.h"
+#include "../common/figure.h"
 #include "../common/random.h"
 #include "../common/report.h"
 
 #define ELLIPTIC_KERNEL SPH_CUBIC_SPLINE /* (12) */
-
-static const double elliptic_pi = 3.14159265358979323846;
 
 /* Brookshaw (27), corrected Brookshaw (51), Schwaiger (52), the paper's own (69) */
 enum { SCHEME_B, SCHEME_CB, SCHEME_S, SCHEME_M, SCHEMES };
@@ -260,26 +259,6 @@ static inline void elliptic_regression(report *r, const char *item, const char *
     char criterion[REPORT_CRITERION];
     snprintf(criterion, sizeof criterion, "own regression %.9g: rel <= 1e-06", known);
     report_number_row(r, item, at, quantity, (double)NAN, measured, criterion, NULL, fabs(measured - known) <= tolerance ? REPORT_MATCH : REPORT_DIFFERS);
-}
-
-/* Opens the data file of a figure; a comma-separated header line follows. */
-static inline FILE *elliptic_figure(const char *dir, const char *name)
-{
-    char path[4096];
-    FILE *out;
-    if (snprintf(path, sizeof path, "%s/%s.csv", dir, name) >= (int)sizeof path || !(out = fopen(path, "w"))) {
-        fprintf(stderr, "elliptic: cannot write %s/%s.csv; does the folder exist and may you write there? (-figures names it)\n", dir, name);
-        exit(2);
-    }
-    return out;
-}
-static inline void elliptic_figure_close(FILE *out)
-{
-    const int broken = ferror(out);
-    if (fclose(out) != 0 || broken) {
-        fprintf(stderr, "elliptic: writing a figure's data failed; is the disk full?\n");
-        exit(2);
-    }
 }
 
 #endif

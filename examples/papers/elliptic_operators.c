@@ -280,7 +280,7 @@ static void figures12(report *r, cloud *c, const char *figures)
 {
     static const double known_end[F12_CURVES] = {-7.42270302, -14.6853525, -11.7054066, 2.15128406, 1.52756424, -5.89846425};
     static const double known_corner[4] = {-15.2567286, -36, -37.4269903, 0};
-    FILE *const out = elliptic_figure(figures, "elliptic_fig12");
+    FILE *const out = figure_open(figures, "elliptic_fig12");
     double value[F12_CURVES][121];
     int a, i, fell, singular = 0;
     char text[96];
@@ -300,7 +300,7 @@ static void figures12(report *r, cloud *c, const char *figures)
     for (i = 55; i < 66; i++)
         fprintf(out, "%.9g,4,%.9g,%.9g,%.9g,%.9g,%.9g\n", c->x[i], value[F12_B][i], value[F12_B_CORRECTED][i], value[F12_CB][i], value[F12_S][i],
                 value[F12_S_CORRECTED][i]);
-    elliptic_figure_close(out);
+    figure_close(out);
 
     report_section(r, "Figures 1, 2: div grad (x^2 + y^2) = 4 on 11 x 11 nodes, f = 1, along y = 0");
     for (a = 0; a < F12_CURVES; a++) {
@@ -379,7 +379,7 @@ static const known_row known4[] = {
 static void figure34(report *r, cloud *c, const char *figures, int field, int s, const char *name, const char *item, const known_row *known, int count)
 {
     enum { SIDE = 21, MIDDLE = SIDE * (SIDE / 2) };
-    FILE *const out = elliptic_figure(figures, name);
+    FILE *const out = figure_open(figures, name);
     static double line[ALL_SCHEMES][GRADIENTS][SIDE];
     double least = HUGE_VAL, best = HUGE_VAL, x[3], same[GRADIENTS];
     errors e[ALL_SCHEMES][GRADIENTS];
@@ -411,7 +411,7 @@ static void figure34(report *r, cloud *c, const char *figures, int field, int s,
             for (gradient = 0; gradient < GRADIENTS; gradient++) fprintf(out, ",%.9g", line[scheme][gradient][k]);
     }
     fprintf(out, "\n");
-    elliptic_figure_close(out);
+    figure_close(out);
 
     for (scheme = SCHEME_CB; scheme < ALL_SCHEMES; scheme++)
         for (gradient = 0; gradient < GRADIENTS; gradient++) {
@@ -850,7 +850,7 @@ static void polynomial(report *r, cloud *c, FILE *out, int dim, int rotated, int
 
 static void polynomials(report *r, cloud *c, const char *figures)
 {
-    FILE *const out = elliptic_figure(figures, "elliptic_polynomials");
+    FILE *const out = figure_open(figures, "elliptic_polynomials");
     int dim, s;
     fprintf(out, "field,s,dim,rotated,scheme,gradient,interior_max,boundary_rms,L2\n");
     report_section(r, "Sections 4.1, 4.2: polynomials, f = 1.2, dx = 0.05 (2D) and 0.1 (3D)");
@@ -861,7 +861,7 @@ static void polynomials(report *r, cloud *c, const char *figures)
         for (s = 1; s <= 5; s++) polynomial(r, c, out, dim, 0, EQUAL_SUMS, s);
     }
     for (s = 1; s <= 3; s++) polynomial(r, c, out, 2, 1, POWER_OF_PRODUCT, s);
-    elliptic_figure_close(out);
+    figure_close(out);
 }
 
 /* ---------------------------------------------------------------- errors against dx at fixed f, and against f at fixed dx */

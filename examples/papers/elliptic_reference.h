@@ -16,16 +16,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../common/figure.h"
 #include "../common/random.h"
 #include "../common/sparse.h"
-
-static const double elliptic_pi = 3.14159265358979323846;
 
 /* ---- exact solutions --------------------------------------------------- */
 
 /* sinh(a)/sinh(b) and cosh(a)/sinh(b) for 0 <= a <= b, b > 0: the functions themselves overflow from 710 on, which is n = 226 for a square. */
-static inline double elliptic_sinh_ratio(double a, double b) { return exp(a - b) * (expm1(-2.0 * a) / expm1(-2.0 * b)); }
-static inline double elliptic_cosh_ratio(double a, double b) { return exp(a - b) * ((1.0 + exp(-2.0 * a)) / -expm1(-2.0 * b)); }
+static inline double elliptic_sinh_ratio(double a, double b) { return a - b < -50.0 ? 0.0 : exp(a - b) * (expm1(-2.0 * a) / expm1(-2.0 * b)); }
+static inline double elliptic_cosh_ratio(double a, double b) { return a - b < -50.0 ? 0.0 : exp(a - b) * ((1.0 + exp(-2.0 * a)) / -expm1(-2.0 * b)); }
 
 /* (96): u on the rectangle 0 <= x <= L, 0 <= y <= H with u = psi[0], psi[1], psi[2], psi[3] on the sides y = 0, x = L, y = H, x = 0; `terms` odd n from 1 on.
  * As printed, the third term repeats the second; it is sin(n pi x/L) sinh(n pi y/L) / sinh(n pi H/L). The paper's tables have 100 terms, and at 160 x 160 cells
@@ -34,10 +33,10 @@ static inline double elliptic_series_dirichlet(double x, double y, double L, dou
 {
     double u = 0.0;
     for (int k = terms - 1; k >= 0; --k) { /* small terms first */
-        const double n = 2.0 * k + 1.0, p = n * elliptic_pi / L, q = n * elliptic_pi / H;
+        const double n = 2.0 * k + 1.0, p = n * MATH_PI / L, q = n * MATH_PI / H;
         const double across = psi[0] * elliptic_sinh_ratio(p * (H - y), p * H) + psi[2] * elliptic_sinh_ratio(p * y, p * H);
         const double along = psi[1] * elliptic_sinh_ratio(q * x, q * L) + psi[3] * elliptic_sinh_ratio(q * (L - x), q * L);
-        u += 4.0 / (n * elliptic_pi) * (sin(p * x) * across + sin(q * y) * along);
+        u += 4.0 / (n * MATH_PI) * (sin(p * x) * across + sin(q * y) * along);
     }
     return u;
 }
@@ -48,7 +47,7 @@ static inline double elliptic_series_mixed(double x, double y, double L, double 
 {
     double u = 0.0;
     for (int n = terms; n >= 1; --n) {
-        const double lambda = (2.0 * n - 1.0) * elliptic_pi / (2.0 * H);
+        const double lambda = (2.0 * n - 1.0) * MATH_PI / (2.0 * H);
         const double along = psi[1] * elliptic_cosh_ratio(lambda * x, lambda * L) + psi[3] * elliptic_cosh_ratio(lambda * (L - x), lambda * L);
         u += 2.0 * along / (H * lambda * lambda) * sin(lambda * y);
     }
@@ -457,7 +456,7 @@ typedef enum elliptic_surrogate {
 static inline double elliptic_normal(pcg32 *g)
 {
     const double radius = sqrt(-2.0 * log(pcg32_uniform(g)));
-    return radius * cos(2.0 * elliptic_pi * pcg32_uniform(g));
+    return radius * cos(2.0 * MATH_PI * pcg32_uniform(g));
 }
 
 /* Average along an axis with Gaussian weights of `reach` / 3 cells; what comes out is 2 `reach` cells shorter. Returns the new array (z is freed), or NULL. */
@@ -518,10 +517,10 @@ static inline int elliptic_channels(elliptic_field *field, pcg32 *g)
     for (int c = 0; c < cells; ++c) field->k[0][c] = 1e-3;
     for (int m = 0; m < channels; ++m) {
         const double x = n[0] * pcg32_uniform(g), bend = 6.0 * pcg32_uniform(g), wave = 30.0 + 30.0 * pcg32_uniform(g),
-                     phase = 2.0 * elliptic_pi * pcg32_uniform(g);
+                     phase = 2.0 * MATH_PI * pcg32_uniform(g);
         const int bottom = (int)((n[2] - thick + 1) * pcg32_uniform(g));
         for (int j = 0; j < n[1]; ++j) {
-            const double left = x + bend * sin(2.0 * elliptic_pi * j / wave + phase) - 0.5 * width;
+            const double left = x + bend * sin(2.0 * MATH_PI * j / wave + phase) - 0.5 * width;
             for (int k = bottom < 0 ? 0 : bottom; k < n[2] && k < bottom + thick; ++k)
                 for (int i = 0; i < n[0]; ++i)
                     if (i + 0.5 >= left && i + 0.5 < left + width) field->k[0][i + n[0] * (j + n[1] * k)] = 2000.0;

@@ -26,11 +26,11 @@ static double exact_velocity(double y, double t)
     double sum = 0;
     int n;
     for (n = 0; n < 400; n++) {
-        const double k = 0.5 * elliptic_pi * (2 * n + 1), decay = exp(-k * k * t);
+        const double k = 0.5 * MATH_PI * (2 * n + 1), decay = exp(-k * k * t);
         sum += (n % 2 ? -1 : 1) * cos(k * y) * decay / ((2.0 * n + 1) * (2.0 * n + 1) * (2.0 * n + 1));
         if (decay < 1e-18) break;
     }
-    return 0.5 * (1 - y * y) - 16 / (elliptic_pi * elliptic_pi * elliptic_pi) * sum;
+    return 0.5 * (1 - y * y) - 16 / (MATH_PI * MATH_PI * MATH_PI) * sum;
 }
 
 /* log10 of the error at t = 1, ..., 10, and along the way */
@@ -113,7 +113,7 @@ static void stencil(report *r, cloud *c)
 
 static void table(report *r, cloud *c, const char *figures)
 {
-    FILE *const curve = elliptic_figure(figures, "elliptic_table1");
+    FILE *const curve = figure_open(figures, "elliptic_table1");
     run column[COLUMNS], nine;
     char setting[64], text[96];
     double time[TIMES], growth;
@@ -130,7 +130,7 @@ static void table(report *r, cloud *c, const char *figures)
                              -11); /* the floor of round-off, which the order of sums moves */
         }
     }
-    growth = log10(fabs(1 - 0.26 * 8 * cos(elliptic_pi * 0.05) * cos(elliptic_pi * 0.05))) / step_of(0.26, 11);
+    growth = log10(fabs(1 - 0.26 * 8 * cos(MATH_PI * 0.05) * cos(MATH_PI * 0.05))) / step_of(0.26, 11);
     report_absolute(r, "Table 1", "nu = 0.26, t = 4 to 10", "slope of log10 E (published: of the printed column)", statistics_slope(time + 3, table1[3] + 3, 7),
                     statistics_slope(time + 3, column[3].at + 3, 7), 1e-3);
     report_absolute(r, "Table 1", "nu = 0.26, growth of the shortest wave", "slope of log10 E (theory beside ours)", growth,
@@ -149,7 +149,7 @@ static void table(report *r, cloud *c, const char *figures)
     snprintf(text, sizeof text, "log10 E = %.3f at t = 1, %.2f at t = 10 for nu = 0.26, f = 1.0", nine.at[0], nine.at[9]);
     report_claim_fails(r, "Section 4.4", "nine points (f = 1.0)", "stability", "'unstable for nu > 0.25'", text,
                        "the limit 1/4 belongs to the five points (f from 0.5 to 0.707)");
-    elliptic_figure_close(curve);
+    figure_close(curve);
 }
 
 /* What the print leaves open or turns round */

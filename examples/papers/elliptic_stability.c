@@ -37,8 +37,8 @@ static growth growth_of(cloud *c, int scheme, int gradient, double tau, FILE *fi
             for (b = WAVES / 2; b < WAVES; b++) {
                 sph_vec k = {0, 0, 0};
                 double re = 0, im = 0, size;
-                k.x = (2.0 * a / (WAVES - 1) - 1) * elliptic_pi / c->dx;
-                k.y = (2.0 * b / (WAVES - 1) - 1) * elliptic_pi / c->dx;
+                k.x = (2.0 * a / (WAVES - 1) - 1) * MATH_PI / c->dx;
+                k.y = (2.0 * b / (WAVES - 1) - 1) * MATH_PI / c->dx;
                 elliptic_expect(sph_rows_growth(2, i, cloud_points(c), cloud_list(c), c->row, tau, k, &re, &im));
                 size = sqrt(re * re + im * im);
                 if (inside) {
@@ -61,7 +61,7 @@ static growth growth_of(cloud *c, int scheme, int gradient, double tau, FILE *fi
 static void figure5(report *r, cloud *c, const char *figures)
 {
     static const double f[] = {1.2, 0.6};
-    FILE *const out = elliptic_figure(figures, "elliptic_fig5");
+    FILE *const out = figure_open(figures, "elliptic_fig5");
     int k, jittered, scheme, gradient;
     fprintf(out, "layout,scheme,gradient,re,im,inside\n");
     report_section(r, "Figure 5: growth factors on 21 x 21 nodes, tau = dx^2 / 4");
@@ -104,7 +104,7 @@ static void figure5(report *r, cloud *c, const char *figures)
                 report_claim_fails(r, "Section 4.3", setting, "|lambda| <= 1", "almost everywhere", text,
                                    "with four or so neighbours disorder makes rows of larger diagonal: a smaller tau is needed");
         }
-    elliptic_figure_close(out);
+    figure_close(out);
 }
 
 /* tau = 0.25, as printed, on the unit square of section 4.1 */
@@ -170,7 +170,7 @@ static void figure6(report *r, cloud *c, const char *figures, int full)
     static const double hs[2] = {1, 0.5005};
     static const double factor[2] = {2.6, 5.5};
     enum { SOME = sizeof some / sizeof *some, MOST = 500 };
-    FILE *const out = elliptic_figure(figures, "elliptic_fig6");
+    FILE *const out = figure_open(figures, "elliptic_fig6");
     static double x[MOST], mean[MOST], deviation[MOST];
     char text[160];
     int a, k;
@@ -205,7 +205,7 @@ static void figure6(report *r, cloud *c, const char *figures, int full)
         snprintf(text, sizeof text, "no violation of (93) in 50 draws beyond n = %d", last_violated);
         report_claim(r, "Section 4.5", setting, "(92), (93)", "fulfilled in statistical sense for many neighbours", text, "at most 300", last_violated <= 300);
     }
-    elliptic_figure_close(out);
+    figure_close(out);
     if (full) /* the same with less noise */
         for (a = 0; a < 2; a++)
             for (k = 0; k < SOME; k++) {

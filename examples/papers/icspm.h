@@ -12,14 +12,13 @@
 
 #include "../../sph.h"
 #include "../common/banded.h"
+#include "../common/figure.h"
 
 #define ICSPM_KERNEL SPH_WENDLAND_C4_1D
 
-static const double icspm_pi = 3.14159265358979323846;
-
-static inline double icspm_f(double x) { return x * x + cos(icspm_pi * x); }
-static inline double icspm_df(double x) { return 2 * x - icspm_pi * sin(icspm_pi * x); }
-static inline double icspm_d2f(double x) { return 2 - icspm_pi * icspm_pi * cos(icspm_pi * x); }
+static inline double icspm_f(double x) { return x * x + cos(MATH_PI * x); }
+static inline double icspm_df(double x) { return 2 * x - MATH_PI * sin(MATH_PI * x); }
+static inline double icspm_d2f(double x) { return 2 - MATH_PI * MATH_PI * cos(MATH_PI * x); }
 
 enum { CSPM, BIM, ICSPM, METHODS };
 static const char *const icspm_method_name[METHODS] = {"CSPM", "BIM", "ICSPM"};
@@ -248,25 +247,5 @@ static inline double line_bvp_error(line *s, int method)
 
 /* order of convergence between two sizes that differ by a factor of two: (log(coarse / fine)) / log 2 */
 static inline double icspm_order(double coarse, double fine) { return log(coarse / fine) / log(2.0); }
-
-/* Opens the data file of a figure; a comma-separated header line follows. */
-static inline FILE *icspm_figure(const char *dir, const char *name)
-{
-    char path[4096];
-    FILE *out;
-    if (snprintf(path, sizeof path, "%s/%s.csv", dir, name) >= (int)sizeof path || !(out = fopen(path, "w"))) {
-        fprintf(stderr, "icspm: cannot write %s/%s.csv; does the folder exist and may you write there? (-figures names it)\n", dir, name);
-        exit(2);
-    }
-    return out;
-}
-static inline void icspm_figure_close(FILE *out)
-{
-    const int broken = ferror(out);
-    if (fclose(out) != 0 || broken) {
-        fprintf(stderr, "icspm: writing a figure's data failed; is the disk full?\n");
-        exit(2);
-    }
-}
 
 #endif

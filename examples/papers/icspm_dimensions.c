@@ -198,7 +198,7 @@ int main(int argc, char **argv)
     FILE *csv;
     options_parse(argc, argv, "CSPM, ICSPM and weighted least squares in two and three dimensions: convergence with boundaries.", specs, 4);
     report_open(&r, "icspm_dimensions", out);
-    csv = icspm_figure(dir, "icspm_convergence");
+    csv = figure_open(dir, "icspm_convergence");
     fprintf(csv, "dim,jitter,method,side,gradient,hessian,laplacian\n");
     for (dim = 2; dim <= 3; dim++)
         for (jittered = 0; jittered < 2; jittered++) {
@@ -206,6 +206,6 @@ int main(int argc, char **argv)
             convergence(&r, csv, &p, dim, jittered ? 0.25 : 0, dim == 2 ? sides2 : sides3, (dim == 2 ? 4 : 3) + full);
             progress_end(&p);
         }
-    icspm_figure_close(csv);
+    figure_close(csv);
     return report_close(&r) ? 1 : 0;
 }

@@ -270,7 +270,7 @@ static void figures(line *s, const char *dir, int seed)
     pcg32_seed(&g, (uint64_t)seed, 0);
     for (i = 0; i < 39; i++) draws[i] = pcg32_uniform(&g);
     for (which = 0; which < 3; which++) {
-        FILE *const out = icspm_figure(dir, name[which]);
+        FILE *const out = figure_open(dir, name[which]);
         random_line(s, draws, 41);
         line_neighbours(s, (which == 1 ? 3 : 2) * line_volumes(s));
         for (method = 0; method < METHODS; method++) {
@@ -284,7 +284,7 @@ static void figures(line *s, const char *dir, int seed)
             if (which == 2 || (i > 0 && i < 40)) fprintf(out, "%.9g", value[BIM][i]); /* BIM has no f'' at the ends */
             fprintf(out, ",%.9g\n", value[ICSPM][i]);
         }
-        icspm_figure_close(out);
+        figure_close(out);
     }
 }
 

@@ -82,7 +82,7 @@ static void tables(report *r, line *s, double bvp[METHODS][LEVELS])
 /* Figure 2: f'' by the three methods, N = 41, h = 1/20 */
 static void figure2(line *s, const char *dir)
 {
-    FILE *out = icspm_figure(dir, "icspm_fig2");
+    FILE *out = figure_open(dir, "icspm_fig2");
     double value[METHODS][LARGEST];
     int method, i;
     line_uniform(s, 41, 2);
@@ -96,7 +96,7 @@ static void figure2(line *s, const char *dir)
         if (value[BIM][i] < HUGE_VAL) fprintf(out, "%.9g", value[BIM][i]); /* empty at the ends, where BIM has no value */
         fprintf(out, ",%.9g\n", value[ICSPM][i]);
     }
-    icspm_figure_close(out);
+    figure_close(out);
 }
 
 /* ---------------------------------------------------------------- claims in words */
@@ -321,14 +321,16 @@ static void table3_ratio(report *r, double bvp[METHODS][LEVELS])
 int main(int argc, char **argv)
 {
     const char *out = ".", *figures = ".";
+    int full = 0;
     const option_spec specs[] = {
         {"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
         {"figures", "folder of the figures' data", OPTION_TEXT, &figures, 0, 0},
+        {"full", "the same: nothing here is cut short", OPTION_FLAG, &full, 0, 0},
     };
     double bvp[METHODS][LEVELS];
     static report r;
     line s;
-    options_parse(argc, argv, "Tables 1, 2, 3 and figure 2 of the ICSPM paper: published against measured.", specs, 2);
+    options_parse(argc, argv, "Tables 1, 2, 3 and figure 2 of the ICSPM paper: published against measured.", specs, 3);
     report_open(&r, "icspm_uniform", out);
     line_open(&s, LARGEST + 1);
     tables(&r, &s, bvp);

@@ -1,0 +1,398 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * elliptic_spe10 - section 5.3 and figures 9 to 12 of Lukyanov & Vuik 2020: pressure in a heterogeneous medium, 60 x 60 cells of SPE10's layer 85 and 60 x 60 x 60 cells of its top, unit pressure drop along
+ * the second axis and nothing through the other faces; M-SPH and Schwaiger's scheme against two-point fluxes, and what they cost GMRES.
+ *
+ *     elliptic_spe10 [-perm spe_perm.dat] [-layer FILE] [-block FILE] [-side N] [-out DIR] [-figures DIR] [-full]
+ *
+ * -perm names the data set as it is published (all of Kx, Ky, Kz), -layer and -block files of Kx alone: 60 x 220 numbers as text, 60^3 float32. Without them the run takes made-up fields of
+ * the same kind, and says so: what the paper prints cannot be judged then. The data set is described by Christie & Blunt 2001, SPE Reservoir Eval. Eng. 4, 308; the SPE offers it for download.
+ *
+ * Particles are the cells' centres (unit cells, as the paper's pictures suggest) and the centres of the outer faces, which have the permeability of their cell. u = 0 on j = 1, u = 1 on j = 60.
+ */
+#include "elliptic_reference.h"
+
+#include "elliptic_system.h"
+
+#include "../common/options.h"
+#include "../common/progress.h"
+#include "../common/report.h"
+
+enum { HISTORY = 400, RESTART = 50 };
+
+typedef struct problem {
+    int dim, cells;
+    elliptic_field field;
+    cloud c;
+    double *tpfa;     /* the reference */
+    double *k[3];     /* of the particles */
+    const char *name; /* of the medium */
+    int real;         /* SPE10 itself */
+} problem;
+
+static void stop(const char *what)
+{
+    fprintf(stderr, "elliptic_spe10: %s\n", what);
+    exit(1);
+}
+
+/* ---- particles and matrices ---- */
+
+/* Cells first, then the faces of the low and the high end of each axis. */
+static void particles(problem *p)
+{
+    const int *const n = p->field.n;
+    int i, a, end, at = p->cells, faces = 0;
+    for (a = 0; a < p->dim; a++) faces += 2 * (p->cells / n[a]);
+    cloud_size(&p->c, p->dim, p->cells + faces);
+    p->c.dx = 1;
+    for (a = 0; a < 3; a++) {
+        p->k[a] = elliptic_vector(p->c.n);
+        p->c.low[a] = 0;
+        p->c.high[a] = n[a];
+    }
+    for (i = 0; i < p->cells; i++) {
+        const int at_cell[3] = {i % n[0], i / n[0] % n[1], i / n[0] / n[1]};
+        for (a = 0; a < p->dim; a++) cloud_axis(&p->c, a)[i] = at_cell[a] + 0.5;
+        for (a = 0; a < 3; a++) p->k[a][i] = p->field.k[a][i];
+    }
+    for (a = 0; a < p->dim; a++)
+        for (end = 0; end < 2; end++)
+            for (i = 0; i < p->cells; i++) {
+                const int at_cell[3] = {i % n[0], i / n[0] % n[1], i / n[0] / n[1]};
+                int b;
+                if (at_cell[a] != (end ? n[a] - 1 : 0)) continue;
+                for (b = 0; b < p->dim; b++) cloud_axis(&p->c, b)[at] = at_cell[b] + 0.5;
+                cloud_axis(&p->c, a)[at] = end ? n[a] : 0;
+                for (b = 0; b < 3; b++) p->k[b][at] = p->field.k[b][i];
+                at++;
+            }
+    for (i = 0; i < p->c.n; i++) {
+        p->c.V[i] = 1;
+        p->c.m[i] = p->k[0][i];
+    }
+    cloud_depths(&p->c);
+}
+
+SPH_FN void anisotropic_in(int dim, problem *p)
+{
+    sph_diagonal M;
+    sph_row_out out = {0};
+    M.x = sph_scalars_array(p->k[0]);
+    M.y = sph_scalars_array(p->k[1]);
+    M.z = sph_scalars_array(p->k[2]);
+    out.row = p->c.row;
+    out.diagonal = p->c.diagonal;
+    elliptic_expect(sph_elliptic_rows_anisotropic(ELLIPTIC_KERNEL, dim, 0, p->c.n, cloud_points(&p->c), cloud_list(&p->c), sph_scalars_same(&p->c.h),
+                                                  sph_scalars_array(p->c.V), M, out));
+}
+
+enum { ANISOTROPIC = SCHEMES };
+
+/* A, rows scaled to a diagonal of 1, and b. Returns the seconds of CPU that the rows took. */
+static double matrix(problem *p, int scheme, int mean, sparse *A, double *b)
+{
+    cloud *const c = &p->c;
+    const clock_t begin = clock();
+    unsigned char *const dirichlet = (unsigned char *)elliptic_memory(NULL, (size_t)c->n);
+    sph_elliptic_options o = sph_elliptic_defaults();
+    double seconds;
+    int i;
+    o.mean = mean;
+    for (i = 0; i < c->n; i++) {
+        dirichlet[i] = i >= p->cells && (c->y[i] == c->low[1] || c->y[i] == c->high[1]);
+        b[i] = i >= p->cells && c->y[i] == c->high[1];
+    }
+    if (scheme != ANISOTROPIC) cloud_rows(c, scheme, o);
+    else if (p->dim == 2) anisotropic_in(2, p);
+    else anisotropic_in(3, p);
+    cloud_box_conditions(c, p->cells, dirichlet);
+    seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;
+    cloud_matrix(c, A, b);
+    free(dirichlet);
+    return seconds;
+}
+
+static elliptic_box box_of(const problem *p)
+{
+    elliptic_box box;
+    int a;
+    memset(&box, 0, sizeof box);
+    for (a = 0; a < 3; a++) {
+        box.n[a] = p->field.n[a];
+        box.size[a] = 1;
+        box.k[a] = p->field.k[a];
+    }
+    box.side[1][0].dirichlet = box.side[1][1].dirichlet = 1;
+    box.side[1][1].value = 1;
+    return box;
+}
+
+/* ---- solving ---- */
+
+static void watch(void *context, int iteration, double residual)
+{
+    (void)residual;
+    progress_update((progress *)context, fmin(0.99, iteration / 400.0));
+}
+static sparse_result solve(const sparse *A, const double *b, double *u, sparse_method method, double tolerance, int restart, int most, double *history)
+{
+    sparse_options o = sparse_defaults();
+    sparse_preconditioner P;
+    sparse_result r;
+    progress bar;
+    int i;
+    for (i = 0; i < A->n; i++) u[i] = 0;
+    o.tolerance = tolerance;
+    o.max_iterations = most;
+    o.restart = restart;
+    o.history = history;
+    o.monitor = watch;
+    o.context = &bar;
+    if (sparse_preconditioner_make(&P, method, A) != 0) stop("no preconditioner: a pivot is 0");
+    progress_begin(&bar, "GMRES", 0);
+    r = sparse_gmres(A, &P, b, u, &o);
+    progress_end(&bar);
+    sparse_preconditioner_free(&P);
+    return r;
+}
+static void must(sparse_result r)
+{
+    if (r.converged) return;
+    fprintf(stderr, "elliptic_spe10: %s after %d iterations, residual %.2g\n", sparse_status_text(r.status), r.iterations, r.residual);
+    exit(1);
+}
+
+/* ---- what is compared ---- */
+
+typedef struct errors {
+    double true_95, printed, largest, least_u, most_u;
+} errors;
+static errors errors_of(const problem *p)
+{
+    errors e = {0, 0, 0, HUGE_VAL, -HUGE_VAL};
+    int i;
+    e.true_95 = elliptic_relative_error(p->cells, p->tpfa, p->c.u);
+    e.printed = elliptic_printed_error(e.true_95, p->field.n[0]);
+    for (i = 0; i < p->cells; i++) {
+        e.largest = fmax(e.largest, fabs(p->c.u[i] - p->tpfa[i]) / fabs(p->tpfa[i]));
+        e.least_u = fmin(e.least_u, p->c.u[i]);
+        e.most_u = fmax(e.most_u, p->c.u[i]);
+    }
+    return e;
+}
+
+static void compare(report *r, const problem *p, const char *what, int bounded)
+{
+    const errors e = errors_of(p);
+    const char *const item = p->dim == 2 ? "Fig. 10, 2D" : "Fig. 10, 3D";
+    char setting[128], measured[64];
+    snprintf(setting, sizeof setting, "%s, %s", p->name, what);
+    snprintf(measured, sizeof measured, "[%.3g, 1 - %.3g]", e.least_u, 1 - e.most_u);
+    if (bounded) report_claim(r, item, setting, "range of u", "", measured, "0 <= u <= 1", e.least_u >= -1e-9 && e.most_u <= 1 + 1e-9);
+    else report_row(r, item, setting, "range of u", NULL, measured, NULL, NULL, REPORT_INFO);
+    report_info(r, item, setting, "true (95) against TPFA, %", 100 * e.true_95);
+    report_info(r, item, setting, "largest relative error of a cell, %", 100 * e.largest);
+    report_not_reproduced(r, item, setting, "error in the tables' metric, 100/N (95)", p->dim == 2 ? 0.06 : 0.3, e.printed,
+                          p->real ? "norm and mean of mobilities unsaid; of the size of the tables' metric only" : "a made-up field");
+}
+
+static void map(const char *folder, const char *name, const problem *p, int layer)
+{
+    const int *const n = p->field.n;
+    FILE *const file = figure_open(folder, name);
+    int i;
+    fprintf(file, "i,j,log10_k,u,relative_error\n");
+    for (i = layer * n[0] * n[1]; i < (layer + 1) * n[0] * n[1]; i++) {
+        fprintf(file, "%d,%d,%.5g,%.6g,%.5g\n", i % n[0] + 1, i / n[0] % n[1] + 1, log10(p->field.k[0][i]), p->c.u[i],
+                fabs(p->c.u[i] - p->tpfa[i]) / fabs(p->tpfa[i]));
+    }
+    figure_close(file);
+}
+
+/* Figures 11, 12: residuals of GMRES without restarts for three matrices and three preconditioners, and their condition numbers. Schwaiger's matrix is M-SPH's (checked), so that its curves are, too. */
+static void histories(report *r, const char *folder, problem *p, const sparse *tpfa, const double *b_tpfa, const sparse *msph, const double *b, double apart,
+                      int most)
+{
+    static const char *const method_name[] = {"none", "Jacobi", "ILU(0)"};
+    static const sparse_method methods[] = {SPARSE_NONE, SPARSE_JACOBI, SPARSE_ILU0};
+    double *history[6], *const u = elliptic_vector(p->c.n);
+    int reached[6], method, which, i;
+    char name[64], setting[128], text[64];
+    const char *const item = p->dim == 2 ? "Fig. 11" : "Fig. 12";
+    FILE *file;
+    for (which = 0; which < 2; which++)
+        for (method = 0; method < 3; method++) {
+            const int k = 3 * which + method;
+            sparse_result s;
+            int six;
+            history[k] = elliptic_vector(most + 1);
+            s = solve(which ? msph : tpfa, which ? b : b_tpfa, u, methods[method], 1e-10, 0, most, history[k]);
+            reached[k] = s.iterations;
+            for (six = 0; six < s.iterations && history[k][six] > 1e-6; six++) {}
+            snprintf(setting, sizeof setting, "%s, %s, %s", p->name, which ? "M-SPH = Schwaiger" : "TPFA", method_name[method]);
+            if (history[k][six] <= 1e-6) snprintf(text, sizeof text, "%d", six);
+            else snprintf(text, sizeof text, "> %d (%.1e there)", most, history[k][s.iterations]);
+            report_row(r, item, setting, "iterations of full GMRES to 1e-6", NULL, text, NULL, NULL, REPORT_INFO);
+        }
+    snprintf(name, sizeof name, "elliptic_fig%d_%s", p->dim == 2 ? 11 : 12, p->name);
+    for (i = 0; name[i]; i++)
+        if (name[i] == ' ') name[i] = '_';
+    file = figure_open(folder, name);
+    fprintf(file, "iteration,tpfa_none,tpfa_jacobi,tpfa_ilu0,msph_none,msph_jacobi,msph_ilu0\n");
+    for (i = 0; i <= most; i++) {
+        fprintf(file, "%d", i);
+        for (which = 0; which < 6; which++)
+            if (i <= reached[which]) fprintf(file, ",%.4g", history[which][i]);
+            else fprintf(file, ",");
+        fprintf(file, "\n");
+    }
+    figure_close(file);
+    for (which = 0; which < 6; which++) free(history[which]);
+    free(u);
+    if (p->dim == 2) {
+        sparse_options o = sparse_defaults();
+        sparse_condition a, m;
+        o.tolerance = 1e-6;
+        o.restart = 0;
+        o.max_iterations = 1000;
+        a = sparse_condition_estimate(tpfa, &o);
+        m = sparse_condition_estimate(msph, &o);
+        if (a.converged) report_info(r, item, p->name, "condition estimate (1-norm), TPFA", a.condition);
+        if (m.converged) report_info(r, item, p->name, "condition estimate (1-norm), M-SPH = Schwaiger", m.condition);
+        snprintf(text, sizeof text, "matrices differ by %.1e at most", apart);
+        report_claim(r, item, p->name, "condition numbers of M-SPH and Schwaiger's scheme", "similar", text, "the same matrix to 1e-10", apart <= 1e-10);
+    }
+}
+
+/* Schwaiger's matrix against M-SPH's, entry by entry. */
+static double schwaiger_apart(problem *p, const sparse *msph)
+{
+    double *const b = elliptic_vector(p->c.n), apart = 0;
+    sparse S;
+    int64_t k;
+    matrix(p, SCHEME_S, SPH_MOBILITY_ARITHMETIC, &S, b);
+    if (S.start[S.n] != msph->start[msph->n]) return HUGE_VAL;
+    for (k = 0; k < S.start[S.n]; k++) apart = fmax(apart, fabs(S.value[k] - msph->value[k])); /* rows are scaled: their diagonal is 1 */
+    sparse_free(&S);
+    free(b);
+    return apart;
+}
+
+static void run(report *r, problem *p, const char *figures, int full)
+{
+    static const struct {
+        double f;
+        int mean;
+        const char *what;
+    } variants[] = {{0.5005, SPH_MOBILITY_ARITHMETIC, "f = 0.5005, arithmetic"},
+                    {0.5005, SPH_MOBILITY_HARMONIC, "f = 0.5005, harmonic"},
+                    {1.001, SPH_MOBILITY_HARMONIC, "f = 1.001, harmonic"},
+                    {1.001, SPH_MOBILITY_ARITHMETIC, "f = 1.001, arithmetic"}}; /* the last is what is drawn */
+    const elliptic_box box = box_of(p);
+    const int anisotropic = p->field.k[2] != p->field.k[0] && p->dim == 3;
+    double *b_tpfa, *b;
+    sparse tpfa, msph;
+    sparse_result s;
+    char title[384], setting[128], name[64];
+    clock_t begin;
+    size_t v;
+    p->cells = elliptic_cells(p->field.n);
+    snprintf(title, sizeof title, "%dD, %d x %d x %d cells: %s", p->dim, p->field.n[0], p->field.n[1], p->field.n[2], p->field.source);
+    report_section(r, title);
+    report_info(r, "medium", p->name, "largest / smallest permeability", elliptic_contrast(&p->field));
+    particles(p);
+    b_tpfa = elliptic_vector(p->c.n);
+    b = elliptic_vector(p->c.n);
+    p->tpfa = elliptic_vector(p->c.n);
+    {
+        elliptic_box isotropic = box;
+        isotropic.k[1] = isotropic.k[2] = isotropic.k[0];
+        if (elliptic_tpfa(&isotropic, &tpfa, b_tpfa) != 0 || sparse_scale_rows(&tpfa, b_tpfa) != 0) stop("no two-point fluxes");
+    }
+    must(solve(&tpfa, b_tpfa, p->tpfa, SPARSE_ILU0, 1e-9, p->dim == 2 ? 0 : RESTART, 6000, NULL));
+    for (v = 0; v < sizeof variants / sizeof *variants; v++) {
+        const int last = v + 1 == sizeof variants / sizeof *variants;
+        double assembly;
+        if (p->dim == 3 && !full && !last) continue;
+        cloud_neighbours(&p->c, variants[v].f);
+        assembly = matrix(p, SCHEME_M, variants[v].mean, &msph, b);
+        begin = clock();
+        s = solve(&msph, b, p->c.u, SPARSE_ILU0, 1e-9, p->dim == 2 ? 0 : RESTART, 6000, NULL);
+        must(s);
+        compare(r, p, variants[v].what, 1);
+        snprintf(setting, sizeof setting, "%s, %s", p->name, variants[v].what);
+        report_info(r, "cost", setting, "rows, microseconds of CPU per particle", 1e6 * assembly / p->c.n);
+        report_info(r, "cost", setting, "GMRES + ILU(0) to 1e-9: iterations", s.iterations);
+        report_info(r, "cost", setting, "GMRES + ILU(0): seconds of CPU", (double)(clock() - begin) / CLOCKS_PER_SEC);
+        if (last) {
+            const double apart = schwaiger_apart(p, &msph);
+            report_range(r, "identity", p->name, "largest difference of Schwaiger's rows and M-SPH's", (double)NAN, apart, 0, 1e-10);
+            snprintf(name, sizeof name, "elliptic_fig10_%dd_%s", p->dim, p->real ? "spe10" : p->name);
+            for (begin = 0; name[begin]; begin++)
+                if (name[begin] == ' ') name[begin] = '_';
+            map(figures, name, p, p->dim == 2 ? 0 : p->field.n[2] / 2);
+            histories(r, figures, p, &tpfa, b_tpfa, &msph, b, apart, p->dim == 2 ? HISTORY : full ? HISTORY / 2 : HISTORY / 8);
+        }
+        sparse_free(&msph);
+    }
+    if (anisotropic) { /* Kz of its own: the consistent operator, against TPFA with it */
+        sparse_free(&tpfa);
+        if (elliptic_tpfa(&box, &tpfa, b_tpfa) != 0 || sparse_scale_rows(&tpfa, b_tpfa) != 0) stop("no two-point fluxes");
+        must(solve(&tpfa, b_tpfa, p->tpfa, SPARSE_ILU0, 1e-9, RESTART, 6000, NULL));
+        cloud_neighbours(&p->c, 1.001);
+        matrix(p, ANISOTROPIC, SPH_MOBILITY_ARITHMETIC, &msph, b);
+        s = solve(&msph, b, p->c.u, SPARSE_ILU0, 1e-9, RESTART, 6000, NULL);
+        snprintf(setting, sizeof setting, "%s, Kz != Kx, %s", p->name, sparse_status_text(s.status));
+        report_info(r, "anisotropic", setting, "residual", s.residual);
+        if (s.converged) compare(r, p, "Kz != Kx, consistent rows, f = 1.001", 0);
+        sparse_free(&msph);
+    }
+    sparse_free(&tpfa);
+    free(p->tpfa);
+    free(b_tpfa);
+    free(b);
+    for (v = 0; v < 3; v++) free(p->k[v]);
+    cloud_close(&p->c);
+    elliptic_field_free(&p->field);
+}
+
+int main(int argc, char **argv)
+{
+    const char *out = ".", *figures = ".", *perm = NULL, *layer = NULL, *block = NULL;
+    int full = 0, side = 0, dim, kind;
+    const option_spec specs[] = {
+        {"perm", "spe_perm.dat: Kx, Ky, Kz of the whole model", OPTION_TEXT, &perm, 0, 0},
+        {"layer", "text of 60 x 220 numbers: Kx of layer 85", OPTION_TEXT, &layer, 0, 0},
+        {"block", "60^3 float32: Kx of i, j, k = 1 to 60", OPTION_TEXT, &block, 0, 0},
+        {"side", "cells along a side of the made-up block in 3D (default: 40, or 60 with -full)", OPTION_INT, &side, 12, 100},
+        {"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
+        {"figures", "folder of the figures' data", OPTION_TEXT, &figures, 0, 0},
+        {"full", "all variants in 3D, longer histories", OPTION_FLAG, &full, 0, 0},
+    };
+    static report r;
+    char message[ELLIPTIC_MESSAGE] = "";
+    options_parse(argc, argv, "SPE10 and figures 9 to 12 of the elliptic paper: M-SPH and Schwaiger's scheme against two-point fluxes.", specs,
+                  sizeof specs / sizeof *specs);
+    if (side == 0) side = full ? 60 : 40;
+    report_open(&r, "elliptic_spe10", out);
+    for (dim = 2; dim <= 3; dim++) {
+        const char *const path = dim == 2 ? (layer ? layer : perm) : block ? block : perm;
+        for (kind = 0; kind < (path ? 1 : 2); kind++) {
+            problem p;
+            memset(&p, 0, sizeof p);
+            p.dim = dim;
+            p.real = path != NULL;
+            p.name = path ? "SPE10" : kind == ELLIPTIC_LOGNORMAL ? "lognormal surrogate" : "channel surrogate";
+            if (path ? elliptic_spe10_read(path, dim, &p.field, message)
+                     : elliptic_surrogate_make((elliptic_surrogate)kind, dim == 2 ? 60 : side, dim == 2 ? 60 : side, dim == 2 ? 1 : side, 85, &p.field,
+                                               message)) {
+                fprintf(stderr, "elliptic_spe10: %s\n", message);
+                return 2;
+            }
+            if (!path) printf("\nNo file of SPE10 was named (-perm, -layer, -block): a made-up medium instead.\n");
+            run(&r, &p, figures, full);
+        }
+    }
+    return report_close(&r) ? 1 : 0;
+}

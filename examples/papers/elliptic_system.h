@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * elliptic_system.h - from rows to solutions: boundary conditions on the faces of a box, the matrix, a solve that ends the program if it fails.
+ *
+ *     cloud_rows(&c, SCHEME_M, sph_elliptic_defaults());
+ *     cloud_box_conditions(&c, first, dirichlet);       rows of the particles from `first` on, which lie on the faces of the box c.low ... c.high
+ *     cloud_matrix(&c, &A, b);                          rows scaled to a diagonal of 1, b with them
+ *     elliptic_solve(&A, b, u);
+ */
+#ifndef ELLIPTIC_SYSTEM_H
+#define ELLIPTIC_SYSTEM_H
+
+#include "../common/sparse.h"
+#include "elliptic.h"
+
+static inline double *elliptic_vector(int n)
+{
+    double *const v = (double *)elliptic_memory(NULL, (size_t)n * sizeof *v);
+    int i;
+    for (i = 0; i < n; i++) v[i] = 0;
+    return v;
+}
+
+SPH_FN sph_index cloud_conditions_in(int dim, cloud *c, int first, double *const normal[3], const double *alpha, const double *beta)
+{
+    sph_diagonal n;
+    sph_row_out out = {0};
+    n.x = sph_scalars_array(normal[0]);
+    n.y = sph_scalars_array(normal[1]);
+    n.z = sph_scalars_array(normal[2]);
+    out.row = c->row;
+    out.diagonal = c->diagonal;
+    return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, first, c->n, cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V),
+                                      sph_scalars_array(c->m), sph_elliptic_defaults(), n, sph_scalars_array(alpha), sph_scalars_array(beta), out);
+}
+/* alpha u + beta m du/dn for the particles from `first` on that have one of them */
+static inline void cloud_conditions(cloud *c, int first, double *const normal[3], const double *alpha, const double *beta)
+{
+    elliptic_expect(c->dim == 2 ? cloud_conditions_in(2, c, first, normal, alpha, beta) : cloud_conditions_in(3, c, first, normal, alpha, beta));
+}
+/* dirichlet[i] for i >= first: 1 for u, 0 for the flux m du/dn through the face that particle i lies on (100) */
+static inline void cloud_box_conditions(cloud *c, int first, const unsigned char *dirichlet)
+{
+    double *const normal[3] = {elliptic_vector(c->n), elliptic_vector(c->n), elliptic_vector(c->n)}, *const alpha = elliptic_vector(c->n),
+                  *const beta = elliptic_vector(c->n);
+    int i, a;
+    for (i = first; i < c->n; i++) {
+        for (a = 0; a < c->dim; a++) normal[a][i] = cloud_axis(c, a)[i] == c->low[a] ? -1 : cloud_axis(c, a)[i] == c->high[a] ? 1 : 0;
+        alpha[i] = dirichlet[i];
+        beta[i] = !dirichlet[i];
+    }
+    cloud_conditions(c, first, normal, alpha, beta);
+    for (a = 0; a < 3; a++) free(normal[a]);
+    free(alpha);
+    free(beta);
+}
+
+/* The matrix of c->row and c->diagonal, without what is 0 */
+static inline void cloud_matrix(const cloud *c, sparse *A, double *b)
+{
+    const int64_t room = sph_csr_size(0, c->n, cloud_list(c));
+    sph_index *const start = (sph_index *)elliptic_memory(NULL, ((size_t)c->n + 1) * sizeof *start);
+    int i;
+    A->n = c->n;
+    A->start = (int64_t *)elliptic_memory(NULL, ((size_t)c->n + 1) * sizeof *A->start);
+    A->index = (int *)elliptic_memory(NULL, (size_t)room * sizeof *A->index);
+    A->value = (double *)elliptic_memory(NULL, (size_t)room * sizeof *A->value);
+    elliptic_expect(sph_csr_assemble(0, c->n, c->n, cloud_list(c), c->row, c->diagonal, 1, start, A->index, A->value, room, NULL));
+    for (i = 0; i <= c->n; i++) A->start[i] = start[i];
+    free(start);
+    if (sparse_scale_rows(A, b) != 0) {
+        fprintf(stderr, "elliptic: a row of the matrix has no diagonal: a particle without neighbours?\n");
+        exit(1);
+    }
+}
+
+/* Where Brookshaw's rows all but vanish (f = 0.5005) the solution is 1e6 times the data, and no x has a small residual against b: it is judged against |A| |x| then. */
+static inline int elliptic_solved(const sparse *A, const double *b, const double *u, sparse_result r)
+{
+    const double data = sparse_norm(A->n, b);
+    return r.converged || r.residual * data <= 1e-13 * (data + 2 * sparse_norm(A->n, u)); /* |A| is near 2: rows are scaled to a diagonal of 1 */
+}
+/* u is the first guess, too */
+static inline void elliptic_solve(const sparse *A, const double *b, double *u)
+{
+    sparse_options o = sparse_defaults();
+    sparse_preconditioner P;
+    sparse_result r;
+    o.tolerance = 1e-12;
+    o.max_iterations = 4000;
+    o.restart = 60;
+    if (sparse_preconditioner_make(&P, SPARSE_ILU0, A) != 0) {
+        fprintf(stderr, "elliptic: no incomplete factorisation: a pivot is 0\n");
+        exit(1);
+    }
+    r = sparse_bicgstab(A, &P, b, u, &o);
+    if (!elliptic_solved(A, b, u, r)) r = sparse_gmres(A, &P, b, u, &o);
+    sparse_preconditioner_free(&P);
+    if (!elliptic_solved(A, b, u, r)) {
+        fprintf(stderr, "elliptic: %s, residual %.2g after %d iterations\n", sparse_status_text(r.status), r.residual, r.iterations);
+        exit(1);
+    }
+}
+
+#endif
