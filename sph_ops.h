@@ -825,7 +825,8 @@ SPH_FN sph_vec sphi_sym_times(int dim, sph_sym s, sph_vec v)
  * pointwise sense for all four, at a boundary O(1) for the last two and O(1/h) for the first two.
  * Signs: L is negative semi-definite where all T >= 0, which is where 1 - xi . e > 0 ((92), (93); sph_elliptic_diagnose). The paper's (1) is -L u - g.
  * Misprints and misreadings that are corrected here: (52) does have the two-point form, because m_j u_j - m_i u_i - u_i (m_j - m_i) + m_i (u_j - u_i) = (m_i + m_j) (u_j - u_i):
- * with N = N~ Schwaiger's scheme and M-SPH are the same numbers, for the radial gradients (15), (17), (18), any cloud and any m. (56) and (91) lack 1/|e| and a sign. The factor of the cubic spline
+ * with N = N~ Schwaiger's scheme and M-SPH are the same numbers, for the radial gradients (15), (17), (18), any cloud and any m. (91) has the sign of G wrong, and (71) as printed starts with C^-1, which is not
+ * Gamma for the gradient (16): here it is Gamma. The factor of the cubic spline
  * under (12) is 2/3 in 1D, not 3/2. (70) asks whether Gamma* is 0; it must be definite. (69) with a matrix M is inconsistent unless neighbours lie on the axes only
  * (sph_elliptic_rows_msph_diagonal); sph_elliptic_rows_anisotropic is not. tests/test_elliptic.c shows that the printed forms fail.
  */
@@ -3147,8 +3148,8 @@ SPH_FN sph_index sphi_fluid_range(int form, int uniform, sph_kernel k, int dim, 
             const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
             const sph_real r = sph_length(dim, x_ij), h_ij = sphi_mean_h(uniform, h, h_i, j);
             const sph_real vx = sph_dot(dim, sph_subtract(dim, v_i, sphi_vector_at(dim, f->v, j)), x_ij);
-            /* coincident particles: a direction of rounding errors is none */
-            const sph_real F = r > SPH_R(1e-12) * h_ij ? sph_kernel_f(k, dim, r, h_ij) : SPH_R(0), m_j = sphi_at(f->m, j);
+            /* coincident particles: a direction of rounding errors is none. A sign, because a comparison would keep the loop from vectorising */
+            const sph_real F = sph_kernel_f(k, dim, r, h_ij) * (SPH_R(0.5) + SPHI_COPYSIGN(SPH_R(0.5), r - SPH_R(1e-12) * h_ij)), m_j = sphi_at(f->m, j);
             const sph_real Pi = sphi_fluid_viscosity(f, h_ij, c_i, rho_i, j, vx, r);
             const sph_real b = m_j * (sphi_fluid_pressure(form, f, p_i, rho_i, m_i, j) + Pi) * F;
             ax -= b * x_ij.x;

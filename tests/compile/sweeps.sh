@@ -7,6 +7,10 @@
 
 {
     echo '#include "sph_ops.h"'
+    echo 'SPH_FN sph_row_out rows(sph_real *row) { sph_row_out r = {0}; r.row = row; return r; }'
+    echo 'SPH_FN sph_vector_out vector(sph_real *x, sph_real *y, sph_real *z) { sph_vector_out v; v.x = x; v.y = y; v.z = z; return v; }'
+    echo 'SPH_FN sph_fluid fluid(sph_scalars h, sph_scalars V, sph_scalars f) { sph_fluid s; s.m = s.rho = V; s.p = s.c = f; s.v.x = s.v.y = s.v.z = f; s.viscosity = SPH_VISCOSITY_MONAGHAN;'
+    echo 's.alpha = s.eta = sph_kernel_support(SPH_CUBIC_SPLINE); s.beta = 0; (void)h; return s; }'
     for dim in 1 2 3; do
         for sweep in 'shepard|sph_shepard_sum(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, a)' \
             'interpolate|sph_interpolate_shepard(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, a, s)' \
@@ -16,7 +20,10 @@
             'brookshawrows|sph_laplacian_rows_brookshaw(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, a)' \
             'tilecspm|sph_derivatives_cspm(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, 0, out)' \
             'tileicspm|sph_derivatives_icspm(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, 0, 0, out)' \
-            'tilewls|sph_derivatives_wls(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, 0, out)'; do
+            'tilewls|sph_derivatives_wls(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, 0, out)' \
+            'msph|sph_elliptic_msph(SPH_CUBIC_SPLINE, D, 0, x.n, x, l, h, V, f, sph_elliptic_defaults(), f, V, a, s)' \
+            'msphrows|sph_elliptic_rows_msph(SPH_CUBIC_SPLINE, D, 0, x.n, x, l, h, V, f, sph_elliptic_defaults(), rows(b))' \
+            'fluid|sph_fluid_rates_colagrossi(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, fluid(h, V, f), vector(a, b, c), out.gx, out.gy)'; do
             name=sweep_${sweep%%|*}_$dim
             arguments='sph_points x, sph_list l, sph_scalars h, sph_scalars V, sph_scalars f, sph_real *a, sph_real *b, sph_real *c, unsigned char *s, sph_derivative_out out'
             echo "sph_index $name($arguments);"
@@ -45,7 +52,7 @@ for cc in gcc clang; do
     [ $cc = gcc ] && simd="-fopenmp-simd -DSPH_SIMD=1"
     check "$cc" $cc -std=c99 -O2 $simd -I. -S "$scratch/sweeps.c" -o "$scratch/sweeps.s"
     count "$scratch/sweeps.s" > "$scratch/counts"
-    check "$cc: 27 sweeps" test "$(wc -l < "$scratch/counts")" -eq 27
+    check "$cc: 36 sweeps" test "$(wc -l < "$scratch/counts")" -eq 36
     check "$cc: no call" obeys "$scratch/counts" '$2 == 0'
     check "$cc: no jump table" obeys "$scratch/counts" '$3 == 0'
     grep -v -e _1 "$scratch/counts" > "$scratch/counts_nd" # |x| needs no square root in 1D
