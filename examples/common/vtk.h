@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * vtk.h - particles for ParaView and VisIt: VTK XML files of points (.vtu), and a series of them over time (.pvd).
+ *
+ *     vtk_series s;
+ *     const vtk_field fields[] = {{"velocity", vx, vy, NULL, NULL}, {"density", rho, NULL, NULL, NULL}, {"phase", NULL, NULL, NULL, phase}};
+ *     vtk_series_begin(&s, "build/results", "run");            run.pvd, run_0000.vtu, ...
+ *     vtk_series_add(&s, t, n, x, y, NULL, fields, 3);         once per picture
+ *     vtk_series_end(&s);
+ *
+ * Every file is written as NAME.part and then renamed, so a file under its final name is whole; the .pvd is complete after each picture, also if the run is cut short.
+ * Functions return 0 and leave the cause in errno if a file could not be written, else 1.
+ */
+#ifndef VTK_H
+#define VTK_H
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- a file that gets its name when it is whole ---- */
+
+enum { PART_FILE_PATH = 4096 };
+
+typedef struct part_file {
+    FILE *to; /* write here */
+    char path[PART_FILE_PATH], part[PART_FILE_PATH];
+} part_file;
+
+/* dir/name.ending */
+static inline int part_file_open(part_file *f, const char *dir, const char *name, const char *ending)
+{
+    const int length = snprintf(f->part, sizeof f->part, "%s/%s.%s.part", dir, name, ending);
+    f->to = NULL;
+    errno = ENAMETOOLONG;
+    if (length < 0 || (size_t)length >= sizeof f->part) return 0;
+    strcpy(f->path, f->part);
+    f->path[length - (int)strlen(".part")] = '\0';
+    errno = 0;
+    f->to = fopen(f->part, "w");
+    return f->to != NULL;
+}
+
+static inline int part_file_close(part_file *f)
+{
+    const int broken = ferror(f->to) != 0;
+    if (fclose(f->to) != 0 || broken) return 0;
+    /* C leaves open whether rename replaces a file */
+    return rename(f->part, f->path) == 0 || (remove(f->path), rename(f->part, f->path) == 0);
+}
+
+/* ---- points ---- */
+
+/* One number a particle (x), a vector (x and y; z may be null: 0), or small whole numbers (bytes). */
+typedef struct vtk_field {
+    const char *name;
+    const double *x, *y, *z;
+    const unsigned char *bytes;
+} vtk_field;
+
+static inline void vtk_vectors(FILE *to, int n, const double *x, const double *y, const double *z)
+{
+    int i;
+    for (i = 0; i < n; i++) fprintf(to, "%.9g %.9g %.9g\n", x[i], y ? y[i] : 0.0, z ? z[i] : 0.0);
+}
+
+/* dir/name.vtu; y and z may be null (0) */
+static inline int vtk_write_points(const char *dir, const char *name, int n, const double *x, const double *y, const double *z, const vtk_field *fields,
+                                   int count)
+{
+    part_file f;
+    int i, k;
+    if (!part_file_open(&f, dir, name, "vtu")) return 0;
+    fprintf(f.to, "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n<UnstructuredGrid>\n");
+    fprintf(f.to, "<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n<Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n", n,
+            n);
+    vtk_vectors(f.to, n, x, y, z);
+    fprintf(f.to, "</DataArray>\n</Points>\n<Cells>\n<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n");
+    for (i = 0; i < n; i++) fprintf(f.to, "%d\n", i); /* each point is a cell of its own, of type 1 */
+    fprintf(f.to, "</DataArray>\n<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">\n");
+    for (i = 0; i < n; i++) fprintf(f.to, "%d\n", i + 1);
+    fprintf(f.to, "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n");
+    for (i = 0; i < n; i++) fprintf(f.to, "1\n");
+    fprintf(f.to, "</DataArray>\n</Cells>\n<PointData>\n");
+    for (k = 0; k < count; k++) {
+        const vtk_field *a = &fields[k];
+        fprintf(f.to, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"ascii\">\n", a->bytes ? "UInt8" : "Float64", a->name,
+                a->y ? 3 : 1);
+        if (a->y) vtk_vectors(f.to, n, a->x, a->y, a->z);
+        for (i = 0; i < n && !a->y; i++) {
+            if (a->bytes) fprintf(f.to, "%d\n", a->bytes[i]);
+            else fprintf(f.to, "%.9g\n", a->x[i]);
+        }
+        fprintf(f.to, "</DataArray>\n");
+    }
+    fprintf(f.to, "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+    return part_file_close(&f);
+}
+
+/* ---- a series ---- */
+
+typedef struct vtk_series {
+    const char *dir, *name; /* must outlive the series */
+    double *time;
+    int count;
+} vtk_series;
+
+static inline void vtk_series_begin(vtk_series *s, const char *dir, const char *name)
+{
+    s->dir = dir;
+    s->name = name;
+    s->time = NULL;
+    s->count = 0;
+}
+
+static inline int vtk_series_add(vtk_series *s, double time, int n, const double *x, const double *y, const double *z, const vtk_field *fields, int count)
+{
+    char name[PART_FILE_PATH];
+    part_file f;
+    int k;
+    double *const times = (double *)realloc(s->time, (size_t)(s->count + 1) * sizeof *times);
+    if (!times) return 0;
+    s->time = times;
+    s->time[s->count] = time;
+    errno = ENAMETOOLONG;
+    if (snprintf(name, sizeof name, "%s_%04d", s->name, s->count) >= (int)sizeof name) return 0;
+    if (!vtk_write_points(s->dir, name, n, x, y, z, fields, count)) return 0;
+    s->count++;
+    if (!part_file_open(&f, s->dir, s->name, "pvd")) return 0;
+    fprintf(f.to, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n");
+    for (k = 0; k < s->count; k++) fprintf(f.to, "<DataSet timestep=\"%.12g\" file=\"%s_%04d.vtu\"/>\n", s->time[k], s->name, k);
+    fprintf(f.to, "</Collection>\n</VTKFile>\n");
+    return part_file_close(&f);
+}
+
+static inline void vtk_series_end(vtk_series *s)
+{
+    free(s->time);
+    s->time = NULL;
+}
+
+#endif

@@ -1,0 +1,690 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * clustering.h - the particle code of the paper on particle clustering (Korzilius, Schilders & Anthonissen, 'Two remedies for particle clustering in SPH'), shared by the drivers of its
+ * four cases: particles in two dimensions, explicit steps, collisions, what the paper's pictures show in numbers, files.
+ *
+ *     flow f;
+ *     flow_open(&f, "box", SPH_CONVEX, 0.05, 0.1);     dref, h: everything else has a default, see the fields
+ *     f.box_x = f.box_y = 1;                           periodic lengths; 0: open
+ *     f.dt = 1e-4;
+ *     f.state[0].rho0 = 1;  f.state[0].c = 10;         a phase
+ *     for (...) flow_add(&f, x, y, 0, m);              fluid first
+ *     for (...) flow_add_ghost(&f, x, y, 0, m);        then what does not move by itself
+ *     if (flow_run(&f, 2.0) != FLOW_DONE) ...          to t = 2; may be called again with a later time
+ *     d = flow_measure(&f, 0, domain, NULL);
+ *     flow_snapshot(&f, figures, "clustering_fig3_convex");
+ *     flow_close(&f);
+ *
+ * A step, as the paper has it (symplectic Euler): accelerations from positions and velocities; v += dt a; collisions; x += dt v. The density is the sum (2.2), or follows (5.23).
+ */
+#ifndef CLUSTERING_H
+#define CLUSTERING_H
+
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "../../sph.h"
+#include "../common/options.h"
+#include "../common/progress.h"
+#include "../common/random.h"
+#include "../common/report.h"
+#include "../common/vtk.h"
+
+/* ================================================================ the command line */
+
+typedef struct clustering_options {
+    const char *kernel, *remedy, *out, *figures; /* kernel: null, or a run of one's own */
+    double h, dref, dt, tend;                    /* h: in units of dref. 0: as the paper has it */
+    int full, vtk, quiet;
+} clustering_options;
+
+/* The entries that all drivers have; their own may follow. o: a clustering_options */
+/* clang-format off */
+#define CLUSTERING_OPTIONS(o) \
+    {"kernel", "one run of your own, with this kernel, instead of the paper's", OPTION_TEXT, &(o).kernel, 0, 0}, \
+    {"remedy", "of that run: none, sequential, weighted, literal (collisions)", OPTION_TEXT, &(o).remedy, 0, 0}, \
+    {"smoothing", "of that run: h / dref; 0: the paper's", OPTION_REAL, &(o).h, 0, 100}, \
+    {"dref", "of that run: particle distance; 0: the paper's", OPTION_REAL, &(o).dref, 0, 1}, \
+    {"dt", "time step of all runs; 0: the driver's", OPTION_REAL, &(o).dt, 0, 1}, \
+    {"tend", "of that run: end; 0: the paper's", OPTION_REAL, &(o).tend, 0, 1000}, \
+    {"out", "folder of the result table (and of VTK files)", OPTION_TEXT, &(o).out, 0, 0}, \
+    {"figures", "folder of the figures' data", OPTION_TEXT, &(o).figures, 0, 0}, \
+    {"full", "all variants, with the paper's time steps", OPTION_FLAG, &(o).full, 0, 0}, \
+    {"vtk", "write 50 pictures of each run for ParaView", OPTION_FLAG, &(o).vtk, 0, 0}, \
+    {"quiet", "no progress on the terminal", OPTION_FLAG, &(o).quiet, 0, 0}
+/* clang-format on */
+enum { CLUSTERING_OPTION_COUNT = 11 };
+
+static inline clustering_options clustering_defaults(void)
+{
+    clustering_options o = {NULL, "none", ".", ".", 0, 0, 0, 0, 0, 0, 0};
+    return o;
+}
+/* the option's value where it was given */
+static inline double clustering_choose(double given, double usual) { return given > 0 ? given : usual; }
+
+/* ================================================================ small things */
+
+static const double clustering_pi = 3.14159265358979323846;
+/* area of a particle of the hexagonal lattice, and distance of its rows, in units of dref^2 and dref */
+static const double hexagonal = 0.86602540378443864676;
+
+static volatile sig_atomic_t clustering_signal;
+static inline void clustering_on_signal(int s)
+{
+    clustering_signal = s;
+    signal(s, SIG_DFL); /* a second Ctrl-C ends the program at once */
+}
+
+static inline void *clustering_memory(void *old, size_t size)
+{
+    void *p = realloc(old, size ? size : 1);
+    if (!p) {
+        fprintf(stderr, "clustering: out of memory (%lu bytes)\n", (unsigned long)size);
+        exit(2);
+    }
+    return p;
+}
+static inline void clustering_expect(sph_index answer)
+{
+    if (answer < 0) {
+        fprintf(stderr, "clustering: %s\n", sph_status_text((int)answer));
+        exit(2);
+    }
+}
+static inline void clustering_written(int ok, const char *dir, const char *name)
+{
+    if (!ok) {
+        fprintf(stderr, "clustering: cannot write %s/%s: %s; does the folder exist, may you write there, is the disk full?\n", dir, name,
+                errno ? strerror(errno) : "unknown cause");
+        exit(2);
+    }
+}
+/* data file of a figure: write to f->to, then clustering_figure_close */
+static inline void clustering_figure(part_file *f, const char *dir, const char *name) { clustering_written(part_file_open(f, dir, name, "csv"), dir, name); }
+static inline void clustering_figure_close(part_file *f) { clustering_written(part_file_close(f), f->path, ""); }
+
+/* lists that keep their memory */
+typedef struct neighbours {
+    sph_index *start, *index;
+    int64_t capacity;
+} neighbours;
+
+static inline sph_list neighbours_list(const neighbours *l)
+{
+    sph_list s;
+    s.start = l->start;
+    s.index = l->index;
+    return s;
+}
+static inline void neighbours_find(neighbours *l, const sph_grid *grid, sph_points targets, double radius, int flags)
+{
+    const sph_scalars R = sph_scalars_same(&radius);
+    int64_t pairs = 0;
+    sph_index answer = SPH_ERROR_CAPACITY;
+    l->start = (sph_index *)clustering_memory(l->start, ((size_t)targets.n + 1) * sizeof *l->start);
+    if (l->capacity) answer = sph_grid_lists(2, grid, targets, SPH_GATHER, R, R, flags, l->start, l->index, l->capacity, &pairs);
+    else pairs = 64 * (int64_t)targets.n;
+    while (answer == (sph_index)SPH_ERROR_CAPACITY) {
+        l->capacity = pairs + pairs / 8;
+        l->index = (sph_index *)clustering_memory(l->index, (size_t)l->capacity * sizeof *l->index);
+        answer = sph_grid_lists(2, grid, targets, SPH_GATHER, R, R, flags, l->start, l->index, l->capacity, &pairs);
+    }
+    clustering_expect(answer);
+}
+static inline void neighbours_free(neighbours *l)
+{
+    free(l->start);
+    free(l->index);
+}
+
+/* ================================================================ the flow */
+
+typedef enum flow_form {
+    FLOW_SUMMATION,  /* (2.2), (2.3) */
+    FLOW_CONTINUITY, /* (5.23), (5.24) */
+    FLOW_NUMBER      /* rho_i = m_i sum W_ij and its pressure force (Hu & Adams): takes density jumps, too */
+} flow_form;
+
+typedef enum flow_remedy { FLOW_NO_COLLISIONS, FLOW_SEQUENTIAL, FLOW_WEIGHTED, FLOW_LITERAL, FLOW_REMEDIES } flow_remedy;
+static const char *const flow_remedy_name[FLOW_REMEDIES] = {"none", "sequential", "weighted", "literal"};
+
+typedef enum flow_answer { FLOW_DONE, FLOW_INTERRUPTED, FLOW_BLEW_UP } flow_answer;
+
+/* p = p0 + c^2 (rho - rho0), (2.4) with gamma = 1 */
+typedef struct flow_state {
+    double rho0, c, p0;
+} flow_state;
+
+enum { FLOW_PHASES = 4 };
+
+typedef struct flow flow;
+struct flow {
+    /* what flow_open sets, and the driver may change before flow_run */
+    const char *name; /* of the run: in messages and of VTK files */
+    sph_kernel kernel;
+    double dref, h, dt, t;
+    double box_x, box_y; /* periodic lengths; 0: open */
+    double gravity_x, gravity_y;
+    flow_state state[FLOW_PHASES];
+    int form;               /* a flow_form: the summation density */
+    int rate_after_kick;    /* 1: the rate of density by the new velocities, at the cost of a second sweep; 0: by the old ones */
+    int ghosts_evolve;      /* 1: density and pressure of ghosts as those of the fluid; 0: they keep what they have */
+    double alpha, eta;      /* of Monaghan's artificial viscosity: 0.1, 0.1 */
+    int remedy;             /* a flow_remedy: none */
+    int walls_only;         /* 1: only pairs of a fluid and a ghost particle collide */
+    double distance;        /* of collisions, in units of dref: 0.85 */
+    double restitution;     /* 0.01 */
+    double skin;            /* of the neighbour lists, in units of dref; 0: new lists in each step */
+    const char *vtk;        /* folder; null: none */
+    int quiet;              /* no progress */
+    void (*ghosts)(flow *); /* before the accelerations: sets p, v, x of ghosts */
+    void (*force)(flow *);  /* after them: adds to ax, ay */
+    void (*after)(flow *);  /* after each step: measures */
+    void *data;             /* for these */
+
+    /* particles: 0 ... n_fluid - 1 the fluid, then ghosts */
+    int n, n_fluid, capacity;
+    double *x, *y, *vx, *vy, *ax, *ay, *m, *rho, *p, *c, *rate, *inverse_mass, *old_x, *old_y;
+    unsigned char *phase, *ghost;
+
+    /* what happened */
+    int64_t steps, rebuilds, collisions, coincident;
+    double collision_energy, cpu; /* change of energy by sequential collisions; seconds in flow_run */
+    double worst_gain;            /* largest gain of kinetic energy by the collisions of a step, relative to it (weighted and literal) */
+    int bad;                      /* the first particle that was not ok, or -1 */
+    const char *bad_what;
+
+    /* private */
+    neighbours all, colliding;
+    void *work;
+    size_t work_size;
+    sph_index *count;
+    vtk_series series;
+};
+
+static inline void flow_open(flow *f, const char *name, sph_kernel kernel, double dref, double h)
+{
+    memset(f, 0, sizeof *f);
+    f->name = name;
+    f->kernel = kernel;
+    f->dref = dref;
+    f->h = h;
+    f->alpha = f->eta = 0.1;
+    f->distance = 0.85;
+    f->restitution = 0.01;
+    f->skin = 0.3;
+    f->bad = -1;
+}
+
+static inline void flow_close(flow *f)
+{
+    double *const arrays[] = {f->x, f->y, f->vx, f->vy, f->ax, f->ay, f->m, f->rho, f->p, f->c, f->rate, f->inverse_mass, f->old_x, f->old_y};
+    size_t a;
+    for (a = 0; a < sizeof arrays / sizeof *arrays; a++) free(arrays[a]);
+    free(f->phase);
+    free(f->ghost);
+    free(f->work);
+    free(f->count);
+    neighbours_free(&f->all);
+    neighbours_free(&f->colliding);
+    vtk_series_end(&f->series);
+}
+
+static inline int flow_append(flow *f, double x, double y, int phase, double m, int ghost)
+{
+    const int i = f->n++;
+    if (f->n > f->capacity) {
+        double **const arrays[] = {&f->x,   &f->y, &f->vx, &f->vy,   &f->ax,           &f->ay,    &f->m,
+                                   &f->rho, &f->p, &f->c,  &f->rate, &f->inverse_mass, &f->old_x, &f->old_y};
+        size_t a;
+        f->capacity = 2 * f->n + 64;
+        for (a = 0; a < sizeof arrays / sizeof *arrays; a++) *arrays[a] = (double *)clustering_memory(*arrays[a], (size_t)f->capacity * sizeof(double));
+        f->phase = (unsigned char *)clustering_memory(f->phase, (size_t)f->capacity);
+        f->ghost = (unsigned char *)clustering_memory(f->ghost, (size_t)f->capacity);
+        f->count = (sph_index *)clustering_memory(f->count, (size_t)f->capacity * sizeof *f->count);
+    }
+    f->x[i] = x;
+    f->y[i] = y;
+    f->vx[i] = f->vy[i] = f->ax[i] = f->ay[i] = f->rate[i] = 0;
+    f->m[i] = m;
+    f->rho[i] = f->state[phase].rho0;
+    f->p[i] = ghost ? 0 : f->state[phase].p0;
+    f->c[i] = f->state[phase].c;
+    f->inverse_mass[i] = ghost ? 0 : 1 / m;
+    f->phase[i] = (unsigned char)phase;
+    f->ghost[i] = (unsigned char)ghost;
+    return i;
+}
+/* A particle at rest, with the density rho0 of its phase. Returns its number. */
+static inline int flow_add(flow *f, double x, double y, int phase, double m)
+{
+    f->n_fluid++;
+    return flow_append(f, x, y, phase, m, 0);
+}
+/* One that pushes, but is not pushed, with p = 0: all fluid particles must be there already. */
+static inline int flow_add_ghost(flow *f, double x, double y, int phase, double m) { return flow_append(f, x, y, phase, m, 1); }
+
+static inline sph_points flow_points(const flow *f) { return sph_points_periodic(sph_points_separate(f->n, f->x, f->y, NULL), f->box_x, f->box_y, 0); }
+static inline sph_vectors flow_velocities(const flow *f)
+{
+    sph_vectors v;
+    v.x = sph_scalars_array(f->vx);
+    v.y = sph_scalars_array(f->vy);
+    v.z = sph_scalars_array(NULL);
+    return v;
+}
+static inline sph_vector_out flow_accelerations(const flow *f)
+{
+    sph_vector_out a;
+    a.x = f->ax;
+    a.y = f->ay;
+    a.z = NULL;
+    return a;
+}
+/* how many have an acceleration and a rate of density: ghosts are the last */
+static inline int flow_moved(const flow *f) { return f->ghosts_evolve ? f->n : f->n_fluid; }
+
+/* ---------------------------------------------------------------- neighbours */
+
+static inline void flow_wrap(double *x, double length, int n)
+{
+    int i;
+    for (i = 0; i < n && length > 0; i++) x[i] -= length * floor(x[i] / length);
+}
+
+static inline void flow_grid(flow *f, sph_points x, double reach, sph_grid *grid)
+{
+    const size_t size = sph_grid_workspace(2, x.n);
+    if (size > f->work_size) {
+        f->work = clustering_memory(f->work, size);
+        f->work_size = size;
+    }
+    clustering_expect(sph_grid_build(2, x, reach, f->work, f->work_size, grid));
+}
+
+/* Lists with a skin, kept until a particle has moved by half of it. */
+static inline void flow_neighbours(flow *f)
+{
+    const double skin = f->skin * f->dref, reach = sph_kernel_support(f->kernel) * f->h;
+    sph_points then = flow_points(f);
+    sph_grid grid;
+    then.x = f->old_x;
+    then.y = f->old_y;
+    if (f->all.capacity && !sph_rebuild_due(2, flow_points(f), then, skin)) return;
+    flow_wrap(f->x, f->box_x, f->n);
+    flow_wrap(f->y, f->box_y, f->n);
+    flow_grid(f, flow_points(f), reach + skin, &grid);
+    neighbours_find(&f->all, &grid, flow_points(f), reach + skin, 0);
+    if (f->remedy) {
+        neighbours_find(&f->colliding, &grid, flow_points(f), f->distance * f->dref + skin, SPH_LIST_SORTED); /* sorted: the order of collisions matters */
+        if (f->walls_only) {                                                                                  /* drop what is not a pair of fluid and ghost */
+            sph_index i, p, kept = 0, next = 0;
+            for (i = 0; i < f->n; i++) {
+                p = next;
+                next = f->colliding.start[i + 1];
+                for (; p < next; p++)
+                    if (f->ghost[i] != f->ghost[f->colliding.index[p]]) f->colliding.index[kept++] = f->colliding.index[p];
+                f->colliding.start[i + 1] = kept;
+            }
+        }
+    }
+    memcpy(f->old_x, f->x, (size_t)f->n * sizeof *f->x);
+    memcpy(f->old_y, f->y, (size_t)f->n * sizeof *f->y);
+    f->rebuilds++;
+}
+
+/* ---------------------------------------------------------------- accelerations */
+
+/* The paper's three kernels as constants, which fold; one copy for all others, which asks at each pair. SPH_SWITCH_KERNEL would make a copy for every kernel that there is, at the cost of compile time. */
+/* clang-format off */
+#define FLOW_SWITCH_KERNEL(k, CALL) \
+    switch (k) { \
+    case SPH_WENDLAND_C2_1D: CALL(SPH_WENDLAND_C2_1D); \
+    case SPH_CONVEX: CALL(SPH_CONVEX); \
+    case SPH_HERMITE: CALL(SPH_HERMITE); \
+    default: CALL(k); \
+    }
+/* clang-format on */
+SPH_FN sph_index flow_density_by(sph_kernel k, const flow *f, sph_scalars h)
+{
+    const sph_scalars m = sph_scalars_array(f->m);
+    return f->form == FLOW_SUMMATION ? sph_density_summation(k, 2, 0, f->n_fluid, flow_points(f), neighbours_list(&f->all), h, m, f->rho)
+                                     : sph_density_number(k, 2, 0, f->n_fluid, flow_points(f), neighbours_list(&f->all), h, m, f->rho);
+}
+SPH_FN sph_index flow_rates_by(sph_kernel k, const flow *f, sph_scalars h, sph_fluid s)
+{
+    const sph_list l = neighbours_list(&f->all);
+    const sph_vector_out a = flow_accelerations(f);
+    if (f->form == FLOW_SUMMATION) return sph_fluid_rates_monaghan(k, 2, 0, f->n_fluid, flow_points(f), l, h, s, a, NULL, NULL);
+    if (f->form == FLOW_CONTINUITY) return sph_fluid_rates_colagrossi(k, 2, 0, flow_moved(f), flow_points(f), l, h, s, a, f->rate, NULL);
+    return sph_fluid_rates_hu_adams(k, 2, 0, f->n_fluid, flow_points(f), l, h, s, a, NULL, NULL);
+}
+
+static inline sph_index flow_density(flow *f)
+{
+    const double length = f->h;
+    const sph_scalars h = sph_scalars_same(&length);
+#define FLOW_DENSITY(K) return flow_density_by(K, f, h)
+    FLOW_SWITCH_KERNEL(f->kernel, FLOW_DENSITY)
+#undef FLOW_DENSITY
+}
+static inline sph_index flow_rates(flow *f)
+{
+    const double length = f->h;
+    const sph_scalars h = sph_scalars_same(&length);
+    sph_fluid s;
+    s.m = sph_scalars_array(f->m);
+    s.rho = sph_scalars_array(f->rho);
+    s.p = sph_scalars_array(f->p);
+    s.c = sph_scalars_array(f->c);
+    s.v = flow_velocities(f);
+    s.viscosity = SPH_VISCOSITY_MONAGHAN;
+    s.alpha = f->alpha;
+    s.beta = 0;
+    s.eta = f->eta;
+#define FLOW_RATES(K) return flow_rates_by(K, f, h, s)
+    FLOW_SWITCH_KERNEL(f->kernel, FLOW_RATES)
+#undef FLOW_RATES
+}
+
+static inline void flow_pressure(flow *f)
+{
+    int i;
+    for (i = 0; i < flow_moved(f); i++) {
+        const flow_state *s = &f->state[f->phase[i]];
+        f->p[i] = sph_pressure_tait(f->rho[i], s->rho0, s->c, 1, s->p0);
+    }
+}
+
+/* ---------------------------------------------------------------- collisions */
+
+static inline double flow_kinetic_energy(const flow *f)
+{
+    double sum = 0;
+    int i;
+    for (i = 0; i < f->n_fluid; i++) sum += 0.5 * f->m[i] * (f->vx[i] * f->vx[i] + f->vy[i] * f->vy[i]);
+    return sum;
+}
+
+/* ax, ay are free at this time: they hold the changes of velocity */
+static inline void flow_collide(flow *f)
+{
+    const sph_list l = neighbours_list(&f->colliding);
+    const sph_scalars w = sph_scalars_array(f->inverse_mass);
+    const double distance = f->distance * f->dref;
+    double before, after;
+    int i;
+    if (f->remedy == FLOW_NO_COLLISIONS) return;
+    if (f->remedy == FLOW_SEQUENTIAL) {
+        sph_collision_report r;
+        clustering_expect(sph_collide_sequential(2, 0, f->n_fluid, flow_points(f), l, distance, w, f->restitution, f->vx, f->vy, NULL, 1, &r));
+        f->collisions += r.collisions;
+        f->coincident += r.coincident;
+        f->collision_energy += r.energy;
+        return;
+    }
+    if (f->remedy == FLOW_WEIGHTED) {
+        clustering_expect(sph_collision_count(2, 0, f->n_fluid, flow_points(f), l, distance, w, flow_velocities(f), f->count));
+        clustering_expect(sph_collision_change_weighted(2, 0, f->n_fluid, flow_points(f), l, distance, w, f->restitution, flow_velocities(f), f->count,
+                                                        flow_accelerations(f)));
+    } else
+        clustering_expect(
+            sph_collision_change_literal(2, 0, f->n_fluid, flow_points(f), l, distance, w, f->restitution, flow_velocities(f), flow_accelerations(f)));
+    before = flow_kinetic_energy(f);
+    for (i = 0; i < f->n_fluid; i++) {
+        f->vx[i] += f->ax[i];
+        f->vy[i] += f->ay[i];
+    }
+    after = flow_kinetic_energy(f);
+    f->worst_gain = fmax(f->worst_gain, (after - before) / (before + 1e-300));
+}
+
+/* ---------------------------------------------------------------- steps */
+
+/* Names the first particle that cannot go on. A step of more than h is no flow any more. */
+static inline int flow_healthy(flow *f)
+{
+    int i;
+    for (i = 0; i < f->n_fluid && f->bad < 0; i++) {
+        const double speed = sqrt(f->vx[i] * f->vx[i] + f->vy[i] * f->vy[i]);
+        if (!isfinite(f->x[i]) || !isfinite(f->y[i]) || !isfinite(speed)) f->bad_what = "position or velocity is not a number";
+        else if (!isfinite(f->rho[i]) || !(f->rho[i] > 0)) f->bad_what = "density is not positive";
+        else if (speed * f->dt > f->h) f->bad_what = "moved by more than h in one step";
+        else continue;
+        f->bad = i;
+    }
+    return f->bad < 0;
+}
+
+static inline void flow_step(flow *f)
+{
+    sph_index lost = 0;
+    int i;
+    flow_neighbours(f);
+    if (f->form != FLOW_CONTINUITY) lost += flow_density(f);
+    flow_pressure(f);
+    if (f->ghosts) f->ghosts(f);
+    if (lost == 0) lost = flow_rates(f);
+    clustering_expect(lost);
+    if (lost > 0) f->bad = 0, f->bad_what = "an acceleration or a density overflowed (not necessarily of this particle)";
+    if (f->force) f->force(f);
+    for (i = 0; i < f->n_fluid; i++) {
+        f->vx[i] += f->dt * (f->ax[i] + f->gravity_x);
+        f->vy[i] += f->dt * (f->ay[i] + f->gravity_y);
+    }
+    if (!flow_healthy(f)) return;
+    flow_collide(f);
+    if (f->form == FLOW_CONTINUITY) {
+        if (f->rate_after_kick) clustering_expect(flow_rates(f));
+        for (i = 0; i < flow_moved(f); i++) f->rho[i] += f->dt * f->rate[i];
+    }
+    for (i = 0; i < f->n_fluid; i++) {
+        f->x[i] += f->dt * f->vx[i];
+        f->y[i] += f->dt * f->vy[i];
+    }
+    f->steps++;
+}
+
+static inline void flow_picture(flow *f)
+{
+    const vtk_field fields[] = {{"velocity", f->vx, f->vy, NULL, NULL}, {"density", f->rho, NULL, NULL, NULL}, {"pressure", f->p, NULL, NULL, NULL},
+                                {"mass", f->m, NULL, NULL, NULL},       {"phase", NULL, NULL, NULL, f->phase}, {"ghost", NULL, NULL, NULL, f->ghost}};
+    clustering_written(vtk_series_add(&f->series, f->t, f->n, f->x, f->y, NULL, fields, 6), f->vtk, f->name);
+}
+
+/* To the time `end`. FLOW_BLEW_UP: the run is over, f->bad, f->bad_what, f->t tell. FLOW_INTERRUPTED: Ctrl-C; the files that there are are whole. */
+static inline flow_answer flow_run(flow *f, double end)
+{
+    const double begin = f->t;
+    const int64_t steps = (int64_t)ceil((end - begin) / f->dt - 1e-6), every = steps > 50 ? steps / 50 : 1;
+    const clock_t clock_begin = clock();
+    flow_answer answer = FLOW_DONE;
+    progress bar;
+    int64_t s;
+    signal(SIGINT, clustering_on_signal);
+    signal(SIGTERM, clustering_on_signal);
+    progress_begin(&bar, f->name, f->quiet);
+    if (f->vtk && !f->series.name) {
+        vtk_series_begin(&f->series, f->vtk, f->name);
+        flow_picture(f);
+    }
+    for (s = 0; s < steps && answer == FLOW_DONE; s++) {
+        flow_step(f);
+        f->t = begin + (double)(s + 1) * f->dt;
+        if (!flow_healthy(f)) answer = FLOW_BLEW_UP;
+        else {
+            if (f->after) f->after(f);
+            if (clustering_signal) answer = FLOW_INTERRUPTED;
+        }
+        if (f->vtk && ((s + 1) % every == 0 || answer != FLOW_DONE)) flow_picture(f);
+        progress_update(&bar, (double)(s + 1) / (double)steps);
+    }
+    progress_end(&bar);
+    f->cpu += (double)(clock() - clock_begin) / CLOCKS_PER_SEC;
+    return answer;
+}
+
+/* Where a run must have ended well: the program's end if it has not, with a message and status 3 (or 130 after Ctrl-C). */
+static inline void flow_require(const flow *f, flow_answer answer)
+{
+    if (answer == FLOW_DONE) return;
+    fflush(stdout);
+    if (answer == FLOW_INTERRUPTED) {
+        fprintf(stderr, "%s: interrupted at t = %g; the rows of the table so far are in its .part file\n", f->name, f->t);
+        exit(130);
+    }
+    fprintf(stderr, "%s: blew up at t = %g: particle %d at (%g, %g): %s; try a smaller -dt\n", f->name, f->t, f->bad, f->x[f->bad], f->y[f->bad], f->bad_what);
+    exit(3);
+}
+
+static inline double flow_microseconds(const flow *f) { return f->steps ? 1e6 * f->cpu / ((double)f->steps * f->n) : 0; }
+
+static inline void flow_conserved(const flow *f, sph_conserved *c)
+{
+    sph_points x = flow_points(f);
+    clustering_expect(sph_conserved_sums(2, 0, f->n_fluid, x, sph_scalars_array(f->m), flow_velocities(f), c));
+}
+
+/* ================================================================ what the pictures show, in numbers */
+
+typedef struct flow_domain {
+    double x0, x1, y0, y1;
+} flow_domain;
+
+/* Distances are in units of dref. */
+typedef struct flow_distribution {
+    double mean, least;        /* distance to the nearest neighbour */
+    double below_50, below_75; /* share of the particles that are nearer to theirs */
+    double hexatic;            /* mean order by the six nearest, of those that have six within four dref */
+    double void_share, hole;   /* share of the area without a particle within 0.85, and the largest distance from any (at most 4) */
+} flow_distribution;
+
+enum { FLOW_PROBES = 512 };
+/* Of the fluid particles; with_ghosts: ghosts count as neighbours. The area: points of the domain where inside(f, x, y), null: everywhere; probed each dref / 10. */
+static inline flow_distribution flow_measure(flow *f, int with_ghosts, flow_domain area, int (*inside)(const flow *, double, double))
+{
+    const double reach = 4 * f->dref, step = 0.1 * f->dref;
+    const int columns = (int)ceil((area.x1 - area.x0) / step - 1e-9), rows = (int)ceil((area.y1 - area.y0) / step - 1e-9);
+    sph_points x = flow_points(f);
+    neighbours l = {0};
+    double *const value = (double *)clustering_memory(NULL, (size_t)f->n * sizeof *value);
+    unsigned char *const status = (unsigned char *)clustering_memory(NULL, (size_t)f->n);
+    flow_distribution d = {0};
+    double px[FLOW_PROBES], py[FLOW_PROBES], distance[FLOW_PROBES];
+    unsigned char state[FLOW_PROBES];
+    int i, row, column, ordered = 0;
+    int64_t probes = 0, empty = 0;
+    sph_grid grid;
+
+    if (!with_ghosts) x.n = f->n_fluid;
+    flow_grid(f, x, reach, &grid);
+    neighbours_find(&l, &grid, x, reach, 0);
+    clustering_expect(sph_nearest_distance(2, 0, f->n_fluid, x, x, neighbours_list(&l), value, status));
+    d.least = HUGE_VAL;
+    for (i = 0; i < f->n_fluid; i++) {
+        const double nearest = status[i] ? reach / f->dref : value[i] / f->dref;
+        d.mean += nearest / f->n_fluid;
+        d.least = fmin(d.least, nearest);
+        d.below_50 += (nearest < 0.5) / (double)f->n_fluid;
+        d.below_75 += (nearest < 0.75) / (double)f->n_fluid;
+    }
+    clustering_expect(sph_hexatic_order(0, f->n_fluid, x, neighbours_list(&l), value, status));
+    for (i = 0; i < f->n_fluid; i++)
+        if (!status[i]) {
+            d.hexatic += value[i];
+            ordered++;
+        }
+    d.hexatic = ordered ? d.hexatic / ordered : 0;
+
+    x.n = f->n; /* a ghost fills its place */
+    flow_grid(f, x, reach, &grid);
+    for (row = 0; row < rows; row++)
+        for (column = 0; column < columns;) { /* in pieces, whose lists are short */
+            int count = 0;
+            for (; column < columns && count < FLOW_PROBES; column++) {
+                const double at_x = area.x0 + (column + 0.5) * step, at_y = area.y0 + (row + 0.5) * step;
+                if (inside && !inside(f, at_x, at_y)) continue;
+                px[count] = at_x;
+                py[count++] = at_y;
+            }
+            if (count == 0) continue;
+            {
+                const sph_points probe = sph_points_separate(count, px, py, NULL);
+                neighbours_find(&l, &grid, probe, reach, SPH_LIST_FOREIGN);
+                clustering_expect(sph_nearest_distance(2, 0, count, probe, x, neighbours_list(&l), distance, state));
+            }
+            for (i = 0; i < count; i++) {
+                const double r = state[i] ? reach / f->dref : distance[i] / f->dref;
+                empty += r > 0.85;
+                d.hole = fmax(d.hole, r);
+            }
+            probes += count;
+        }
+    d.void_share = probes ? (double)empty / (double)probes : 0;
+    neighbours_free(&l);
+    free(value);
+    free(status);
+    return d;
+}
+
+/* The radial distribution function of the fluid up to `reach` (in dref): g of `bins` shells, against n_fluid / area. Where it is largest goes to *peak_at (in dref), how large to *peak. */
+static inline void flow_radial(flow *f, double area, double reach, int bins, double *g, double *peak_at, double *peak)
+{
+    sph_points x = flow_points(f);
+    neighbours l = {0};
+    sph_grid grid;
+    int b;
+    x.n = f->n_fluid;
+    flow_grid(f, x, reach * f->dref, &grid);
+    neighbours_find(&l, &grid, x, reach * f->dref, 0);
+    clustering_expect(sph_radial_distribution(2, 0, f->n_fluid, x, neighbours_list(&l), reach * f->dref, f->n_fluid / area, bins, g));
+    *peak = *peak_at = 0;
+    for (b = 0; b < bins; b++)
+        if (g[b] > *peak) {
+            *peak = g[b];
+            *peak_at = (b + 0.5) * reach / bins;
+        }
+    neighbours_free(&l);
+}
+
+/* dir/name.csv: a line per particle */
+static inline void flow_snapshot(const flow *f, const char *dir, const char *name)
+{
+    part_file to;
+    int i;
+    clustering_figure(&to, dir, name);
+    fprintf(to.to, "x,y,vx,vy,rho,p,phase,ghost\n");
+    for (i = 0; i < f->n; i++) {
+        const double x = f->box_x > 0 ? f->x[i] - f->box_x * floor(f->x[i] / f->box_x) : f->x[i];
+        const double y = f->box_y > 0 ? f->y[i] - f->box_y * floor(f->y[i] / f->box_y) : f->y[i];
+        fprintf(to.to, "%.8g,%.8g,%.8g,%.8g,%.8g,%.8g,%d,%d\n", x, y, f->vx[i], f->vy[i], f->rho[i], f->p[i], f->phase[i], f->ghost[i]);
+    }
+    clustering_figure_close(&to);
+}
+
+/* Kernel and remedy of a run of one's own: the program's end with status 2 for a name that is none. */
+static inline sph_kernel clustering_kernel(const clustering_options *o)
+{
+    const int k = sph_kernel_from_name(o->kernel);
+    int i;
+    if (k >= 0) return (sph_kernel)k;
+    fprintf(stderr, "option -kernel: no kernel is called '%s'; there are", o->kernel);
+    for (i = 0; i < (int)SPH_KERNEL_COUNT; i++) fprintf(stderr, " %s", sph_kernel_name((sph_kernel)i));
+    fprintf(stderr, "\n");
+    exit(2);
+}
+static inline int clustering_remedy(const clustering_options *o)
+{
+    int i;
+    for (i = 0; i < FLOW_REMEDIES; i++)
+        if (strcmp(o->remedy, flow_remedy_name[i]) == 0) return i;
+    fprintf(stderr, "option -remedy: '%s' is none; there are none, sequential, weighted, literal\n", o->remedy);
+    exit(2);
+}
+
+#endif
