@@ -14,13 +14,16 @@ answers() { # status, text that must be printed, command ...
     return 1
 }
 
-for d in icspm_uniform icspm_random icspm_dimensions; do
+for d in $(ls examples/papers/*.c | sed 's/.*\///; s/\.c$//'); do
     check "help" answers 0 "-out" "$bin/$d" -h
     check "unknown option" answers 2 "-nonsense" "$bin/$d" -nonsense
     check "missing value" answers 2 "-out" "$bin/$d" -out
     check "no folder" answers 2 "no/such/folder" "$bin/$d" -out no/such/folder
     check "no folder" answers 2 "no/such/folder" "$bin/$d" -out "$scratch" -figures no/such/folder
 done
+check "a file that is not there" answers 2 "no/such/file" "$bin/elliptic_spe10" -layer no/such/file -out "$scratch" -figures "$scratch"
+echo "1 2 3" > "$scratch/short.dat"
+check "a file that is too short" answers 2 "3 numbers" "$bin/elliptic_spe10" -perm "$scratch/short.dat" -out "$scratch" -figures "$scratch"
 check "no number" answers 2 "-seed" "$bin/icspm_random" -seed x
 check "out of range" answers 2 "-seed" "$bin/icspm_random" -seed -1
 check "out of range" answers 2 "-small" "$bin/icspm_random" -small 3
@@ -31,6 +34,8 @@ check "columns of the result table" grep -q -x 'item,setting,quantity,published,
 check "all of tables 1, 2, 3 match" test "$(grep -c '^Table [123],.*,match$' "$table")" -ge 105
 check "no partial table is left" test ! -e "$table.part"
 check "figure 2 has 41 particles" test "$(wc -l < "$scratch/icspm_fig2.csv")" -eq 42
+
+check "table 1 of the elliptic paper" answers 0 "0 differs" "$bin/elliptic_slit" -out "$scratch" -figures "$scratch"
 
 check "scoreboard" answers 0 "icspm_uniform" "$bin/scoreboard" "$table"
 sed 's/,match$/,differs/' "$table" > "$scratch/wrong.csv"

@@ -19,6 +19,14 @@ static inline FILE *figure_open(const char *dir, const char *name)
     }
     return out;
 }
+/* Call it first: a folder that is missing or full is better known before the run than after it. */
+static inline void figure_folder(const char *dir)
+{
+    char path[4096];
+    fclose(figure_open(dir, "figure_folder"));
+    snprintf(path, sizeof path, "%s/figure_folder.csv", dir);
+    remove(path);
+}
 static inline void figure_close(FILE *out)
 {
     const int broken = ferror(out);

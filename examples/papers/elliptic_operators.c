@@ -1018,6 +1018,7 @@ int main(int argc, char **argv)
     cloud c = {0};
     options_parse(argc, argv, "Figures 1 to 4 and sections 2 to 4.2 of the paper on the elliptic operator, measured.", specs, 3);
     report_open(&r, "elliptic_operators", out);
+    figure_folder(figures);
     definition1(&r);
     free_surface(&r, &c);
     continuity(&r, &c);

@@ -206,6 +206,7 @@ int main(int argc, char **argv)
     cloud c = {0};
     options_parse(argc, argv, "Table 1 of the paper on the elliptic operator: published against measured.", specs, 3);
     report_open(&r, "elliptic_slit", out);
+    figure_folder(figures);
     stencil(&r, &c);
     table(&r, &c, figures);
     misprints(&r, &c);

@@ -423,6 +423,7 @@ int main(int argc, char **argv)
     cloud c = {0};
     options_parse(argc, argv, "Figures 5 and 6 and the monotonicity of the paper on the elliptic operator, measured.", specs, 3);
     report_open(&r, "elliptic_stability", out);
+    figure_folder(figures);
     figure5(&r, &c, figures);
     printed_tau(&r, &c);
     figure6(&r, &c, figures, full);

@@ -332,6 +332,7 @@ int main(int argc, char **argv)
     line s;
     options_parse(argc, argv, "Tables 1, 2, 3 and figure 2 of the ICSPM paper: published against measured.", specs, 3);
     report_open(&r, "icspm_uniform", out);
+    figure_folder(figures);
     line_open(&s, LARGEST + 1);
     tables(&r, &s, bvp);
     table3_ratio(&r, bvp);
