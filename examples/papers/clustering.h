@@ -11,7 +11,7 @@
  *     for (...) flow_add(&f, x, y, 0, m);              fluid first
  *     for (...) flow_add_ghost(&f, x, y, 0, m);        then what does not move by itself
  *     if (flow_run(&f, 2.0) != FLOW_DONE) ...          to t = 2; may be called again with a later time
- *     d = flow_measure(&f, 0, domain, NULL);
+ *     d = flow_measure(&f, FLOW_ALL, 0, domain, NULL);
  *     flow_snapshot(&f, figures, "clustering_fig3_convex");
  *     flow_close(&f);
  *
@@ -19,6 +19,10 @@
  */
 #ifndef CLUSTERING_H
 #define CLUSTERING_H
+
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wpass-failed" /* kernels that are chosen at run time: those loops do not vectorise */
+#endif
 
 #include <math.h>
 #include <signal.h>
@@ -72,6 +76,22 @@ static inline double clustering_choose(double given, double usual) { return give
 static const double clustering_pi = 3.14159265358979323846;
 /* area of a particle of the hexagonal lattice, and distance of its rows, in units of dref^2 and dref */
 static const double hexagonal = 0.86602540378443864676;
+
+/* The hexagonal lattice: S = sum_j V W_ij, the particle itself included, and the factor G of the gradient of a linear field, -sum_j V r W' / 2. Both are 1 in the continuum. */
+static inline void clustering_lattice(sph_kernel k, double h_over_dref, double *S, double *G)
+{
+    const int reach = (int)(sph_kernel_support(k) * h_over_dref / hexagonal) + 2;
+    int a, b;
+    *S = hexagonal * sph_kernel_w(k, 2, 0, h_over_dref);
+    *G = 0;
+    for (a = -2 * reach; a <= 2 * reach; a++)
+        for (b = -reach; b <= reach; b++) {
+            const double x = a + 0.5 * b, y = hexagonal * b, r = sqrt(x * x + y * y);
+            if (a == 0 && b == 0) continue;
+            *S += hexagonal * sph_kernel_w(k, 2, r, h_over_dref);
+            *G -= 0.5 * hexagonal * r * r * sph_kernel_f(k, 2, r, h_over_dref);
+        }
+}
 
 static volatile sig_atomic_t clustering_signal;
 static inline void clustering_on_signal(int s)
@@ -564,9 +584,9 @@ typedef struct flow_distribution {
     double void_share, hole;   /* share of the area without a particle within 0.85, and the largest distance from any (at most 4) */
 } flow_distribution;
 
-enum { FLOW_PROBES = 512 };
-/* Of the fluid particles; with_ghosts: ghosts count as neighbours. The area: points of the domain where inside(f, x, y), null: everywhere; probed each dref / 10. */
-static inline flow_distribution flow_measure(flow *f, int with_ghosts, flow_domain area, int (*inside)(const flow *, double, double))
+enum { FLOW_PROBES = 512, FLOW_ALL = -1 };
+/* Of the fluid particles of a phase, or FLOW_ALL; the other phases, and with_ghosts the ghosts, count as neighbours. The area: points of the domain where inside(f, x, y), null: everywhere; probed each dref / 10. */
+static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts, flow_domain area, int (*inside)(const flow *, double, double))
 {
     const double reach = 4 * f->dref, step = 0.1 * f->dref;
     const int columns = (int)ceil((area.x1 - area.x0) / step - 1e-9), rows = (int)ceil((area.y1 - area.y0) / step - 1e-9);
@@ -577,7 +597,7 @@ static inline flow_distribution flow_measure(flow *f, int with_ghosts, flow_doma
     flow_distribution d = {0};
     double px[FLOW_PROBES], py[FLOW_PROBES], distance[FLOW_PROBES];
     unsigned char state[FLOW_PROBES];
-    int i, row, column, ordered = 0;
+    int i, row, column, counted = 0, ordered = 0;
     int64_t probes = 0, empty = 0;
     sph_grid grid;
 
@@ -588,14 +608,19 @@ static inline flow_distribution flow_measure(flow *f, int with_ghosts, flow_doma
     d.least = HUGE_VAL;
     for (i = 0; i < f->n_fluid; i++) {
         const double nearest = status[i] ? reach / f->dref : value[i] / f->dref;
-        d.mean += nearest / f->n_fluid;
+        if (phase != FLOW_ALL && f->phase[i] != phase) continue;
+        counted++;
+        d.mean += nearest;
         d.least = fmin(d.least, nearest);
-        d.below_50 += (nearest < 0.5) / (double)f->n_fluid;
-        d.below_75 += (nearest < 0.75) / (double)f->n_fluid;
+        d.below_50 += nearest < 0.5;
+        d.below_75 += nearest < 0.75;
     }
+    d.mean /= counted;
+    d.below_50 /= counted;
+    d.below_75 /= counted;
     clustering_expect(sph_hexatic_order(0, f->n_fluid, x, neighbours_list(&l), value, status));
     for (i = 0; i < f->n_fluid; i++)
-        if (!status[i]) {
+        if (!status[i] && (phase == FLOW_ALL || f->phase[i] == phase)) {
             d.hexatic += value[i];
             ordered++;
         }
