@@ -84,6 +84,12 @@
  *                  sph_count_coincident(dim, first, last, points, list, distance)
  *                  sph_separate_coincident(dim, first, last, points, list, within, distance, position)
  *                  sph_conserved_sums(dim, first, last, points, m, v, out)               mass, momentum, angular momentum, kinetic energy
+ *   magneto-       (gas: m, rho, Omega; mhd: gas, P, u, cs, alpha, v, B, psi and parameters)
+ *   hydrodynamics  sph_mhd_rates(k, dim, ..h: first, last, points, list, h, mhd, out)     momentum, induction, energy, psi, div B, div v
+ *                  sph_mhd_signal_speed_largest(k, dim, ..h, mhd, out)                   for time steps
+ *   divergence     sph_cleaning_rates(k, dim, ..h, gas, B, psi, div_v, ch, sigma, rate_B, rate_psi, div_B)   conservative cleaning of B alone
+ *   cleaning       sph_cleaning_rates_symmetric, sph_cleaning_rates_nonconservative      other pairs of operators, for comparison
+ *                  sph_divergence_difference(k, dim, ..h, gas, A, out)  sph_divergence_symmetric  sph_gradient_symmetric  sph_curl_difference
  *   pair tier      sph_density_pair  sph_density_value  sph_density_omega  sph_density_mismatch
  *                  sph_gradient_pair_difference  sph_laplacian_weight_brookshaw  sph_laplacian_weight_kernel  sph_boundary_weight_bim
  *                  sph_moment_weight_gradient  sph_test_weights_cspm  sph_test_weights_wls  sph_moments_zero  sph_moments_add  sph_moments_add_value
@@ -92,6 +98,8 @@
  *                  sph_pressure_pair_monaghan  sph_pressure_pair_colagrossi  sph_pressure_pair_hu_adams  sph_viscosity_pair_monaghan  sph_viscosity_pair_linear
  *                  sph_viscosity_pair_signal  sph_viscosity_mu_pair_morris  sph_viscosity_mu_pair_monaghan_cleary  sph_pressure_tait  sph_density_tait
  *                  sph_sound_speed_tait  sph_time_step_sound  sph_time_step_force  sph_time_step_viscous_nu  sph_collision_pair  sph_collision_acceleration_pair
+ *                  sph_mhd_traction  sph_mhd_fast_speed  sph_mhd_signal_speed  sph_conductivity_speed  sph_cleaning_rate  sph_cleaning_rate_scaled
+ *                  sph_cleaning_rate_velocity  sph_cleaning_sigma  sph_euler_potentials  sph_viscosity_switch_rate
  *                  sph_solve_gradient  sph_solve_cspm  sph_solve_block  sph_row_cspm  sph_row_block  sph_row_weight  sph_jet_laplacian
  */
 #ifndef SPH_OPS_H
@@ -1120,6 +1128,76 @@ SPH_FN sph_real sph_collision_pair(sph_real restitution, sph_real w_i, sph_real 
 SPH_FN sph_real sph_collision_acceleration_pair(sph_real restitution, sph_real w_i, sph_real w_j, sph_real vx, sph_real r, sph_real speed, sph_real N)
 {
     return sph_collision_pair(restitution, w_i, w_j, vx, r * r) * speed / (N * r);
+}
+
+/* ================================================================ pair tier: magnetohydrodynamics and divergence cleaning
+ *
+ * Units with mu_0 = 1 (divide B of other units by sqrt(mu_0)). With grad_i W_ij = F x_ij, F_i = F(r, h_i), and the factors
+ *     g_i = F_i / (Omega_i rho_i^2),   g_j = F_j / (Omega_j rho_j^2),   G = (F_i / Omega_i + F_j / Omega_j) / 2.
+ * Tricco & Price 2012, 7th SPHERIC workshop, equations in brackets; J. Comput. Phys. 231, 7214. Price 2012, JCP 231, 759 (SPMHD as a whole).
+ * Conjugate operators: the difference form of div and the symmetric form of grad are adjoint, sum V psi (div B) = -sum V B . (grad psi) with V = m / rho, for any B and psi, also with an h of each particle's own. So
+ * what the cleaning wave takes from the magnetic energy it gives to that of psi, sum m psi^2 / (2 rho ch^2), and back: (2), (12), (23). Damping only takes. The pair of difference forms has no such
+ * balance: at edges and density jumps energy grows without bounds (tests/test_cleaning.c); it is here as sph_cleaning_rates_nonconservative, to compare with.
+ * Misprints that are corrected here: (6) has grad_b in its second term, for grad_a; (8) has + B^2/2 for -(P + B^2/2); (10) needs the square of the mean density; (28) a plus sign; (38) a minus sign.
+ */
+
+/* (M_i . x_ij) of the Maxwell stress M = B B - (P + B^2/2) 1. Force of a pair, (6): m_j (M_i . x_ij g_i + M_j . x_ij g_j). */
+SPH_FN sph_vec sph_mhd_traction(sph_vec B, sph_real P, sph_real Bx, sph_vec x_ij)
+{
+    const sph_real p = P + SPH_R(0.5) * sph_dot(3, B, B);
+    sph_vec t;
+    t.x = B.x * Bx - p * x_ij.x;
+    t.y = B.y * Bx - p * x_ij.y;
+    t.z = B.z * Bx - p * x_ij.z;
+    return t;
+}
+/* The fast magnetosonic speed along the pair: v^2 = (cs^2 + vA^2 + sqrt((cs^2 + vA^2)^2 - 4 cs^2 (B . x/r)^2 / rho)) / 2 */
+SPH_FN sph_real sph_mhd_fast_speed(sph_real cs, sph_vec B, sph_real rho, sph_real B_along)
+{
+    const sph_real s = cs * cs + sph_dot(3, B, B) / rho, d = s * s - SPH_R(4) * cs * cs * B_along * B_along / rho;
+    return SPHI_SQRT(SPH_R(0.5) * (s + SPHI_SQRT(SPH_R(0.5) * (d + SPHI_ABS(d)))));
+}
+/* v_sig = (v_i + v_j + beta |w|) / 2, w = v_ij . x_ij / r: the speed at which two particles see each other. Price 2012, (105). */
+SPH_FN sph_real sph_mhd_signal_speed(sph_real fast_i, sph_real fast_j, sph_real beta, sph_real w)
+{
+    return SPH_R(0.5) * (fast_i + fast_j + beta * SPHI_ABS(w));
+}
+/* Speed of sound along which conductivity equalises: sqrt(|P_i - P_j| / rho). Price 2008, JCP 227, 10040. */
+SPH_FN sph_real sph_conductivity_speed(sph_real P_i, sph_real P_j, sph_real rho_mean) { return SPHI_SQRT(SPHI_ABS(P_i - P_j) / rho_mean); }
+
+/* dpsi/dt = -ch^2 div B - sigma ch psi / h - psi div v / 2: (2) with 1/tau = sigma ch / h, (19). sigma: 0.2 to 0.3 in 2D, 0.8 to 1.2 in 3D (Tricco & Price 2012); see sph_cleaning_sigma. */
+SPH_FN sph_real sph_cleaning_rate(sph_real ch, sph_real sigma, sph_real h, sph_real psi, sph_real div_B, sph_real div_v)
+{
+    return -ch * ch * div_B - (sigma * ch / h + SPH_R(0.5) * div_v) * psi;
+}
+/* The same for psi / ch as what evolves, for a ch that changes with time: its energy, sum m (psi/ch)^2 / (2 rho), then does not. Tricco, Price & Bate 2016, JCP 322, 326. Where grad psi is wanted,
+   psi = ch times it. */
+SPH_FN sph_real sph_cleaning_rate_scaled(sph_real ch, sph_real sigma, sph_real h, sph_real psi_over_ch, sph_real div_B, sph_real div_v)
+{
+    return -ch * div_B - (sigma * ch / h + SPH_R(0.5) * div_v) * psi_over_ch;
+}
+SPH_FN sph_real sph_cleaning_sigma(int dim) { return dim < 3 ? SPH_R(0.3) : SPH_R(1); }
+/* Velocity cleaning (29)-(39): psi is a pressure. Accelerations: p + psi for p in sph_fluid_rates_monaghan, whose density rate (28) then gives
+       dpsi/dt = ch^2 drho/dt - sigma ch psi / h.
+   Conserves linear and angular momentum and (rho frozen, undamped) sum m (v^2/2 + psi^2 / (2 ch^2 rho^2)). The Courant limit takes sqrt(cs^2 + ch^2). */
+SPH_FN sph_real sph_cleaning_rate_velocity(sph_real ch, sph_real sigma, sph_real h, sph_real psi, sph_real density_rate)
+{
+    return ch * ch * density_rate - sigma * ch / h * psi;
+}
+
+/* B = grad alpha x grad beta (Euler potentials; in 2D alpha = A_z, beta = z: B = (dA/dy, -dA/dx)). Gradients by sph_gradient_cspm, exact for linear potentials. Windings beyond one turn cannot be represented. */
+SPH_FN sph_vec sph_euler_potentials(sph_vec grad_alpha, sph_vec grad_beta)
+{
+    sph_vec B;
+    B.x = grad_alpha.y * grad_beta.z - grad_alpha.z * grad_beta.y;
+    B.y = grad_alpha.z * grad_beta.x - grad_alpha.x * grad_beta.z;
+    B.z = grad_alpha.x * grad_beta.y - grad_alpha.y * grad_beta.x;
+    return B;
+}
+/* dalpha/dt of the viscosity switch: (alpha_min - alpha) decay + max(-div v, 0) (alpha_max - alpha), decay = 0.1 v_sig / h. Morris & Monaghan 1997, JCP 136, 41. */
+SPH_FN sph_real sph_viscosity_switch_rate(sph_real alpha, sph_real alpha_min, sph_real alpha_max, sph_real v_sig, sph_real h, sph_real div_v)
+{
+    return (alpha_min - alpha) * SPH_R(0.1) * v_sig / h + SPH_R(0.5) * (SPHI_ABS(div_v) - div_v) * (alpha_max - alpha);
 }
 
 /* ================================================================ list tier: views */
@@ -3746,6 +3824,380 @@ SPH_FN sph_index sph_conserved_sums(int dim, sph_index first, sph_index last, sp
     out->angular_momentum.y = sum[6];
     out->angular_momentum.z = sum[7];
     return !ok;
+}
+
+/* ================================================================ list tier: magnetohydrodynamics and divergence cleaning
+   Lists of all pairs with r < support * max(h_i, h_j) (SPH_LARGER). rho and Omega: from sph_density_adaptive, or any density and sph_scalars_same(&one) for an h that is constant. Vectors may have a third
+   component in two dimensions: it is there if its array is. */
+
+/* m, rho, Omega of all sources */
+typedef struct sph_gas {
+    sph_scalars m, rho, omega;
+} sph_gas;
+
+SPH_FN int sphi_check_gas(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas g)
+{
+    int error = sphi_check_sweep(k, dim, first, last, x, list, h, g.m);
+    if (!error) error = sphi_check_positive(g.rho, x.n);
+    return error ? error : sphi_check_positive(g.omega, x.n);
+}
+/* three components where there are three arrays, else dim */
+SPH_FN int sphi_components(int dim, sph_vectors v) { return v.z.p ? 3 : dim; }
+SPH_FN int sphi_check_out(int parts, sph_vector_out v) { return sphi_check_vector(parts, v.x, v.y, v.z); }
+
+/* the pair i, j: x_ij, r, and the factors of the kernel */
+typedef struct sphi_mhd_pair {
+    sph_vec x;
+    sph_real r, F_i, F_j, g_i, g_j;
+} sphi_mhd_pair;
+SPH_FN sphi_mhd_pair sphi_mhd_pair_of(sph_kernel k, int dim, int uniform, sph_points x, sph_scalars h, const sph_gas *g, sph_vec x_i, sph_real h_i,
+                                      sph_real own, sph_index j)
+{
+    const sph_real rho_j = sphi_at(g->rho, j);
+    sphi_mhd_pair c;
+    c.x = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
+    c.r = sph_length(dim, c.x);
+    c.F_i = sph_kernel_f(k, dim, c.r, h_i);
+    c.F_j = uniform ? c.F_i : sph_kernel_f(k, dim, c.r, sphi_at(h, j));
+    c.g_i = c.F_i * own;
+    c.g_j = c.F_j / (sphi_at(g->omega, j) * rho_j * rho_j);
+    return c;
+}
+SPH_FN sph_real sphi_mhd_own(const sph_gas *g, sph_index i) { return SPH_R(1) / (sphi_at(g->omega, i) * sphi_at(g->rho, i) * sphi_at(g->rho, i)); }
+
+/* div A_i = -(1 / (Omega_i rho_i)) sum_j m_j (A_i - A_j) . grad_i W_ij(h_i): difference form, (20); exact for constants, and -(drho/dt) / rho for A = v. */
+SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
+                                           sph_vectors A, SPH_GLOBAL sph_real *out)
+{
+    int error = sphi_check_gas(k, dim, first, last, x, list, h, gas);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_vectors(dim, A, x.n);
+    if (!error && !out) error = SPH_ERROR_NULL;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i), A_i = sphi_vector_at(dim, A, i);
+        const sph_real h_i = sphi_at(h, i);
+        sph_real sum = SPH_R(0);
+        SPH_SUM(sum)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
+            sum += sphi_at(gas.m, j) * sph_dot(dim, sph_subtract(dim, A_i, sphi_vector_at(dim, A, j)), x_ij) * sph_kernel_f(k, dim, sph_length(dim, x_ij), h_i);
+        }
+        failed += sphi_store_finite(out, i, -sum / (sphi_at(gas.omega, i) * sphi_at(gas.rho, i)));
+    }
+    return failed;
+}
+/* div A_i = rho_i sum_j m_j (A_i g_i + A_j g_j) . x_ij: symmetric form; what (9) subtracts. It measures the disorder of the particles, too, and is not 0 for constant A. */
+SPH_FN sph_index sph_divergence_symmetric(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
+                                          sph_vectors A, SPH_GLOBAL sph_real *out)
+{
+    int error = sphi_check_gas(k, dim, first, last, x, list, h, gas);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_vectors(dim, A, x.n);
+    if (!error && !out) error = SPH_ERROR_NULL;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i), A_i = sphi_vector_at(dim, A, i);
+        const sph_real h_i = sphi_at(h, i), own = sphi_mhd_own(&gas, i);
+        sph_real sum = SPH_R(0);
+        SPH_SUM(sum)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sphi_mhd_pair c = sphi_mhd_pair_of(k, dim, 0, x, h, &gas, x_i, h_i, own, j);
+            sum += sphi_at(gas.m, j) * (sph_dot(dim, A_i, c.x) * c.g_i + sph_dot(dim, sphi_vector_at(dim, A, j), c.x) * c.g_j);
+        }
+        failed += sphi_store_finite(out, i, sphi_at(gas.rho, i) * sum);
+    }
+    return failed;
+}
+/* grad f_i = rho_i sum_j m_j (f_i g_i + f_j g_j) x_ij: the conjugate of the difference divergence, (23); not 0 for constant f. */
+SPH_FN sph_index sph_gradient_symmetric(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
+                                        sph_scalars f, sph_vector_out out)
+{
+    int error = sphi_check_gas(k, dim, first, last, x, list, h, gas);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_field(f, x.n);
+    if (!error) error = sphi_check_out(dim, out);
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i);
+        const sph_real h_i = sphi_at(h, i), own = sphi_mhd_own(&gas, i), f_i = sphi_at(f, i), rho_i = sphi_at(gas.rho, i);
+        sph_real sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
+        sph_vec sum;
+        SPH_SUM(sx, sy, sz)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sphi_mhd_pair c = sphi_mhd_pair_of(k, dim, 0, x, h, &gas, x_i, h_i, own, j);
+            const sph_real b = rho_i * sphi_at(gas.m, j) * (f_i * c.g_i + sphi_at(f, j) * c.g_j);
+            sx += b * c.x.x;
+            if (dim > 1) sy += b * c.x.y;
+            if (dim > 2) sz += b * c.x.z;
+        }
+        sum.x = sx;
+        sum.y = sy;
+        sum.z = sz;
+        failed += sphi_store_vector(dim, out, i, sum);
+    }
+    return failed;
+}
+/* curl A_i = (1 / (Omega_i rho_i)) sum_j m_j (A_i - A_j) x grad_i W_ij(h_i): difference form, three components (in 2D of A that has two: the third). Exact for constants. Price 2012, (79). */
+SPH_FN sph_index sph_curl_difference(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
+                                     sph_vectors A, sph_vector_out out)
+{
+    const int parts = sphi_components(dim, A);
+    int error = sphi_check_gas(k, dim, first, last, x, list, h, gas);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_vectors(parts, A, x.n);
+    if (!error) error = sphi_check_out(3, out);
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i), A_i = sphi_vector_at(parts, A, i);
+        const sph_real h_i = sphi_at(h, i), scale = SPH_R(1) / (sphi_at(gas.omega, i) * sphi_at(gas.rho, i));
+        sph_real cx = SPH_R(0), cy = SPH_R(0), cz = SPH_R(0);
+        sph_vec sum;
+        SPH_SUM(cx, cy, cz)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
+            const sph_vec d =
+                sph_scale(sphi_at(gas.m, j) * sph_kernel_f(k, dim, sph_length(dim, x_ij), h_i), sph_subtract(3, A_i, sphi_vector_at(parts, A, j)));
+            cx += d.y * x_ij.z - d.z * x_ij.y;
+            cy += d.z * x_ij.x - d.x * x_ij.z;
+            cz += d.x * x_ij.y - d.y * x_ij.x;
+        }
+        sum.x = scale * cx;
+        sum.y = scale * cy;
+        sum.z = scale * cz;
+        failed += sphi_store_vector(3, out, i, sum);
+    }
+    return failed;
+}
+
+enum { SPHI_CONJUGATE, SPHI_DIFFERENCES, SPHI_OTHER_CONJUGATE };
+SPH_FN sph_index sphi_cleaning(int form, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
+                               sph_vectors B, sph_scalars psi, sph_scalars div_v, sph_real ch, sph_real sigma, sph_vector_out rate_B,
+                               SPH_GLOBAL sph_real *rate_psi, SPH_GLOBAL sph_real *div_B)
+{
+    int error = sphi_check_gas(k, dim, first, last, x, list, h, gas);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_vectors(dim, B, x.n);
+    if (!error) error = sphi_check_field(psi, x.n);
+    if (!error && div_v.p) error = sphi_check_field(div_v, x.n);
+    if (!error) error = sphi_check_out(dim, rate_B);
+    if (!error && !rate_psi) error = SPH_ERROR_NULL;
+    if (!error && (!sphi_finite(ch) || ch < SPH_R(0) || !sphi_finite(sigma) || sigma < SPH_R(0))) error = SPH_ERROR_VALUE;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i), B_i = sphi_vector_at(dim, B, i);
+        const sph_real h_i = sphi_at(h, i), rho_i = sphi_at(gas.rho, i), own = sphi_mhd_own(&gas, i), psi_i = sphi_at(psi, i);
+        sph_real sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0), divergence = SPH_R(0);
+        sph_vec sum;
+        int lost;
+        SPH_SUM(sx, sy, sz, divergence)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sphi_mhd_pair c = sphi_mhd_pair_of(k, dim, 0, x, h, &gas, x_i, h_i, own, j);
+            const sph_vec B_j = sphi_vector_at(dim, B, j);
+            const sph_real m_j = sphi_at(gas.m, j), psi_j = sphi_at(psi, j);
+            /* rho_i (psi_i g_i + psi_j g_j), or rho_i (psi_j - psi_i) g_i; the divergence likewise */
+            const sph_real b = form == SPHI_CONJUGATE ? psi_i * c.g_i + psi_j * c.g_j : (psi_j - psi_i) * c.g_i;
+            divergence += m_j * (form == SPHI_OTHER_CONJUGATE ? sph_dot(dim, B_i, c.x) * c.g_i + sph_dot(dim, B_j, c.x) * c.g_j
+                                                              : sph_dot(dim, sph_subtract(dim, B_j, B_i), c.x) * c.g_i);
+            sx -= m_j * b * c.x.x;
+            if (dim > 1) sy -= m_j * b * c.x.y;
+            if (dim > 2) sz -= m_j * b * c.x.z;
+        }
+        sum.x = rho_i * sx;
+        sum.y = rho_i * sy;
+        sum.z = rho_i * sz;
+        divergence *= rho_i;
+        lost = sphi_store_vector(dim, rate_B, i, sum);
+        lost |= sphi_store_finite(rate_psi, i, sph_cleaning_rate(ch, sigma, h_i, psi_i, divergence, div_v.p ? sphi_at(div_v, i) : SPH_R(0)));
+        if (div_B) lost |= sphi_store_finite(div_B, i, divergence);
+        failed += lost;
+    }
+    return failed;
+}
+/* Divergence cleaning alone, for a host that has the rest of its MHD: dB/dt = -grad psi in symmetric form (23), dpsi/dt = -ch^2 div B - sigma ch psi / h - psi div v / 2 with div B in difference form (20), (25).
+   div_v: sph_scalars_array(0) where nothing moves. div_B may be null. ch: one speed for all particles, the largest fast speed of the cloud (times an over-cleaning factor if the time step is divided by it);
+   sigma: sph_cleaning_sigma(dim). Conserves sum m (B^2 + psi^2/ch^2) / (2 rho) but for the damping, which only takes, at any h and Omega; and sum m B / rho exactly. */
+SPH_FN sph_index sph_cleaning_rates(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
+                                    sph_vectors B, sph_scalars psi, sph_scalars div_v, sph_real ch, sph_real sigma, sph_vector_out rate_B,
+                                    SPH_GLOBAL sph_real *rate_psi, SPH_GLOBAL sph_real *div_B)
+{
+    return sphi_cleaning(SPHI_CONJUGATE, k, dim, first, last, x, list, h, gas, B, psi, div_v, ch, sigma, rate_B, rate_psi, div_B);
+}
+/* The pair of difference forms that came before. DO NOT USE: it does not conserve energy, and grows exponentially at free boundaries and density jumps. Here to compare with. */
+SPH_FN sph_index sph_cleaning_rates_nonconservative(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
+                                                    sph_gas gas, sph_vectors B, sph_scalars psi, sph_scalars div_v, sph_real ch, sph_real sigma,
+                                                    sph_vector_out rate_B, SPH_GLOBAL sph_real *rate_psi, SPH_GLOBAL sph_real *div_B)
+{
+    return sphi_cleaning(SPHI_DIFFERENCES, k, dim, first, last, x, list, h, gas, B, psi, div_v, ch, sigma, rate_B, rate_psi, div_B);
+}
+/* The other conjugate pair: div B symmetric, grad psi in difference form. Conserves energy, too, but cleans the disorder of the particles out of B: it dissipates magnetic energy. To compare with. */
+SPH_FN sph_index sph_cleaning_rates_symmetric(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
+                                              sph_vectors B, sph_scalars psi, sph_scalars div_v, sph_real ch, sph_real sigma, sph_vector_out rate_B,
+                                              SPH_GLOBAL sph_real *rate_psi, SPH_GLOBAL sph_real *div_B)
+{
+    return sphi_cleaning(SPHI_OTHER_CONJUGATE, k, dim, first, last, x, list, h, gas, B, psi, div_v, ch, sigma, rate_B, rate_psi, div_B);
+}
+
+/* A magnetised gas; n numbers each, all sources. */
+typedef struct sph_mhd {
+    sph_gas gas;
+    sph_scalars P, u, cs, alpha; /* pressure, thermal energy per mass, sound speed, viscosity of each particle (0: none) */
+    sph_vectors v, B;            /* three components each if v.z has an array, else dim */
+    sph_scalars psi;             /* null array: no cleaning */
+    sph_real ch, sigma;
+    sph_real beta, alpha_u, alpha_B; /* 2, 1 and 0 ... 1 are usual; alpha_u = 0, alpha_B = 0: no conductivity, no resistivity */
+    sph_real tensile;                /* the part of (9) that is subtracted: 1 all, 0 none (momentum is conserved then, and particles pair where B^2/2 > P) */
+} sph_mhd;
+/* Where rates go; null pointers are not wanted (accelerations and rate_B are). */
+typedef struct sph_mhd_out {
+    sph_vector_out acceleration, rate_B;
+    SPH_GLOBAL sph_real *rate_u, *rate_psi, *div_B, *div_v;
+} sph_mhd_out;
+
+SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list,
+                                sph_scalars h, const sph_mhd *s, const sph_mhd_out *out)
+{
+    sph_index i, p, failed = 0;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(parts, s->v, i), B_i = sphi_vector_at(parts, s->B, i);
+        const sph_real h_i = sphi_at(h, i), rho_i = sphi_at(s->gas.rho, i), own = sphi_mhd_own(&s->gas, i), omega_i = sphi_at(s->gas.omega, i);
+        const sph_real P_i = sphi_at(s->P, i), u_i = sphi_at(s->u, i), cs_i = sphi_at(s->cs, i), alpha_i = sphi_at(s->alpha, i),
+                       psi_i = cleans ? sphi_at(s->psi, i) : SPH_R(0);
+        sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0), tension = SPH_R(0), sv = SPH_R(0), sB = SPH_R(0), heat = SPH_R(0);
+        sph_real ix = SPH_R(0), iy = SPH_R(0), iz = SPH_R(0), cx = SPH_R(0), cy = SPH_R(0), cz = SPH_R(0), rx = SPH_R(0), ry = SPH_R(0), rz = SPH_R(0);
+        sph_vec a, b;
+        sph_real div_v, div_B;
+        int lost;
+        SPH_SUM(ax, ay, az, tension, sv, sB, heat, ix, iy, iz, cx, cy, cz, rx, ry, rz)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sphi_mhd_pair c = sphi_mhd_pair_of(k, dim, uniform, x, h, &s->gas, x_i, h_i, own, j);
+            const sph_vec B_j = sphi_vector_at(parts, s->B, j), v_ij = sph_subtract(parts, v_i, sphi_vector_at(parts, s->v, j)),
+                          B_ij = sph_subtract(parts, B_i, B_j);
+            const sph_real m_j = sphi_at(s->gas.m, j), rho_j = sphi_at(s->gas.rho, j), P_j = sphi_at(s->P, j), rho = SPH_R(0.5) * (rho_i + rho_j);
+            const sph_real Bx_i = sph_dot(dim, B_i, c.x), Bx_j = sph_dot(dim, B_j, c.x), vx = sph_dot(dim, v_ij, c.x), per_r = SPH_R(1) / (c.r + SPHI_TINY),
+                           w = vx * per_r;
+            const sph_vec t_i = sph_mhd_traction(B_i, P_i, Bx_i, c.x), t_j = sph_mhd_traction(B_j, P_j, Bx_j, c.x);
+            const sph_real G = SPH_R(0.5) * (c.F_i / omega_i + c.F_j / sphi_at(s->gas.omega, j));
+            const sph_real v_sig = sph_mhd_signal_speed(sph_mhd_fast_speed(cs_i, B_i, rho_i, Bx_i * per_r),
+                                                        sph_mhd_fast_speed(sphi_at(s->cs, j), B_j, rho_j, Bx_j * per_r), s->beta, w);
+            const sph_real q =
+                SPH_R(0.25) * (alpha_i + sphi_at(s->alpha, j)) * v_sig * (w - SPHI_ABS(w)) / rho; /* alpha v_sig w / rho where they approach; <= 0 */
+            const sph_real eta = s->alpha_B * v_sig / (rho * rho);
+            /* q G x / r: repels; the two tractions */
+            const sph_real push = q * G;
+            ax += m_j * (t_i.x * c.g_i + t_j.x * c.g_j + push * c.x.x);
+            ay += m_j * (t_i.y * c.g_i + t_j.y * c.g_j + push * c.x.y);
+            az += m_j * (t_i.z * c.g_i + t_j.z * c.g_j + push * c.x.z);
+            tension += m_j * (Bx_i * c.g_i + Bx_j * c.g_j);
+            sv += m_j * vx * c.F_i;
+            sB += m_j * (Bx_i - Bx_j) * c.F_i;
+            ix += m_j * v_ij.x * Bx_i * c.F_i;
+            iy += m_j * v_ij.y * Bx_i * c.F_i;
+            iz += m_j * v_ij.z * Bx_i * c.F_i;
+            if (cleans) {
+                const sph_real e = m_j * (psi_i * c.g_i + sphi_at(s->psi, j) * c.g_j);
+                cx += e * c.x.x;
+                cy += e * c.x.y;
+                cz += e * c.x.z;
+            }
+            rx += m_j * eta * B_ij.x * G * c.r;
+            ry += m_j * eta * B_ij.y * G * c.r;
+            rz += m_j * eta * B_ij.z * G * c.r;
+            heat += m_j * G * c.r *
+                    (SPH_R(-0.5) * q * w - SPH_R(0.5) * eta * sph_dot(parts, B_ij, B_ij) +
+                     s->alpha_u * sph_conductivity_speed(P_i, P_j, rho) * (u_i - sphi_at(s->u, j)) / rho);
+        }
+        div_v = -sv / (omega_i * rho_i);
+        div_B = -sB / (omega_i * rho_i);
+        a.x = ax - s->tensile * B_i.x * tension;
+        a.y = ay - s->tensile * B_i.y * tension;
+        a.z = az - s->tensile * B_i.z * tension;
+        /* -(1 / (Omega rho)) sum m (v_ij (B_i . x) - B_i (v_ij . x)) F_i - grad psi + resistivity */
+        b.x = -ix / (omega_i * rho_i) - B_i.x * div_v + rho_i * (rx - cx);
+        b.y = -iy / (omega_i * rho_i) - B_i.y * div_v + rho_i * (ry - cy);
+        b.z = -iz / (omega_i * rho_i) - B_i.z * div_v + rho_i * (rz - cz);
+        lost = sphi_store_vector(parts, out->acceleration, i, a);
+        lost |= sphi_store_vector(parts, out->rate_B, i, b);
+        if (out->rate_u) lost |= sphi_store_finite(out->rate_u, i, P_i * own * sv + heat);
+        if (out->rate_psi) lost |= sphi_store_finite(out->rate_psi, i, cleans ? sph_cleaning_rate(s->ch, s->sigma, h_i, psi_i, div_B, div_v) : SPH_R(0));
+        if (out->div_B) lost |= sphi_store_finite(out->div_B, i, div_B);
+        if (out->div_v) lost |= sphi_store_finite(out->div_v, i, div_v);
+        failed += lost;
+    }
+    return failed;
+}
+SPH_FN int sphi_check_mhd(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, const sph_mhd *s)
+{
+    const int parts = sphi_components(dim, s->v);
+    int error = sphi_check_gas(k, dim, first, last, x, list, h, s->gas);
+    if (!error) error = sphi_check_field(s->P, x.n);
+    if (!error) error = sphi_check_field(s->cs, x.n);
+    if (!error) error = sphi_check_vectors(parts, s->v, x.n);
+    if (!error) error = sphi_check_vectors(parts, s->B, x.n);
+    if (!error && !sphi_finite(s->beta)) error = SPH_ERROR_VALUE;
+    return error;
+}
+/* All rates of a magnetised gas in one pass:
+       dv/dt: (6), less `tensile` times (9); artificial viscosity alpha v_sig where particles approach
+       dB/dt: (7), of B itself; -grad psi (23); resistivity (10)
+       du/dt: P / (Omega rho^2) sum_j m_j v_ij . grad W, heating by viscosity, resistivity (both >= 0) and conductivity
+       dpsi/dt: (2), (25); div B: (20); div v.
+   Without (9) the sum m (v^2/2 + u + B^2 / (2 rho) + psi^2 / (2 rho ch^2)) changes by the damping of psi only, to round-off, and momentum does not; with (9) momentum changes by sum m B (div B). Density from
+   sph_density_adaptive (its rate is -rho div v). v_sig: sph_mhd_signal_speed_largest, for time steps and switches. */
+SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_mhd state,
+                               sph_mhd_out out)
+{
+    const int parts = sphi_components(dim, state.v), cleans = state.psi.p != 0;
+    int error = sphi_check_mhd(k, dim, first, last, x, list, h, &state);
+    if (!error) error = sphi_check_field(state.u, x.n);
+    if (!error) error = sphi_check_field(state.alpha, x.n);
+    if (!error && cleans) error = sphi_check_field(state.psi, x.n);
+    if (!error) error = sphi_check_out(parts, out.acceleration);
+    if (!error) error = sphi_check_out(parts, out.rate_B);
+    if (!error &&
+        (!sphi_finite(state.ch) || !sphi_finite(state.sigma) || !sphi_finite(state.alpha_u) || !sphi_finite(state.alpha_B) || !sphi_finite(state.tensile)))
+        error = SPH_ERROR_VALUE;
+    if (error) return error;
+    if (cleans)
+        return h.stride ? sphi_mhd_range(0, parts, 1, k, dim, first, last, x, list, h, &state, &out)
+                        : sphi_mhd_range(1, parts, 1, k, dim, first, last, x, list, h, &state, &out);
+    return h.stride ? sphi_mhd_range(0, parts, 0, k, dim, first, last, x, list, h, &state, &out)
+                    : sphi_mhd_range(1, parts, 0, k, dim, first, last, x, list, h, &state, &out);
+}
+
+/* The largest v_sig of each target and its neighbours within the larger support; without any, its own fast speed. */
+SPH_FN sph_index sph_mhd_signal_speed_largest(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_mhd state,
+                                              SPH_GLOBAL sph_real *out)
+{
+    const int parts = sphi_components(dim, state.v);
+    const sph_real support = sph_kernel_support(k);
+    int error = sphi_check_mhd(k, dim, first, last, x, list, h, &state);
+    sph_index i, p, failed = 0;
+    if (!error && !out) error = SPH_ERROR_NULL;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(parts, state.v, i), B_i = sphi_vector_at(parts, state.B, i);
+        const sph_real cs_i = sphi_at(state.cs, i), rho_i = sphi_at(state.gas.rho, i), h_i = sphi_at(h, i);
+        sph_real largest = sph_mhd_fast_speed(cs_i, B_i, rho_i, SPH_R(0));
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j)), B_j = sphi_vector_at(parts, state.B, j);
+            const sph_real r = sph_length(dim, x_ij), h_j = sphi_at(h, j), per_r = SPH_R(1) / (r + SPHI_TINY);
+            const sph_real fast =
+                sph_mhd_signal_speed(sph_mhd_fast_speed(cs_i, B_i, rho_i, sph_dot(dim, B_i, x_ij) * per_r),
+                                     sph_mhd_fast_speed(sphi_at(state.cs, j), B_j, sphi_at(state.gas.rho, j), sph_dot(dim, B_j, x_ij) * per_r), state.beta,
+                                     sph_dot(dim, sph_subtract(parts, v_i, sphi_vector_at(parts, state.v, j)), x_ij) * per_r);
+            if (r < support * (h_i > h_j ? h_i : h_j) && fast > largest) largest = fast;
+        }
+        failed += sphi_store_finite(out, i, largest);
+    }
+    return failed;
 }
 
 #endif /* SPH_OPS_H */
