@@ -691,6 +691,41 @@ static void test_statuses(void)
     }
 }
 
+/* options.trace: |x|^2 exactly, at any particle of any cloud that did not fall back; the plain factor misses it */
+static void test_trace(void)
+{
+    int dim, own;
+    for (dim = 1; dim <= 3; dim++)
+        for (own = 0; own < 2; own++) {
+            setup s = disordered(dim, own);
+            sph_elliptic_options o = with(0);
+            double exact = 0.0, plain = 0.0;
+            sph_index i, fell, ok = 0;
+            for (i = 0; i < s.c.n; i++) {
+                double x[3];
+                cloud_position(&s.c, i, x);
+                s.c.f[i] = SPH_R(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+                s.m[i] = SPH_R(0.7);
+            }
+            CHECK(apply(M, &s, o, s.c.f) == 0);
+            for (i = 0; i < s.c.n; i++)
+                if (depth(&s, i) > 2.0) plain = worse(plain, (double)s.out[i] - 1.4 * dim);
+            o.trace = 1;
+            fell = apply(M, &s, o, s.c.f);
+            for (i = 0; i < s.c.n; i++) {
+                if (s.status[i] == SPH_OK) exact = worse(exact, (double)s.out[i] - 1.4 * dim);
+                ok += s.status[i] == SPH_OK;
+                CHECK(s.status[i] == SPH_OK || s.status[i] == SPH_FELL_BACK);
+                CHECK(depth(&s, i) < 2.0 || s.status[i] == SPH_OK);
+            }
+            CHECK(ok + fell == s.c.n && fell > 0 && fell < s.c.n / (dim == 3 ? 1 : 2));
+            CHECK_CLOSE(exact, 0.0, 1e4 * EPSILON / (s.c.dx * s.c.dx));
+            if (dim > 1) CHECK(plain > 1e-3); /* in 1D both factors are the same in the interior */
+            CHECK(apply(S, &s, o, s.c.f) == fell);
+            setup_free(&s);
+        }
+}
+
 /* ---- diagnostics ---- */
 
 static void test_diagnose(void)
@@ -984,6 +1019,7 @@ int main(void)
     test_anisotropic();
     test_boundary();
     test_statuses();
+    test_trace();
     test_diagnose();
     test_eigenvalues();
     test_promises();
