@@ -163,3 +163,101 @@ do for [file in curves] {
     array curve[6] = ["TPFA", "TPFA, Jacobi", "TPFA, ILU(0)", "M-SPH = Schwaiger", "M-SPH = Schwaiger, Jacobi", "M-SPH = Schwaiger, ILU(0)"]
     plot for [c = 1:6] dir.file using 1:(column(c + 1)) every ::1 with lines linewidth (c > 3 ? 3 : 1) title curve[c]
 }
+
+if (there("elliptic_clouds_errors")) {
+    set output dir."elliptic_clouds_errors.png"
+    set terminal pngcairo size 1500,560 font "sans,12"
+    set multiplot layout 1,3 title "div(m grad u) = s in the unit square, smooth, Dirichlet, h = 1.2 spacings: error against particles per side"
+    set logscale xy
+    set xlabel "N"
+    set ylabel "relative L2 error"
+    set xrange [8:100]
+    set yrange [1e-5:1]
+    set format y "10^{%L}"
+    set key bottom left
+    array state[3] = ["uniform", "jitter 25 %", "graded discs"]
+    array method[4] = ["CB", "M", "M (16)", "M / trace"]
+    do for [c = 1:3] {
+        set title state[c]
+        plot for [m = 1:4] dir."elliptic_clouds_errors.csv" using ($1 == 2 && strcol(2) eq state[c] && strcol(3) eq "smooth" && strcol(4) eq method[m] ? $5 : NaN):6 every ::1 \
+            with points pointtype mark[m] pointsize 1.5 linecolor rgb color[m] title method[m], 0.2 / x**2 with lines dashtype 2 linecolor rgb "gray40" title "slope -2"
+    }
+    unset multiplot
+    unset logscale
+    set format y
+    set autoscale
+    unset ylabel
+}
+
+if (there("elliptic_uses_projection")) {
+    set output dir."elliptic_uses_projection.png"
+    set terminal pngcairo size 1200,560 font "sans,12"
+    set multiplot layout 1,2 title "Divergence before and after one projection, 40 x 40 particles, jitter 25 %"
+    set size ratio 1
+    set xlabel "x"
+    set ylabel "y"
+    set xrange [0:1]
+    set yrange [0:1]
+    unset key
+    unset grid
+    set palette defined (-1 "#0072b2", 0 "#ffffff", 1 "#d55e00")
+    array largest[2] = [12.6, 0.6]
+    array moment[2] = ["before", "after (another scale)"]
+    do for [k = 1:2] {
+        set title moment[k]
+        set cbrange [-largest[k]:largest[k]]
+        plot dir."elliptic_uses_projection.csv" using 1:2:(column(2 + k)) every ::1 with points pointtype 7 pointsize 1.1 linecolor palette
+    }
+    unset multiplot
+    set size noratio
+    set autoscale
+    set key default
+    set grid linecolor rgb "#dddddd"
+    unset ylabel
+}
+
+if (there("elliptic_uses_disc")) {
+    set output dir."elliptic_uses_disc.png"
+    set terminal pngcairo size 1500,520 font "sans,12"
+    set multiplot layout 1,3 title "Robin conditions on a circle: lattice of 1/20, cut"
+    set size ratio 1
+    set xlabel "x"
+    set xrange [-1.05:1.05]
+    set yrange [-1.05:1.05]
+    unset key
+    unset grid
+    set palette defined (-1 "#0072b2", 0 "#ffffff", 1 "#d55e00")
+    set cbrange [-2:2]
+    set title "u, M-SPH"
+    plot dir."elliptic_uses_disc.csv" using 1:2:4 every ::1 with points pointtype 7 pointsize 0.8 linecolor palette
+    set cbrange [-0.1:0.1]
+    set title "error, M-SPH"
+    plot dir."elliptic_uses_disc.csv" using 1:2:($4 - $3) every ::1 with points pointtype 7 pointsize 0.8 linecolor palette
+    set cbrange [-0.005:0.005]
+    set title "error, least squares (another scale)"
+    plot dir."elliptic_uses_disc.csv" using 1:2:($5 - $3) every ::1 with points pointtype 7 pointsize 0.8 linecolor palette
+    unset multiplot
+    set size noratio
+    set autoscale
+    set key default
+    set grid linecolor rgb "#dddddd"
+}
+
+if (there("elliptic_uses_slab")) {
+    set output dir."elliptic_uses_slab.png"
+    set terminal pngcairo size 1200,500 font "sans,12"
+    set multiplot layout 1,2 title "Heat through a jump of the conductivity at x = 0, t = 0.04, 22 columns, h = 0.5005 dx, implicit Euler steps"
+    set xlabel "x"
+    set xrange [-0.6:1]
+    set yrange [-0.05:1.05]
+    set key top right
+    array ratio[2] = [10, 1000]
+    do for [q = 1:2] {
+        set title sprintf("ratio %d", ratio[q])
+        plot dir."elliptic_uses_slab.csv" using ($1 == ratio[q] ? $2 : NaN):4 every ::1 with linespoints pointtype mark[1] linecolor rgb color[1] title "arithmetic means", \
+            "" using ($1 == ratio[q] ? $2 : NaN):5 every ::1 with points pointtype mark[2] linecolor rgb color[2] title "harmonic means", \
+            "" using ($1 == ratio[q] ? $2 : NaN):3 every ::1 with lines linecolor rgb "black" title "exact"
+    }
+    unset multiplot
+    set autoscale
+}
