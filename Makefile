@@ -13,9 +13,11 @@ HEADERS = sph.h sph_ops.h sph_kernels.h
 COMMON = $(wildcard examples/common/*.h) $(wildcard examples/papers/*.h)
 
 # The papers and their drivers (examples/papers/<driver>.c). A driver's name starts with its paper's.
-PAPERS = icspm elliptic
+PAPERS = icspm elliptic clustering cleaning
 DRIVERS_icspm = icspm_uniform icspm_random icspm_dimensions
 DRIVERS_elliptic = $(patsubst examples/papers/%.c,%,$(wildcard examples/papers/elliptic_*.c))
+DRIVERS_clustering = $(patsubst examples/papers/%.c,%,$(wildcard examples/papers/clustering_*.c))
+DRIVERS_cleaning = $(patsubst examples/papers/%.c,%,$(wildcard examples/papers/cleaning_*.c))
 DRIVERS = $(foreach p,$(PAPERS),$(DRIVERS_$(p)))
 
 # Tests of the headers are built twice, in double and in float; tests of what the examples share in double only.
