@@ -88,7 +88,7 @@ static void wall(flow *f)
 }
 
 static tank_result simulate(sph_kernel kernel, double smoothing, int remedy, int adami, double dref, double dt, double tend, const clustering_options *o,
-                            FILE *curve, const char *label)
+                            const char *name, FILE *curve, const char *label)
 {
     const int rows = dref > 0.00999 && dref < 0.01001 ? ROWS : (int)(1 / (hexagonal * dref)),
               reach = (int)ceil(sph_kernel_support(kernel) * smoothing / hexagonal);
