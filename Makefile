@@ -48,21 +48,20 @@ reproduce-%: run-quick-%
 
 drivers_of = $(if $(filter all,$(1)),$(DRIVERS),$(DRIVERS_$(1)))
 
-# $(1): paper or all; $(2): options. All drivers run, then the scoreboard tells; the answer is failure if any driver failed.
+# $(1): paper or all; $(2): options. All drivers run (side by side under make -j, each with its output in one piece), then the scoreboard tells; the answer is failure if any driver failed.
 define run
 	@if [ -z "$(strip $(call drivers_of,$(1)))" ]; then echo "no paper called '$(1)'; there are: $(PAPERS)"; exit 2; fi
 	@mkdir -p $(RESULTS) $(FIGURES)
-	@$(MAKE) --no-print-directory $(BUILD)/examples/scoreboard $(addprefix $(BUILD)/examples/,$(call drivers_of,$(1)))
-	@rm -f $(patsubst %,$(RESULTS)/%.csv,$(call drivers_of,$(1))); failed=0; \
-	for d in $(call drivers_of,$(1)); do \
-	    echo; echo "======== $$d"; \
-	    $(BUILD)/examples/$$d -out $(RESULTS) -figures $(FIGURES) $(2) || failed=1; \
-	done; \
+	+@$(MAKE) --no-print-directory $(BUILD)/examples/scoreboard $(addprefix $(BUILD)/examples/,$(call drivers_of,$(1)))
+	+@rm -f $(patsubst %,$(RESULTS)/%.csv,$(call drivers_of,$(1))); failed=0; \
+	$(MAKE) --no-print-directory --keep-going $(if $(filter -j%,$(MAKEFLAGS)),--output-sync=target) OPTIONS=$(2) $(addprefix driver-,$(call drivers_of,$(1))) || failed=1; \
 	$(MAKE) --no-print-directory figures || failed=1; \
 	echo; $(BUILD)/examples/scoreboard $(patsubst %,$(RESULTS)/%.csv,$(call drivers_of,$(1))) || failed=1; \
 	exit $$failed
 endef
 
+driver-%:
+	@echo; echo "======== $*"; $(BUILD)/examples/$* -out $(RESULTS) -figures $(FIGURES) $(OPTIONS)
 run-quick-%:
 	$(call run,$*,)
 run-full-%:
@@ -85,7 +84,7 @@ $(BUILD)/examples/%: examples/papers/%.c $(COMMON) $(HEADERS)
 # ---------------------------------------------------------------- tests
 
 test: $(TEST_PROGRAMS) $(DRIVERS:%=$(BUILD)/examples/%) $(BUILD)/examples/scoreboard
-	@CC="$(CC)" BUILD="$(BUILD)" sh tests/run.sh $(TEST_PROGRAMS) $(TEST_SCRIPTS)
+	@CC="$(CC)" BUILD="$(BUILD)" JOBS="$(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS)))" sh tests/run.sh $(TEST_PROGRAMS) $(TEST_SCRIPTS)
 
 test-sanitize:
 	$(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all" TESTS_FLOAT= TEST_SCRIPTS=tests/examples.sh test

@@ -2,16 +2,25 @@
 # SPDX-License-Identifier: MIT
 # Runs test programs and scripts, each of which prints 'name: N passed, N failed', and prints the sum as its last line. One that ends with an error without
 # having counted a failure (a crash, a missing program) counts as one.
-#     tests/run.sh PROGRAM_OR_SCRIPT ...          from the root of the repository
+#     tests/run.sh PROGRAM_OR_SCRIPT ...          from the root of the repository; JOBS=2: two at a time
 BUILD=${BUILD:-build}
 export BUILD
+logs=$BUILD/scratch/run
+rm -rf "$logs"
+mkdir -p "$logs" || exit 2
+# one that is long comes first, so that it does not run alone at the end; printed in the order of the command line
+{
+    for t in "$@"; do case $t in *.sh) echo "$t" ;; esac done
+    for t in "$@"; do case $t in *.sh) ;; *) echo "$t" ;; esac done
+} | LOGS=$logs xargs -P "${JOBS:-1}" -n 1 sh -c '
+    log=$LOGS/$(echo "$1" | tr / _)
+    case $1 in *.sh) sh "$1" ;; *) "$1" ;; esac > "$log" 2>&1
+    echo $? > "$log.status"' run
 passed=0 failed=0
 for t in "$@"; do
-    case $t in
-    *.sh) output=$(sh "$t" 2>&1) ;;
-    *) output=$("$t" 2>&1) ;;
-    esac
-    status=$?
+    log=$logs/$(echo "$t" | tr / _)
+    output=$(cat "$log")
+    status=$(cat "$log.status" || echo 127)
     [ -n "$output" ] && printf '%s\n' "$output"
     counts=$(printf '%s\n' "$output" | sed -n 's/^.*: \([0-9][0-9]*\) passed, \([0-9][0-9]*\) failed$/\1 \2/p' | awk '{ p += $1; f += $2 } END { print p + 0, f + 0 }')
     passed=$((passed + ${counts% *}))
