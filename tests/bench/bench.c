@@ -24,7 +24,6 @@
  * Spread is (largest - smallest) / median of the time. "Flat" compares time per interaction over that of the reference, because in small clouds, with more
  * surface, particles have fewer neighbours. An interaction is an entry of the lists: i with j, and j with i.
  * "+ permuting x, y, z" is for a host that sorts: grid, its three coordinates into cell order, lists of the sorted particles; random order is judged by it.
- * The loop of a host that computes accelerations from pressures is not here: it is the host's, not an operator of the toolkit.
  */
 #if !defined(BENCH_SEARCH) && !defined(BENCH_OPS)
 #define _POSIX_C_SOURCE 199309L
@@ -66,7 +65,8 @@ typedef struct search {
     sph_index (*lists)(cloud *c, int count_only, int threads);
 } search;
 
-enum { DENSITY, GRADIENT, ICSPM, BROOKSHAW, ROWS, APPLY, OPERATORS };
+/* those from ICSPM on take long to compile and are in the main form only: their checks and their ranges are like those of the others */
+enum { DENSITY, GRADIENT, BROOKSHAW, ROWS, APPLY, ICSPM, ACCELERATION, FLUID, MSPH_ROWS, OPERATORS };
 typedef struct outputs {
     sph_real *g[10], *row;
 } outputs;
@@ -194,18 +194,40 @@ SPH_FN sph_index apply_range(int which, int dim, sph_index first, sph_index last
         return sph_density_summation(KERNEL, dim, first, last, x, list, h, V, o->g[0]);
     case GRADIENT:
         return sph_gradient_cspm(KERNEL, dim, first, last, x, list, h, V, f, o->g[0], o->g[1], o->g[2], 0, 0);
-#if !SPH_CHECK && !defined(_OPENMP) /* long to compile; its checks are those of the corrected gradient */
-    case ICSPM: {
-        const sph_derivative_out d = {o->g[0], o->g[1], o->g[2], o->g[3], o->g[4], o->g[5], o->g[6], o->g[7], o->g[8], o->g[9], 0, 1, 0};
-        return sph_derivatives_icspm(KERNEL, dim, first, last, x, list, h, V, f, SPH_R(0), 0, d);
-    }
-#endif
     case BROOKSHAW:
         return sph_laplacian_brookshaw(KERNEL, dim, first, last, x, list, h, V, f, o->g[0]);
     case ROWS:
         return sph_laplacian_rows_brookshaw(KERNEL, dim, first, last, x, list, h, V, o->row);
     case APPLY:
         return apply_rows(first, last, c, o->row, o->g[0]);
+#if !SPH_CHECK && !defined(_OPENMP)
+    case ICSPM: {
+        const sph_derivative_out d = {o->g[0], o->g[1], o->g[2], o->g[3], o->g[4], o->g[5], o->g[6], o->g[7], o->g[8], o->g[9], 0, 1, 0};
+        return sph_derivatives_icspm(KERNEL, dim, first, last, x, list, h, V, f, SPH_R(0), 0, d);
+    }
+    case ACCELERATION: /* pressure alone */
+    case FLUID: {      /* with artificial viscosity, density rate and heating */
+        sph_fluid fluid;
+        sph_vector_out a;
+        fluid.m = fluid.rho = fluid.c = V;
+        fluid.p = fluid.v.x = fluid.v.y = fluid.v.z = f;
+        fluid.alpha = fluid.eta = SPH_R(0.1);
+        fluid.beta = SPH_R(0);
+        a.x = o->g[0];
+        a.y = o->g[1];
+        a.z = o->g[2];
+        fluid.viscosity = SPH_VISCOSITY_NONE;
+        if (which == ACCELERATION) return sph_fluid_rates_monaghan(KERNEL, dim, first, last, x, list, h, fluid, a, 0, 0);
+        fluid.viscosity = SPH_VISCOSITY_MONAGHAN;
+        return sph_fluid_rates_monaghan(KERNEL, dim, first, last, x, list, h, fluid, a, o->g[3], o->g[4]);
+    }
+    case MSPH_ROWS: {
+        sph_row_out r = {0, 0, 0, 0, 0};
+        r.row = o->row;
+        r.diagonal = o->g[0];
+        return sph_elliptic_rows_msph(KERNEL, dim, first, last, x, list, h, V, V, sph_elliptic_defaults(), r);
+    }
+#endif
     default:
         return SPH_ERROR_VALUE;
     }
@@ -680,8 +702,9 @@ static void random_targets(const char *path, pair lattice, pair shuffled, pair s
     target(text, ratio(shuffled.grid, shuffled.lists, lattice.grid, lattice.lists), "", 0.0);
 }
 
-static const char *const operator_name[OPERATORS] = {"density",        "corrected gradient", "ICSPM derivatives", "Brookshaw Laplacian",
-                                                     "Brookshaw rows", "apply stored rows"};
+static const char *const operator_name[OPERATORS] = {
+    "density",           "corrected gradient",      "Brookshaw Laplacian",        "Brookshaw rows",       "apply stored rows",
+    "ICSPM derivatives", "acceleration (pressure)", "fluid rates with viscosity", "M-SPH rows (assembly)"};
 
 static void bench_size(int dim, int side, int largest, int level, range *flat_lists, range *flat_density)
 {
@@ -808,12 +831,12 @@ static void bench_size(int dim, int side, int largest, int level, range *flat_li
     memset(checked, 0, sizeof checked);
     memset(op_threads, 0, sizeof op_threads);
     for (k = 0; k < OPERATORS; k++) {
-        if (big && !full && k == ICSPM) continue;
+        if (big && !full && k >= ICSPM) continue;
         op[k] = add(OPERATOR, operator_name[k], 0, &ops_main, k, &lattice, 1);
-        if (all && k != APPLY && k != ICSPM && (full || !big)) checked[k] = add(OPERATOR, operator_name[k], 0, &ops_checked, k, &lattice, 1);
+        if (all && k != APPLY && k < ICSPM && (full || !big)) checked[k] = add(OPERATOR, operator_name[k], 0, &ops_checked, k, &lattice, 1);
 #if HAVE_OPENMP
         for (threads = 1; threads <= 2; threads++)
-            if (all && k != ICSPM && (full || k == DENSITY || k == GRADIENT))
+            if (all && k < ICSPM && (full || k == DENSITY || k == GRADIENT))
                 op_threads[threads][k] = add(OPERATOR, operator_name[k], 0, &ops_omp, k, &lattice, threads);
 #endif
     }
@@ -841,6 +864,7 @@ static void bench_size(int dim, int side, int largest, int level, range *flat_li
     range_add(flat_density, over_reference(op[DENSITY], 0));
     if (dim == 3 && near_1e5) {
         target("density / (W+F) at 1e5", over_reference(op[DENSITY], 0), "<=", 1.7);
+        target("acceleration / (W+F) at 1e5", over_reference(op[ACCELERATION], 0), "<=", 2.1);
         target("corrected gradient / (W+F) at 1e5", over_reference(op[GRADIENT], 0), "<=", 3.3);
     }
     if (dim == 3 && largest && op_threads[2][DENSITY]) {
