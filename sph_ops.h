@@ -90,6 +90,9 @@
  *   divergence     sph_cleaning_rates(k, dim, ..h, gas, B, psi, div_v, ch, sigma, rate_B, rate_psi, div_B)   conservative cleaning of B alone
  *   cleaning       sph_cleaning_rates_symmetric, sph_cleaning_rates_nonconservative      other pairs of operators, for comparison
  *                  sph_divergence_difference(k, dim, ..h, gas, A, out)  sph_divergence_symmetric  sph_gradient_symmetric  sph_curl_difference
+ *   gravity        sph_gravity_direct(k, first, last, points, h, m, G, acceleration, potential)     all pairs; cubic spline and Wendland kernels
+ *                  sph_gravity_zeta(k, first, last, points, list, h, m, rho, zeta)
+ *                  sph_gravity_correction(k, first, last, points, list, h, gas, zeta, G, acceleration)   what an h that follows the density adds
  *   pair tier      sph_density_pair  sph_density_value  sph_density_omega  sph_density_mismatch
  *                  sph_gradient_pair_difference  sph_laplacian_weight_brookshaw  sph_laplacian_weight_kernel  sph_boundary_weight_bim
  *                  sph_moment_weight_gradient  sph_test_weights_cspm  sph_test_weights_wls  sph_moments_zero  sph_moments_add  sph_moments_add_value
@@ -99,7 +102,7 @@
  *                  sph_viscosity_pair_signal  sph_viscosity_mu_pair_morris  sph_viscosity_mu_pair_monaghan_cleary  sph_pressure_tait  sph_density_tait
  *                  sph_sound_speed_tait  sph_time_step_sound  sph_time_step_force  sph_time_step_viscous_nu  sph_collision_pair  sph_collision_acceleration_pair
  *                  sph_mhd_traction  sph_mhd_fast_speed  sph_mhd_signal_speed  sph_conductivity_speed  sph_cleaning_rate  sph_cleaning_rate_scaled
- *                  sph_cleaning_rate_velocity  sph_cleaning_sigma  sph_euler_potentials  sph_viscosity_switch_rate
+ *                  sph_gravity_pair  sph_cleaning_rate_velocity  sph_cleaning_sigma  sph_euler_potentials  sph_viscosity_switch_rate
  *                  sph_solve_gradient  sph_solve_cspm  sph_solve_block  sph_row_cspm  sph_row_block  sph_row_weight  sph_jet_laplacian
  */
 #ifndef SPH_OPS_H
@@ -4205,6 +4208,111 @@ SPH_FN sph_index sph_mhd_signal_speed_largest(sph_kernel k, int dim, sph_index f
             if (r < support * (h_i > h_j ? h_i : h_j) && fast > largest) largest = fast;
         }
         failed += sphi_store_finite(out, i, largest);
+    }
+    return failed;
+}
+
+/* ================================================================ list tier: self-gravity, three dimensions
+   E = G/2 sum_i sum_j m_i m_j (phi(r, h_i) + phi(r, h_j)) / 2, a particle with itself included. With an h that follows the density E depends on it, too, and forces have a second part (sph_gravity_correction)
+   without which energy is not conserved. Price & Monaghan 2007, MNRAS 374, 1347. Kernels with sph_kernel_has_gravity only (SPH_ERROR_KERNEL). */
+
+/* (1/r) d/dr of the mean of two softenings: a_i = -G sum_j m_j sph_gravity_pair x_ij. Beyond both supports Newton's 1/r^3; 0 between coincident particles, because x_ij is. */
+SPH_FN sph_real sph_gravity_pair(sph_kernel k, sph_real r, sph_real h_i, sph_real h_j)
+{
+    return SPH_R(0.5) * (sph_gravity_force(k, r, h_i) + sph_gravity_force(k, r, h_j));
+}
+
+SPH_FN int sphi_check_gravity(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_scalars h, sph_scalars m, sph_real G)
+{
+    if ((int)k < 0 || (int)k >= (int)SPH_KERNEL_COUNT || !sph_kernel_has_gravity(k)) return SPH_ERROR_KERNEL;
+    if (!x.x || !x.y || !x.z || !h.p || !m.p) return SPH_ERROR_NULL;
+    if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
+    if (first < 0 || first > last || last > x.n) return SPH_ERROR_RANGE;
+    if (!sphi_finite(G)) return SPH_ERROR_VALUE;
+    if (!SPH_CHECK) return 0;
+    if (!sphi_all_finite(h, x.n) || !sphi_all_positive(h, x.n)) return SPH_ERROR_H;
+    if (!sphi_all_finite(sph_scalars_strided(x.x, x.stride), x.n) || !sphi_all_finite(sph_scalars_strided(x.y, x.stride), x.n) ||
+        !sphi_all_finite(sph_scalars_strided(x.z, x.stride), x.n))
+        return SPH_ERROR_POSITION;
+    return sphi_all_finite(m, x.n) ? 0 : SPH_ERROR_VALUE;
+}
+/* Acceleration and potential G sum_j m_j (phi(r, h_i) + phi(r, h_j)) / 2 (itself included; may be null) of the targets, by all sources: n^2 steps, for small clouds and to measure trees against. Isolated: box
+   lengths are not looked at. Momentum is conserved to round-off. */
+SPH_FN sph_index sph_gravity_direct(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_scalars h, sph_scalars m, sph_real G,
+                                    sph_vector_out acceleration, SPH_GLOBAL sph_real *potential)
+{
+    int error = sphi_check_gravity(k, first, last, x, h, m, G);
+    sph_index i, j, failed = 0;
+    if (!error) error = sphi_check_vector(3, acceleration.x, acceleration.y, acceleration.z);
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(3, x, i);
+        const sph_real h_i = sphi_at(h, i);
+        sph_vec a = {SPH_R(0), SPH_R(0), SPH_R(0)};
+        sph_real phi = SPH_R(0);
+        int lost;
+        for (j = 0; j < x.n; j++) {
+            const sph_vec x_ij = sph_subtract(3, x_i, sphi_point(3, x, j));
+            const sph_real r = sph_length(3, x_ij), m_j = sphi_at(m, j), h_j = sphi_at(h, j);
+            a = sph_subtract(3, a, sph_scale(G * m_j * sph_gravity_pair(k, r, h_i, h_j), x_ij));
+            phi += SPH_R(0.5) * G * m_j * (sph_gravity_potential(k, r, h_i) + sph_gravity_potential(k, r, h_j));
+        }
+        lost = sphi_store_vector(3, acceleration, i, a);
+        if (potential) lost |= sphi_store_finite(potential, i, phi);
+        failed += lost;
+    }
+    return failed;
+}
+/* zeta_i = dh_i/drho_i sum_j m_j dphi/dh(r, h_i), itself included, dh/drho = -h / (3 rho): (22) there. Lists as for the density. */
+SPH_FN sph_index sph_gravity_zeta(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars m, sph_scalars rho,
+                                  SPH_GLOBAL sph_real *zeta)
+{
+    int error = sphi_check_sweep(k, 3, first, last, x, list, h, m);
+    sph_index i, p, failed = 0;
+    if (!error && !sph_kernel_has_gravity(k)) error = SPH_ERROR_KERNEL;
+    if (!error) error = sphi_check_positive(rho, x.n);
+    if (!error && !zeta) error = SPH_ERROR_NULL;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(3, x, i);
+        const sph_real h_i = sphi_at(h, i);
+        sph_real sum = sphi_at(m, i) * sph_gravity_dphidh(k, SPH_R(0), h_i);
+        for (p = list.start[i]; p < list.start[i + 1]; p++)
+            sum += sphi_at(m, list.index[p]) * sph_gravity_dphidh(k, sph_length(3, sphi_separation(3, x, x_i, sphi_point(3, x, list.index[p]))), h_i);
+        failed += sphi_store_finite(zeta, i, -h_i / (SPH_R(3) * sphi_at(rho, i)) * sum);
+    }
+    return failed;
+}
+/* What self-gravity adds where h follows the density: a_i = -(G/2) sum_j m_j (zeta_i F_i / Omega_i + zeta_j F_j / Omega_j) x_ij, pairwise antisymmetric. Lists of all pairs within the larger support (SPH_LARGER). */
+SPH_FN sph_index sph_gravity_correction(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
+                                        sph_scalars zeta, sph_real G, sph_vector_out acceleration)
+{
+    int error = sphi_check_gas(k, 3, first, last, x, list, h, gas);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_field(zeta, x.n);
+    if (!error) error = sphi_check_out(3, acceleration);
+    if (!error && !sphi_finite(G)) error = SPH_ERROR_VALUE;
+    if (error) return error;
+    for (i = first; i < last; i++) {
+        const sph_vec x_i = sphi_point(3, x, i);
+        const sph_real h_i = sphi_at(h, i), own = sphi_at(zeta, i) / sphi_at(gas.omega, i);
+        sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0);
+        sph_vec sum;
+        SPH_SUM(ax, ay, az)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            const sph_vec x_ij = sphi_separation(3, x, x_i, sphi_point(3, x, j));
+            const sph_real r = sph_length(3, x_ij);
+            const sph_real b = SPH_R(-0.5) * G * sphi_at(gas.m, j) *
+                               (own * sph_kernel_f(k, 3, r, h_i) + sphi_at(zeta, j) / sphi_at(gas.omega, j) * sph_kernel_f(k, 3, r, sphi_at(h, j)));
+            ax += b * x_ij.x;
+            ay += b * x_ij.y;
+            az += b * x_ij.z;
+        }
+        sum.x = ax;
+        sum.y = ay;
+        sum.z = az;
+        failed += sphi_store_vector(3, acceleration, i, sum);
     }
     return failed;
 }
