@@ -273,6 +273,91 @@ static void test_energy(void)
                 }
 }
 
+/* all of sph_mhd_rates again, from the equations, in double: what conservation does not see (means of the pair, factors of the dissipation) */
+static void test_by_hand(void)
+{
+    int dim, own, parts;
+    for (dim = 1; dim <= 3; dim++)
+        for (own = 0; own < 2; own++)
+            for (parts = dim; parts <= 3; parts += parts == dim && dim < 3 ? 3 - dim : 1) {
+                state s = random_state(dim, own, parts);
+                const sph_mhd m = mhd(&s, parts, 1, 0.6, 0.8, 0.7);
+                double worst[4] = {0, 0, 0, 0}, size[4] = {0, 0, 0, 0};
+                sph_index i, q;
+                int k;
+                CHECK(rates(&s, m, field(&s, H)) == 0);
+                for (i = 0; i < s.c.n; i++) {
+                    double a[3] = {0, 0, 0}, b[3] = {0, 0, 0}, u = 0.0, divB = 0.0, divv = 0.0, psi, xi[3], Bi[3], vi[3];
+                    const double ri = (double)s.a[RHO][i], oi = (double)s.a[OMEGA][i], hi = (double)s.a[H][i], Pi = (double)s.a[P][i];
+                    cloud_position(&s.c, i, xi);
+                    for (k = 0; k < 3; k++) {
+                        Bi[k] = (double)s.a[BX + k][i];
+                        vi[k] = (double)s.a[VX + k][i];
+                    }
+                    for (q = s.c.start[i]; q < s.c.start[i + 1]; q++) {
+                        const sph_index j = s.c.index[q];
+                        const double rj = (double)s.a[RHO][j], oj = (double)s.a[OMEGA][j], hj = (double)s.a[H][j], Pj = (double)s.a[P][j],
+                                     mj = (double)s.a[M][j], mean = 0.5 * (ri + rj);
+                        double xj[3], e[3], r = 0.0, w = 0.0, Bri = 0.0, Brj = 0.0, Fi, Fj, G, B2i = 0.0, B2j = 0.0, dB2 = 0.0, fast[2], vsig, gi, gj;
+                        cloud_position(&s.c, j, xj);
+                        for (k = 0; k < 3; k++) {
+                            e[k] = xi[k] - xj[k];
+                            r += e[k] * e[k];
+                        }
+                        r = sqrt(r);
+                        for (k = 0; k < 3; k++) {
+                            const double Bj = (double)s.a[BX + k][j];
+                            e[k] /= r;
+                            w += (vi[k] - (double)s.a[VX + k][j]) * e[k];
+                            Bri += Bi[k] * e[k];
+                            Brj += Bj * e[k];
+                            B2i += Bi[k] * Bi[k];
+                            B2j += Bj * Bj;
+                            dB2 += (Bi[k] - Bj) * (Bi[k] - Bj);
+                        }
+                        Fi = (double)sph_kernel_dwdr(KERNEL, dim, SPH_R(r), SPH_R(hi)); /* dW/dr */
+                        Fj = (double)sph_kernel_dwdr(KERNEL, dim, SPH_R(r), SPH_R(hj));
+                        G = 0.5 * (Fi / oi + Fj / oj);
+                        gi = Fi / (oi * ri * ri);
+                        gj = Fj / (oj * rj * rj);
+                        for (k = 0; k < 2; k++) {
+                            const double c2 = pow((double)s.a[CS][k ? j : i], 2.0), va2 = k ? B2j / rj : B2i / ri, along = k ? Brj * Brj / rj : Bri * Bri / ri;
+                            fast[k] = sqrt(0.5 * (c2 + va2 + sqrt(fmax(0.0, (c2 + va2) * (c2 + va2) - 4.0 * c2 * along))));
+                        }
+                        vsig = 0.5 * (fast[0] + fast[1] + 2.0 * fabs(w));
+                        for (k = 0; k < 3; k++) {
+                            const double Bj = (double)s.a[BX + k][j], vij = vi[k] - (double)s.a[VX + k][j];
+                            a[k] += mj * ((Bi[k] * Bri - (Pi + 0.5 * B2i) * e[k]) * gi + (Bj * Brj - (Pj + 0.5 * B2j) * e[k]) * gj);
+                            a[k] -= 0.7 * Bi[k] * mj * (Bri * gi + Brj * gj);
+                            b[k] -= mj / (oi * ri) * (vij * Bri - Bi[k] * w) * Fi;
+                            b[k] -= ri * mj * ((double)s.a[PSI][i] * gi + (double)s.a[PSI][j] * gj) * e[k];
+                            b[k] += ri * mj * 0.6 * vsig / (mean * mean) * (Bi[k] - Bj) * G;
+                            if (w < 0.0) a[k] += mj * 0.5 * ((double)s.a[ALPHA][i] + (double)s.a[ALPHA][j]) * vsig * w / mean * G * e[k];
+                        }
+                        u += Pi / (oi * ri * ri) * mj * w * Fi;
+                        if (w < 0.0) u -= 0.5 * mj * 0.5 * ((double)s.a[ALPHA][i] + (double)s.a[ALPHA][j]) * vsig * w * w / mean * G;
+                        u += mj * 0.8 * sqrt(fabs(Pi - Pj) / mean) / mean * ((double)s.a[U][i] - (double)s.a[U][j]) * G;
+                        u -= 0.5 * mj * 0.6 * vsig / (mean * mean) * dB2 * G;
+                        divB -= mj * (Bri - Brj) * Fi / (oi * ri);
+                        divv -= mj * w * Fi / (oi * ri);
+                    }
+                    psi = -1.7 * 1.7 * divB - 0.5 * (double)s.a[PSI][i] * divv;
+                    for (k = 0; k < parts; k++) {
+                        worst[0] = fmax(worst[0], fabs(a[k] - (double)s.a[AX + k][i]));
+                        worst[1] = fmax(worst[1], fabs(b[k] - (double)s.a[RBX + k][i]));
+                        size[0] = fmax(size[0], fabs(a[k]));
+                        size[1] = fmax(size[1], fabs(b[k]));
+                    }
+                    worst[2] = fmax(worst[2], fabs(u - (double)s.a[RU][i]));
+                    worst[3] = fmax(worst[3], fabs(psi - (double)s.a[RPSI][i]));
+                    size[2] = fmax(size[2], fabs(u));
+                    size[3] = fmax(size[3], fabs(psi));
+                }
+                for (k = 0; k < 4; k++) CHECK_CLOSE(worst[k], 0.0, 500.0 * EPSILON * size[k]);
+                state_free(&s);
+            }
+}
+
 /* heating by viscosity and resistivity is never negative; switched off there is none */
 static void test_heating(void)
 {
@@ -395,6 +480,9 @@ static void test_values(void)
     CHECK((double)sph_cleaning_sigma(2) < 0.31 && (double)sph_cleaning_sigma(3) > 0.79);
     c = sph_euler_potentials(a, b); /* grad A = (0, 2, 0): B = (dA/dy, -dA/dx) */
     CHECK((double)c.x == 2.0 && (double)c.y == 0.0 && (double)c.z == 0.0);
+    a.x = SPH_R(3), a.z = SPH_R(5), b.x = SPH_R(7), b.y = SPH_R(11), b.z = SPH_R(13); /* (3, 2, 5) x (7, 11, 13) */
+    c = sph_euler_potentials(a, b);
+    CHECK((double)c.x == 26.0 - 55.0 && (double)c.y == 35.0 - 39.0 && (double)c.z == 33.0 - 14.0);
     CHECK_RELATIVE((double)sph_viscosity_switch_rate(SPH_R(0.5), SPH_R(0.1), SPH_R(2), SPH_R(3), SPH_R(0.2), SPH_R(-4)), -0.4 * 1.5 + 4.0 * 1.5,
                    16.0 * EPSILON);
     CHECK_RELATIVE((double)sph_viscosity_switch_rate(SPH_R(0.5), SPH_R(0.1), SPH_R(2), SPH_R(3), SPH_R(0.2), SPH_R(4)), -0.4 * 1.5, 16.0 * EPSILON);
@@ -549,6 +637,7 @@ int main(void)
 {
     test_conjugate();
     test_energy();
+    test_by_hand();
     test_heating();
     test_linear();
     test_values();

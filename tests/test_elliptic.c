@@ -691,6 +691,66 @@ static void test_statuses(void)
     }
 }
 
+/* Gamma* by hand, where it was taken: rows scale with the trace of its inverse over that of Gamma's */
+static void test_gamma_star(void)
+{
+    int dim;
+    for (dim = 2; dim <= 3; dim++) {
+        setup s = disordered(dim, 0);
+        sph_elliptic_options o = with(0);
+        sph_real *const plain = (sph_real *)cloud_memory((size_t)s.c.pairs, sizeof *plain);
+        double worst = 0.0;
+        sph_index i, p;
+        int taken = 0;
+        CHECK(rows(M, &s, o) == 0);
+        memcpy(plain, s.row, (size_t)s.c.pairs * sizeof *plain);
+        o.gamma_star = 1;
+        CHECK(rows(M, &s, o) > 0);
+        for (i = 0; i < s.c.n; i++) {
+            sph_sym gamma = {SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0)}, star = gamma, inverse, star_inverse;
+            sph_vec n = {SPH_R(0), SPH_R(0), SPH_R(0)}, xi;
+            sph_index largest = -1;
+            int pass;
+            if (s.status[i] != SPH_OK) continue;
+            for (pass = 0; pass < 2; pass++) {
+                double g[6] = {0, 0, 0, 0, 0, 0}, v[3] = {0, 0, 0};
+                for (p = s.c.start[i]; p < s.c.start[i + 1]; p++) {
+                    const sph_index j = s.c.index[p];
+                    double xi_[3], xj[3], e[3], G;
+                    int a;
+                    cloud_position(&s.c, i, xi_);
+                    cloud_position(&s.c, j, xj);
+                    for (a = 0; a < 3; a++) e[a] = xj[a] - xi_[a];
+                    G = -(double)s.c.V[j] * (double)sph_kernel_f(KERNEL, dim, SPH_R(sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2])), s.c.h);
+                    if (pass) G *= 1.0 - ((double)xi.x * e[0] + (double)xi.y * e[1] + (double)xi.z * e[2]);
+                    g[0] += G * e[0] * e[0], g[1] += G * e[0] * e[1], g[2] += G * e[1] * e[1], g[3] += G * e[0] * e[2], g[4] += G * e[1] * e[2],
+                        g[5] += G * e[2] * e[2];
+                    for (a = 0; a < 3; a++) v[a] += G * e[a];
+                    if (largest < 0 || fabs((double)plain[p]) > fabs((double)plain[largest])) largest = p;
+                }
+                {
+                    sph_sym *const m = pass ? &star : &gamma;
+                    m->xx = SPH_R(g[0]), m->xy = SPH_R(g[1]), m->yy = SPH_R(g[2]), m->xz = SPH_R(g[3]), m->yz = SPH_R(g[4]), m->zz = SPH_R(g[5]);
+                    CHECK(sph_solve_gradient(dim, *m, pass ? &star_inverse : &inverse, 0) == SPH_OK);
+                }
+                if (!pass) {
+                    n.x = SPH_R(v[0]), n.y = SPH_R(v[1]), n.z = SPH_R(v[2]);
+                    xi.x = inverse.xx * n.x + inverse.xy * n.y + (dim > 2 ? inverse.xz * n.z : SPH_R(0));
+                    xi.y = inverse.xy * n.x + inverse.yy * n.y + (dim > 2 ? inverse.yz * n.z : SPH_R(0));
+                    xi.z = dim > 2 ? inverse.xz * n.x + inverse.yz * n.y + inverse.zz * n.z : SPH_R(0);
+                }
+            }
+            worst =
+                worse(worst, (double)s.row[largest] / (double)plain[largest] * (double)sphi_trace(dim, inverse) / (double)sphi_trace(dim, star_inverse) - 1.0);
+            taken++;
+        }
+        CHECK(taken > s.c.n / 4);
+        CHECK_CLOSE(worst, 0.0, BY_PRECISION(1e-10, 5e-2));
+        free(plain);
+        setup_free(&s);
+    }
+}
+
 /* options.trace: |x|^2 exactly, at any particle of any cloud that did not fall back; the plain factor misses it */
 static void test_trace(void)
 {
@@ -1019,6 +1079,7 @@ int main(void)
     test_anisotropic();
     test_boundary();
     test_statuses();
+    test_gamma_star();
     test_trace();
     test_diagnose();
     test_eigenvalues();

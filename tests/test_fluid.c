@@ -506,6 +506,62 @@ static void test_distribution(void)
     cloud_free(&c);
 }
 
+/* the hexatic order again, with angles; and coincident particles in one and three dimensions */
+static void test_hexatic_and_separation(void)
+{
+    cloud c = cloud_lattice(2, 15, 1.5, 0.3, 4);
+    sph_real *const out = (sph_real *)cloud_memory((size_t)c.n, sizeof *out);
+    double worst = 0.0;
+    sph_index i, p;
+    int dim;
+    CHECK(sph_hexatic_order(0, c.n, cloud_points(&c), cloud_list(&c), out, 0) == 0);
+    for (i = 0; i < c.n; i++) {
+        double r[6] = {9, 9, 9, 9, 9, 9}, theta[6] = {0}, re = 0.0, im = 0.0;
+        int k;
+        for (p = c.start[i]; p < c.start[i + 1]; p++) {
+            const double x = (double)(c.x[c.index[p]] - c.x[i]), y = (double)(c.y[c.index[p]] - c.y[i]);
+            if (hypot(x, y) >= r[5]) continue;
+            for (k = 5; k > 0 && r[k - 1] > hypot(x, y); k--) {
+                r[k] = r[k - 1];
+                theta[k] = theta[k - 1];
+            }
+            r[k] = hypot(x, y);
+            theta[k] = atan2(y, x);
+        }
+        for (k = 0; k < 6; k++) {
+            re += cos(6.0 * theta[k]) / 6.0;
+            im += sin(6.0 * theta[k]) / 6.0;
+        }
+        worst = worse(worst, hypot(re, im) - (double)out[i]);
+    }
+    CHECK_CLOSE(worst, 0.0, 200.0 * EPSILON);
+    free(out);
+    cloud_free(&c);
+    for (dim = 1; dim <= 3; dim++) {
+        sph_vector_out to;
+        double d2;
+        c = cloud_lattice(dim, 7, 1.5, 0.1, 4);
+        c.x[5] = c.x[4];
+        c.y[5] = c.y[4];
+        c.z[5] = c.z[4];
+        cloud_neighbors(&c, 2.0 * (double)c.h);
+        to.x = (sph_real *)cloud_memory(3 * (size_t)c.n, sizeof *to.x);
+        to.y = to.x + c.n;
+        to.z = to.y + c.n;
+        CHECK(sph_separate_coincident(dim, 0, c.n, cloud_points(&c), cloud_list(&c), SPH_R(0), SPH_R(0.01), to) == 2);
+        for (i = 4; i < 6; i++) {
+            d2 = pow((double)(to.x[i] - c.x[i]), 2.0) + pow((double)(to.y[i] - c.y[i]), 2.0) + pow((double)(to.z[i] - c.z[i]), 2.0);
+            CHECK_RELATIVE(sqrt(d2), 0.01, 1e-4);
+        }
+        d2 = pow((double)(to.x[5] - to.x[4]), 2.0) + pow((double)(to.y[5] - to.y[4]), 2.0) + pow((double)(to.z[5] - to.z[4]), 2.0);
+        CHECK(sqrt(d2) > 0.005);
+        for (i = 0; i < c.n; i++)
+            if (i != 4 && i != 5) CHECK(to.x[i] == c.x[i] && (dim < 2 || to.y[i] == c.y[i]) && (dim < 3 || to.z[i] == c.z[i]));
+        free(to.x);
+        cloud_free(&c);
+    }
+}
+
 /* ---- bad input ---- */
 
 static void test_bad_input(void)
@@ -569,6 +625,7 @@ int main(void)
     test_xsph();
     test_wall();
     test_distribution();
+    test_hexatic_and_separation();
     test_bad_input();
     return check_report("test_fluid");
 }
