@@ -222,6 +222,38 @@ static void test_by_hand(void)
 
 /* ---- conservation: sum m a = 0, sum m x cross a = 0; the work of pressure is the change of internal energy ---- */
 
+static void test_conserved_sums(void)
+{
+    cloud c = cloud_new(3, 2);
+    flow f = flow_of(c, 1);
+    sph_conserved q;
+    const double x[2][3] = {{1, 2, 3}, {-4, 5, 0.5}}, v[2][3] = {{0.5, -1, 2}, {3, 1, -0.25}}, m[2] = {2, 3};
+    double l[3] = {0, 0, 0}, p[3] = {0, 0, 0}, e = 0.0;
+    int i, k;
+    for (i = 0; i < 2; i++) {
+        f.m[i] = SPH_R(m[i]);
+        f.c.x[i] = SPH_R(x[i][0]);
+        f.c.y[i] = SPH_R(x[i][1]);
+        f.c.z[i] = SPH_R(x[i][2]);
+        for (k = 0; k < 3; k++) {
+            f.v[k][i] = SPH_R(v[i][k]);
+            p[k] += m[i] * v[i][k];
+            e += 0.5 * m[i] * v[i][k] * v[i][k];
+            l[k] += m[i] * (x[i][(k + 1) % 3] * v[i][(k + 2) % 3] - x[i][(k + 2) % 3] * v[i][(k + 1) % 3]);
+        }
+    }
+    q = conserved(&f, f.v);
+    CHECK_CLOSE((double)q.mass, 5.0, 8.0 * EPSILON);
+    CHECK_CLOSE((double)q.kinetic_energy, e, 64.0 * EPSILON);
+    CHECK_CLOSE((double)q.momentum.x, p[0], 64.0 * EPSILON);
+    CHECK_CLOSE((double)q.momentum.y, p[1], 64.0 * EPSILON);
+    CHECK_CLOSE((double)q.momentum.z, p[2], 64.0 * EPSILON);
+    CHECK_CLOSE((double)q.angular_momentum.x, l[0], 256.0 * EPSILON);
+    CHECK_CLOSE((double)q.angular_momentum.y, l[1], 256.0 * EPSILON);
+    CHECK_CLOSE((double)q.angular_momentum.z, l[2], 256.0 * EPSILON);
+    flow_free(&f);
+}
+
 static void test_conservation(void)
 {
     int dim, own, form, viscosity;
@@ -250,9 +282,12 @@ static void test_conservation(void)
                     CHECK_CLOSE((double)q.momentum.x, 0.0, 50.0 * EPSILON * size);
                     CHECK_CLOSE((double)q.momentum.y, 0.0, 50.0 * EPSILON * size);
                     CHECK_CLOSE((double)q.momentum.z, 0.0, 50.0 * EPSILON * size);
-                    if (form != FORMS) CHECK_CLOSE((double)q.angular_momentum.z, 0.0, 50.0 * EPSILON * size);
-                    else if (dim > 1) CHECK(fabs((double)q.angular_momentum.z) > 1e-6 * size); /* Morris's viscosity does not conserve it */
-                    if (form >= FORMS) CHECK(power < 0.0);                                     /* physical viscosity only takes */
+                    if (form != FORMS) {
+                        CHECK_CLOSE((double)q.angular_momentum.x, 0.0, 50.0 * EPSILON * size);
+                        CHECK_CLOSE((double)q.angular_momentum.y, 0.0, 50.0 * EPSILON * size);
+                        CHECK_CLOSE((double)q.angular_momentum.z, 0.0, 50.0 * EPSILON * size);
+                    } else if (dim > 1) CHECK(fabs((double)q.angular_momentum.z) > 1e-6 * size); /* Morris's viscosity does not conserve it */
+                    if (form >= FORMS) CHECK(power < 0.0);                                       /* physical viscosity only takes */
                     if (form == MONAGHAN && viscosity == SPH_VISCOSITY_NONE)
                         for (i = 0; i < f.c.n; i++) internal += (double)f.m[i] * (double)f.p[i] / pow((double)f.rho[i], 2.0) * (double)f.rate[i];
                     if (form == COLAGROSSI && viscosity == SPH_VISCOSITY_NONE)
@@ -619,6 +654,7 @@ int main(void)
     test_equation_of_state();
     test_viscosity_pairs();
     test_by_hand();
+    test_conserved_sums();
     test_conservation();
     test_linear();
     test_jump();
