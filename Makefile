@@ -5,6 +5,8 @@
 CC ?= cc
 CFLAGS ?= -O2
 WARN = -std=c99 -Wall -Wextra -Wpedantic
+# the drivers' sweeps run in two thirds of the time with it; compilers that do not know it go without
+SIMD := $(shell echo 'int x;' | $(CC) -fopenmp-simd -x c -c -o /dev/null - 2> /dev/null && echo -fopenmp-simd -DSPH_SIMD=1)
 LDLIBS = -lm
 BUILD = build
 RESULTS = $(BUILD)/results
@@ -79,7 +81,7 @@ $(BUILD)/examples/scoreboard: examples/common/scoreboard.c $(COMMON)
 	$(CC) $(WARN) $(CFLAGS) -o $@ $< $(LDLIBS)
 $(BUILD)/examples/%: examples/papers/%.c $(COMMON) $(HEADERS)
 	@mkdir -p $(@D)
-	$(CC) $(WARN) $(CFLAGS) -o $@ $< $(LDLIBS)
+	$(CC) $(WARN) $(CFLAGS) $(SIMD) -o $@ $< $(LDLIBS)
 
 # ---------------------------------------------------------------- tests
 
