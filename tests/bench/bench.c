@@ -66,7 +66,7 @@ typedef struct search {
 } search;
 
 /* those from ICSPM on take long to compile and are in the main form only: their checks and their ranges are like those of the others */
-enum { DENSITY, GRADIENT, BROOKSHAW, ROWS, APPLY, ICSPM, ACCELERATION, FLUID, MSPH_ROWS, OPERATORS };
+enum { DENSITY, GRADIENT, BROOKSHAW, ROWS, APPLY, ICSPM, ACCELERATION, FLUID, MSPH_ROWS, MHD, MHD_CLEANED, OPERATORS };
 typedef struct outputs {
     sph_real *g[10], *row;
 } outputs;
@@ -226,6 +226,31 @@ SPH_FN sph_index apply_range(int which, int dim, sph_index first, sph_index last
         r.row = o->row;
         r.diagonal = o->g[0];
         return sph_elliptic_rows_msph(KERNEL, dim, first, last, x, list, h, V, V, sph_elliptic_defaults(), r);
+    }
+    case MHD: /* as many components as dimensions */
+    case MHD_CLEANED: {
+        sph_mhd s;
+        sph_mhd_out r;
+        s.gas.m = s.gas.rho = s.gas.omega = s.P = s.u = s.cs = s.alpha = V;
+        s.v.x = s.v.y = s.B.x = s.B.y = f;
+        s.v.z = s.B.z = sph_scalars_array(dim > 2 ? c->f : 0);
+        s.psi = sph_scalars_array(0);
+        s.ch = s.alpha_u = s.alpha_B = s.tensile = SPH_R(1);
+        s.sigma = SPH_R(0.3);
+        s.beta = SPH_R(2);
+        r.acceleration.x = o->g[0];
+        r.acceleration.y = o->g[1];
+        r.acceleration.z = o->g[2];
+        r.rate_B.x = o->g[3];
+        r.rate_B.y = o->g[4];
+        r.rate_B.z = o->g[5];
+        r.rate_u = o->g[6];
+        r.rate_psi = o->g[7];
+        r.div_B = o->g[8];
+        r.div_v = o->g[9];
+        if (which == MHD) return sph_mhd_rates(KERNEL, dim, first, last, x, list, h, s, r);
+        s.psi = f;
+        return sph_mhd_rates(KERNEL, dim, first, last, x, list, h, s, r);
     }
 #endif
     default:
@@ -702,9 +727,17 @@ static void random_targets(const char *path, pair lattice, pair shuffled, pair s
     target(text, ratio(shuffled.grid, shuffled.lists, lattice.grid, lattice.lists), "", 0.0);
 }
 
-static const char *const operator_name[OPERATORS] = {
-    "density",           "corrected gradient",      "Brookshaw Laplacian",        "Brookshaw rows",       "apply stored rows",
-    "ICSPM derivatives", "acceleration (pressure)", "fluid rates with viscosity", "M-SPH rows (assembly)"};
+static const char *const operator_name[OPERATORS] = {"density",
+                                                     "corrected gradient",
+                                                     "Brookshaw Laplacian",
+                                                     "Brookshaw rows",
+                                                     "apply stored rows",
+                                                     "ICSPM derivatives",
+                                                     "acceleration (pressure)",
+                                                     "fluid rates with viscosity",
+                                                     "M-SPH rows (assembly)",
+                                                     "SPMHD rates",
+                                                     "SPMHD rates with cleaning"};
 
 static void bench_size(int dim, int side, int largest, int level, range *flat_lists, range *flat_density)
 {
