@@ -89,7 +89,7 @@ test: $(TEST_PROGRAMS) $(DRIVERS:%=$(BUILD)/examples/%) $(BUILD)/examples/scoreb
 	@CC="$(CC)" BUILD="$(BUILD)" JOBS="$(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS)))" sh tests/run.sh $(TEST_PROGRAMS) $(TEST_SCRIPTS)
 
 test-sanitize:
-	$(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all" TESTS_FLOAT= TEST_SCRIPTS=tests/examples.sh test
+	$(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all" TESTS_FLOAT= DRIVERS="icspm_uniform icspm_random elliptic_slit elliptic_spe10" TEST_SCRIPTS=tests/examples.sh test
 
 $(BUILD)/tests/%-float: tests/test_%.c $(wildcard tests/*.h) $(COMMON) $(HEADERS)
 	@mkdir -p $(@D)

@@ -1782,7 +1782,7 @@ SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_index first, sph_i
     if (error) return error;
     for (i = first; i < last; i++) {
         const sph_real h_i = sphi_at(h, i);
-        sph_sym K, C;
+        sph_sym K, C = {SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0)};
         sph_vec D;
         sph_real pivot = SPH_R(0);
         int state;
@@ -1817,7 +1817,7 @@ SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_index first, 
     for (i = first; i < last; i++) {
         const sph_vec x_i = sphi_point(dim, x, i);
         const sph_real h_i = sphi_at(h, i);
-        sph_sym K, C;
+        sph_sym K, C = {SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0)};
         sph_vec D;
         sph_real pivot = SPH_R(0);
         int state;

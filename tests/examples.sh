@@ -14,7 +14,7 @@ answers() { # status, text that must be printed, command ...
     return 1
 }
 
-for d in $(ls examples/papers/*.c | sed 's/.*\///; s/\.c$//'); do
+for d in $(cd "$bin" && ls | grep _); do # those that were built
     check "help" answers 0 "-out" "$bin/$d" -h
     check "unknown option" answers 2 "-nonsense" "$bin/$d" -nonsense
     check "missing value" answers 2 "-out" "$bin/$d" -out
