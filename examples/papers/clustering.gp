@@ -61,3 +61,144 @@ if (there("clustering_fig5")) {
     unset ylabel
     set autoscale
 }
+
+if (there("clustering_fig6_collisions")) {
+    set output dir."clustering_fig6.png"
+    set terminal pngcairo size 1200,1260 font "sans,12"
+    set multiplot layout 2,2 title "Figure 6: air between a rotating shaft and a wall, t = 0.5"
+    set size ratio 1
+    set xrange [-0.115:0.115]
+    set yrange [-0.115:0.115]
+    unset xlabel
+    unset key
+    array shaft[4] = ["hermite", "wendland", "convex", "collisions"]
+    array shaft_title[4] = ["(3.7), as the caption says", "(1.1), as elsewhere", "convex (3.9)", "(1.1) and collisions"]
+    do for [k = 1:4] {
+        set title shaft_title[k]
+        plot dir."clustering_fig6_".shaft[k].".csv" using ($8 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.6 linecolor rgb "#b0b0b0", \
+            "" using ($8 == 0 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.6 linecolor rgb "black"
+    }
+    unset multiplot
+    set size noratio
+    set autoscale
+    set key
+}
+
+# Figures 7, 8, 9: water black, air blue, ghosts grey
+array dam[5] = ["clustering_fig7", "clustering_dam_wendland_100", "clustering_dam_convex_100", "clustering_dam_collisions_100", ""]
+array dam_title[5] = ["Figure 7: at the start", "Figure 8: t = 0.1, (1.1)", "Figure 8: t = 0.1, convex (3.9)", "Figure 8: t = 0.1, (1.1) and collisions", ""]
+array late[3] = ["clustering_dam_single_700", "clustering_dam_wendland_700", "clustering_dam_collisions_700"]
+array late_title[3] = ["Figure 9: t = 0.7, (1.1), water only", "Figure 9: t = 0.7 (or the last picture before it blew up), (1.1)", "Figure 9: t = 0.7, (1.1) and collisions"]
+if (there("clustering_dam_collisions_100")) {
+    unset xlabel
+    unset key
+    set xrange [-0.03:1.03]
+    set yrange [-0.03:0.53]
+    set size ratio -1
+    set output dir."clustering_fig8.png"
+    set terminal pngcairo size 1600,960 font "sans,12"
+    set multiplot layout 2,2
+    do for [k = 1:4] {
+        set title dam_title[k]
+        plot dir.dam[k].".csv" using ($8 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.45 linecolor rgb "#b0b0b0", \
+            "" using ($8 == 0 && $7 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.45 linecolor rgb "#56a0e9", \
+            "" using ($8 == 0 && $7 == 0 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.45 linecolor rgb "black"
+    }
+    unset multiplot
+    if (there("clustering_dam_collisions_700")) {
+        set output dir."clustering_fig9.png"
+        set terminal pngcairo size 900,1500 font "sans,12"
+        set multiplot layout 3,1
+        do for [k = 1:3] {
+            set title late_title[k]
+            plot dir.late[k].".csv" using ($8 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.7 linecolor rgb "#b0b0b0", \
+                "" using ($8 == 0 && $7 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.7 linecolor rgb "#56a0e9", \
+                "" using ($8 == 0 && $7 == 0 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.7 linecolor rgb "black"
+        }
+        unset multiplot
+    }
+    # the same by speed and by pressure
+    set palette defined (0 "#30123b", 0.15 "#4686fb", 0.35 "#1ae4b6", 0.55 "#a2fc3c", 0.75 "#faba39", 0.9 "#e3440a", 1 "#7a0403")
+    set output dir."clustering_dam.png"
+    set terminal pngcairo size 1700,1260 font "sans,12"
+    set multiplot layout 3,2 title "Water and air with collisions"
+    do for [k = 1:3] {
+        dam_file = sprintf("clustering_dam_collisions_%d00", k)
+        set title sprintf("speed [m/s], t = %.1f s", 0.1 * k)
+        set cbrange [0:2.2]
+        plot dir.dam_file.".csv" using ($8 == 0 && $7 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.3 linecolor rgb "#c8d8e8", \
+            "" using ($8 == 0 && $7 == 0 ? $1 : NaN):2:(sqrt($3**2 + $4**2)) every ::1 with points pointtype 7 pointsize 0.55 linecolor palette
+        set title sprintf("pressure [kPa], t = %.1f s", 0.1 * k)
+        set cbrange [-0.5:2]
+        plot dir.dam_file.".csv" using ($8 == 0 ? $1 : NaN):2:($6 / 1000) every ::1 with points pointtype 7 pointsize 0.5 linecolor palette
+    }
+    unset multiplot
+    set size noratio
+    set autoscale
+    set key
+}
+
+if (there("clustering_front")) {
+    set output dir."clustering_front.png"
+    set terminal pngcairo size 900,560 font "sans,12"
+    set title "The front of the water (Ritter: x = 0.5 + 2 t sqrt(gH))"
+    set xlabel "t [s]"
+    set ylabel "x [m]"
+    set xrange [0:0.3]
+    set yrange [0.5:1]
+    set key top left
+    array front[4] = ["wendland", "collisions", "single", "single_collisions"]
+    array front_title[4] = ["(1.1), t = 0.1 only in quick runs", "(1.1) and collisions", "(1.1), water only", "(1.1) and collisions, water only"]
+    array front_dash[4] = [1, 1, 2, 2]
+    array front_color[4] = ["#000000", "#d55e00", "#000000", "#d55e00"]
+    plot for [k = 1:4] dir."clustering_front.csv" using (strcol(1) eq front[k] ? $2 : NaN):3 every 8::1 with lines linewidth 2 dashtype front_dash[k] linecolor rgb front_color[k] title front_title[k], \
+        0.5 + 2 * sqrt(9.81 * 0.2) * x with lines linecolor rgb "gray50" title "Ritter"
+    unset ylabel
+    set autoscale
+}
+
+if (there("clustering_column")) {
+    set output dir."clustering_column.png"
+    set terminal pngcairo size 900,560 font "sans,12"
+    set title "Front of a column of a x 2a: experiments and water only"
+    set xlabel "T = t sqrt(2 g / a)"
+    set ylabel "Z = x / a"
+    set xrange [0:3.4]
+    set yrange [1:4.5]
+    set key top left
+    array column_run[4] = ["martin_moyce", "koshizuka_oka", "single", "single_collisions"]
+    array column_title[4] = ["Martin & Moyce 1952", "Koshizuka & Oka 1996", "(1.1)", "(1.1) and collisions"]
+    array column_color[4] = ["#0072b2", "#009e73", "#000000", "#d55e00"]
+    plot for [k = 1:2] dir."clustering_column.csv" using (strcol(1) eq column_run[k] ? $2 : NaN):3 every ::1 with points pointtype (k == 1 ? 6 : 4) pointsize 1.3 linecolor rgb column_color[k] title column_title[k] noenhanced, \
+        for [k = 3:4] "" using (strcol(1) eq column_run[k] ? $2 : NaN):3 every ::1 with lines linewidth 2 linecolor rgb column_color[k] title column_title[k]
+    unset ylabel
+    set autoscale
+}
+
+if (there("clustering_taylor_green")) {
+    set output dir."clustering_flows.png"
+    set terminal pngcairo size 1700,520 font "sans,12"
+    set multiplot layout 1,3
+    set title "Vortices of Taylor and Green, Re = 100, 40 columns, h = 1.5 dref"
+    set xlabel "t"
+    set ylabel "energy / energy at the start"
+    set logscale y
+    set key bottom left
+    array vortex[5] = ["(1.1)", "(3.9)", "(1.1) + collisions", "Wendland C2", "(1.1) with p0 = 3.2"]
+    array vortex_color[5] = ["#000000", "#0072b2", "#d55e00", "#009e73", "#999999"]
+    plot for [k = 1:5] dir."clustering_taylor_green.csv" using (strcol(1) eq vortex[k] && $2 == 1.5 && $3 == 40 ? $4 : NaN):5 every ::1 with lines linewidth 2 linecolor rgb vortex_color[k] title vortex[k], \
+        exp(-16 * pi**2 * 0.01 * x) with lines dashtype 2 linecolor rgb "black" title "exact"
+    unset logscale
+    unset key
+    set xlabel "speed"
+    set ylabel "y"
+    array plates[2] = ["Poiseuille", "Couette"]
+    do for [k = 1:2] {
+        set title plates[k]." flow, Re = 1, 20 rows, t = 0.02, 0.1, 1"
+        plot dir."clustering_plates.csv" using (strcol(1) eq plates[k] ? $5 : NaN):3 with lines linecolor rgb "#d55e00", \
+            "" using (strcol(1) eq plates[k] ? $4 : NaN):3 with points pointtype 6 linecolor rgb "black"
+    }
+    unset multiplot
+    unset ylabel
+    set key
+}
