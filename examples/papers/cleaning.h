@@ -121,7 +121,7 @@ static inline void cleaning_lists_close(cleaning_lists *l)
     free(l->work);
 }
 
-/* A value of an independent trial of the same recipe beside ours, which may differ by a factor: the paper prints none. */
+/* A value of an independent implementation with the same settings (the trial) beside ours, which may differ by a factor: the paper prints none. */
 static inline void cleaning_trial(report *r, const char *item, const char *at, const char *quantity, double trial, double measured, double factor)
 {
     char criterion[REPORT_CRITERION];

@@ -79,7 +79,7 @@ SPH_FN sph_index accelerate_by(int viscosity, drop *d)
     f.v = vectors(d, VX);
     f.viscosity = viscosity;
     f.alpha = d->alpha;
-    f.beta = 2;
+    f.beta = viscosity == (int)SPH_VISCOSITY_MONAGHAN ? 2 * d->alpha : 2; /* of 1992: beside alpha; of 1997: within alpha v_sig */
     f.eta = 0.1;
     return sph_fluid_rates_monaghan(SPH_CUBIC_SPLINE, 2, 0, d->n, points(d), cleaning_list(&d->lists), sph_scalars_same(&h), f, vectors_out(d, AX), NULL, NULL);
 }
@@ -175,8 +175,8 @@ static void advance(drop *d, double dt)
 
 /* ---------------------------------------------------------------- what is measured */
 
-enum { SAMPLES = 200, SHORT = 80 };
-static const double sample_step = 0.0005; /* SAMPLES of them are 0.1, SHORT 0.04 */
+enum { SAMPLES = 200, SHORT = 50 };
+static const double sample_step = 0.0005; /* SAMPLES of them are 0.1, SHORT 0.025, half a period */
 
 typedef struct sample {
     double div_v, density; /* mean |div v| over particles and the time since the last sample; max |rho / rho0 - 1| at the time */
