@@ -111,7 +111,7 @@ static const method methods[] = {{"(1.1)", SPH_WENDLAND_C2_1D, FLOW_NO_COLLISION
                                  {"(3.9)", SPH_CONVEX, FLOW_NO_COLLISIONS, 0},
                                  {"(1.1) + collisions", SPH_WENDLAND_C2_1D, FLOW_SEQUENTIAL, 0},
                                  {"Wendland C2", SPH_WENDLAND_C2, FLOW_NO_COLLISIONS, 0},
-                                 {"(1.1), p0 = 3.2", SPH_WENDLAND_C2_1D, FLOW_NO_COLLISIONS, 3.2}};
+                                 {"(1.1) with p0 = 3.2", SPH_WENDLAND_C2_1D, FLOW_NO_COLLISIONS, 3.2}};
 enum { METHODS = sizeof methods / sizeof *methods, CONVENTIONAL = 0, CONVEX, COLLISIONS, BACKGROUND = METHODS - 1 };
 
 /* ---------------------------------------------------------------- between plates */
