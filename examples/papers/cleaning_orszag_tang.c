@@ -766,8 +766,9 @@ static void judge(report *r, const level *l)
     const char *const size = size_text(l->side);
     int k, t;
     judge_balances(r, l);
+    if (l->side < 64) return; /* too coarse for the rest */
     for (t = 0; t < TIMES; t++)
-        if (has(l, CONTROL, t) && has(l, CLEANED, t) && l->side >= 64) {
+        if (has(l, CONTROL, t) && has(l, CLEANED, t)) {
             if (t == HALF)
                 report_range(r, size, "t = 0.5", "error, control / cleaning", (double)NAN, o[CONTROL].at[t].error / o[CLEANED].at[t].error,
                              least_ratio(l->side, t), HUGE_VAL);
@@ -790,7 +791,7 @@ static void judge(report *r, const level *l)
         const double kept = o[CLEANED].at[END].magnetic / o[CONTROL].at[END].magnetic,
                      apart = difference(o[CONTROL].at[END].density_bin, o[CLEANED].at[END].density_bin),
                      apart_B = difference(o[CONTROL].at[END].magnetic_bin, o[CLEANED].at[END].magnetic_bin);
-        if (l->side >= 64) report_range(r, size, "t = 1", "magnetic energy, cleaning / control", (double)NAN, kept, 0.85, 1.15);
+        report_range(r, size, "t = 1", "magnetic energy, cleaning / control", (double)NAN, kept, 0.85, 1.15);
         if (l->side >= 128) report_range(r, size, "t = 1, 32 x 32 bins", "density, cleaning from control, L1", (double)NAN, apart, 0, 0.1);
         else report_info(r, size, "t = 1, 32 x 32 bins", "density, cleaning from control, L1", apart);
         report_info(r, size, "t = 1, 32 x 32 bins", "magnetic pressure, cleaning from control, L1", apart_B);
