@@ -14,12 +14,14 @@
  */
 #include "clustering.h"
 
+#define NONE ((double)NAN) /* not measured, or not known */
+
 static const double shaft_radius = 0.04, wall_radius = 0.1;
 #define SHAFT_TURNS (1000.0 / 60) /* per second */
 
 enum { BINS = 6 }; /* of r, for the velocity */
 
-/* what is known of the run; NAN: not known */
+/* what is known of the run; NONE: not known */
 typedef struct expected {
     double mean, below_50, below_75, void_share, deepest;
     double v[BINS];
@@ -34,11 +36,11 @@ typedef struct method {
 
 static const method methods[] = {
     {"(1.1)", "wendland", SPH_WENDLAND_C2_1D, FLOW_NO_COLLISIONS, 0, {.550, .358, .830, .032, 2.18, {1.44, 1.02, .69, .40, .18, .07}}},
-    {"(3.7)", "hermite", SPH_HERMITE, FLOW_NO_COLLISIONS, 0, {.160, .934, 1.000, .259, 2.13, {NAN, NAN, NAN, NAN, NAN, NAN}}},
+    {"(3.7)", "hermite", SPH_HERMITE, FLOW_NO_COLLISIONS, 0, {.160, .934, 1.000, .259, 2.13, {NONE, NONE, NONE, NONE, NONE, NONE}}},
     {"(3.9)", "convex", SPH_CONVEX, FLOW_NO_COLLISIONS, 0, {.763, .018, .387, .0004, .47, {2.66, 1.66, .92, .49, .21, .06}}},
     {"(1.1) + collisions", "collisions", SPH_WENDLAND_C2_1D, FLOW_SEQUENTIAL, 0, {.854, 0, 0, .0006, .15, {2.16, 1.83, 1.35, .85, .45, .11}}},
-    {"Wendland C2", "wendland_c2", SPH_WENDLAND_C2, FLOW_NO_COLLISIONS, 1, {.692, .082, .600, .007, NAN, {NAN, NAN, NAN, NAN, NAN, NAN}}},
-    {"(1.1) + (4.20) as printed", "literal", SPH_WENDLAND_C2_1D, FLOW_LITERAL, 1, {NAN, .324, NAN, .038, NAN, {NAN, NAN, NAN, NAN, NAN, NAN}}},
+    {"Wendland C2", "wendland_c2", SPH_WENDLAND_C2, FLOW_NO_COLLISIONS, 1, {.692, .082, .600, .007, NONE, {NONE, NONE, NONE, NONE, NONE, NONE}}},
+    {"(1.1) + (4.20) as printed", "literal", SPH_WENDLAND_C2_1D, FLOW_LITERAL, 1, {NONE, .324, NONE, .038, NONE, {NONE, NONE, NONE, NONE, NONE, NONE}}},
 };
 enum { METHODS = sizeof methods / sizeof *methods, WENDLAND = 0, HERMITE, CONVEX, COLLISIONS };
 
@@ -233,28 +235,28 @@ static void info(report *r, const char *setting, const char *quantity, double me
 {
     char criterion[REPORT_CRITERION] = "";
     if (!isnan(known)) snprintf(criterion, sizeof criterion, "independent program: %g", known);
-    report_number_row(r, "Figure 6", setting, quantity, (double)NAN, measured, criterion, NULL, REPORT_INFO);
+    report_number_row(r, "Figure 6", setting, quantity, NONE, measured, criterion, NULL, REPORT_INFO);
 }
 
 static void table(report *r, const method *m, const outcome *o)
 {
     char text[96], known[REPORT_CRITERION] = "";
     const double *v = o->v, *e = m->e.v;
-    if (o->answer != FLOW_DONE) info(r, m->name, "blew up at t", o->t, (double)NAN);
+    if (o->answer != FLOW_DONE) info(r, m->name, "blew up at t", o->t, NONE);
     info(r, m->name, "mean distance to the nearest / dref", o->d.mean, m->e.mean);
-    info(r, m->name, "least distance / dref", o->d.least, (double)NAN);
+    info(r, m->name, "least distance / dref", o->d.least, NONE);
     info(r, m->name, "f(<0.5)", o->d.below_50, m->e.below_50);
     info(r, m->name, "f(<0.75)", o->d.below_75, m->e.below_75);
     info(r, m->name, "void: area farther than 0.85 dref from any", o->d.void_share, m->e.void_share);
     info(r, m->name, "deepest in a wall / dref", o->deepest, m->e.deepest);
-    info(r, m->name, "particles deeper than 0.5 dref", o->past_half, (double)NAN);
-    info(r, m->name, "particles deeper than 1 dref", o->past_one, (double)NAN);
-    info(r, m->name, "kinetic energy [J/m]", o->kinetic_energy, (double)NAN);
+    info(r, m->name, "particles deeper than 0.5 dref", o->past_half, NONE);
+    info(r, m->name, "particles deeper than 1 dref", o->past_one, NONE);
+    info(r, m->name, "kinetic energy [J/m]", o->kinetic_energy, NONE);
     snprintf(text, sizeof text, "%.2f %.2f %.2f %.2f %.2f %.2f", v[0], v[1], v[2], v[3], v[4], v[5]);
     if (!isnan(e[0])) snprintf(known, sizeof known, "independent program: %.2f %.2f %.2f %.2f %.2f %.2f", e[0], e[1], e[2], e[3], e[4], e[5]);
     report_row(r, "Figure 6", m->name, "v_theta in six rings [m/s]", NULL, text, known, NULL, REPORT_INFO);
-    info(r, m->name, "nu of the viscous flow nearest to these [m2/s]", o->viscosity, (double)NAN);
-    info(r, m->name, "CPU time of a particle and step [us]", o->microseconds, (double)NAN);
+    info(r, m->name, "nu of the viscous flow nearest to these [m2/s]", o->viscosity, NONE);
+    info(r, m->name, "CPU time of a particle and step [us]", o->microseconds, NONE);
 }
 
 /* What the paper says about the pictures, and what is needed for them to say it. */
@@ -263,11 +265,11 @@ static void judge(report *r, const outcome *o)
     char text[96];
     int k;
     report_section(r, "Section V.III: what is said about figure 6");
-    report_range(r, "Figure 6", "(3.9)", "'far less clustering': f(<0.5)", (double)NAN, o[CONVEX].d.below_50, 0, 0.05);
-    report_range(r, "Figure 6", "(1.1) + collisions", "'the distribution is much better': f(<0.75)", (double)NAN, o[COLLISIONS].d.below_75, 0, 0);
+    report_range(r, "Figure 6", "(3.9)", "'far less clustering': f(<0.5)", NONE, o[CONVEX].d.below_50, 0, 0.05);
+    report_range(r, "Figure 6", "(1.1) + collisions", "'the distribution is much better': f(<0.75)", NONE, o[COLLISIONS].d.below_75, 0, 0);
     for (k = CONVEX; k <= COLLISIONS; k++) {
-        report_range(r, "Figure 6", methods[k].name, "'no particles have left the domain': deepest in a wall / dref", (double)NAN, o[k].deepest, 0, 1);
-        report_range(r, "Figure 6", methods[k].name, "particles deeper than 0.5 dref", (double)NAN, o[k].past_half, 0, 5);
+        report_range(r, "Figure 6", methods[k].name, "'no particles have left the domain': deepest in a wall / dref", NONE, o[k].deepest, 0, 1);
+        report_range(r, "Figure 6", methods[k].name, "particles deeper than 0.5 dref", NONE, o[k].past_half, 0, 5);
     }
     for (k = WENDLAND; k <= HERMITE; k++) {
         snprintf(text, sizeof text, "%d past a wall by more than dref, %d by half, f(<0.5) = %.3f, void %.3f", o[k].past_one, o[k].past_half, o[k].d.below_50,
@@ -302,7 +304,7 @@ int main(int argc, char **argv)
     snprintf(text, sizeof text, "Figure 6: air around a rotating shaft, dt = %g (paper: 1e-6)", dt);
     report_section(&r, text);
     if (c.kernel) {
-        method own = {c.kernel, "own", SPH_WENDLAND_C2_1D, FLOW_NO_COLLISIONS, 0, {NAN, NAN, NAN, NAN, NAN, {NAN, NAN, NAN, NAN, NAN, NAN}}};
+        method own = {c.kernel, "own", SPH_WENDLAND_C2_1D, FLOW_NO_COLLISIONS, 0, {NONE, NONE, NONE, NONE, NONE, {NONE, NONE, NONE, NONE, NONE, NONE}}};
         own.kernel = clustering_kernel(&c);
         own.remedy = clustering_remedy(&c);
         o[0] = run(&c, &own, clustering_choose(c.dref, 0.005), clustering_choose(c.h, 1.5), dt, clustering_choose(c.tend, 0.5));
