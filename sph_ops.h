@@ -1070,7 +1070,7 @@ SPH_FN sph_real sph_viscosity_pair_linear(sph_real alpha, sph_real eta, sph_real
 SPH_FN sph_real sph_viscosity_pair_signal(sph_real alpha, sph_real beta, sph_real c_mean, sph_real rho_mean, sph_real vx, sph_real r)
 {
     const sph_real w = SPH_R(0.5) * (vx - SPHI_ABS(vx)) / (r + SPHI_TINY);
-    return SPH_R(-0.5) * alpha * (SPH_R(2) * c_mean - beta * w) * w / (rho_mean * (r + SPHI_TINY)) * r;
+    return SPH_R(-0.5) * alpha * (SPH_R(2) * c_mean - beta * w) * w / rho_mean;
 }
 
 /* Physical viscosity with the dynamic viscosities mu_i, mu_j (mu = nu rho). Morris: the coefficient B of a_i = sum_j m_j B v_ij, B = (mu_i + mu_j) / (rho_i rho_j) F r^2 / (r^2 + eta^2 h^2) <= 0: exact for linear velocities in the
@@ -2437,11 +2437,10 @@ SPH_FN sph_sym sphi_elliptic_gamma_star(sph_kernel k, int dim, const sphi_ellipt
 
 enum { SPHI_ELLIPTIC_BROOKSHAW, SPHI_ELLIPTIC_CORRECTED, SPHI_ELLIPTIC_SCHWAIGER, SPHI_ELLIPTIC_MSPH };
 
-/* scale and xi of a particle; SPH_TOO_FEW and SPH_SINGULAR leave them 0 */
+/* scale and xi of a particle; SPH_TOO_FEW and SPH_SINGULAR leave them 0. And its moments, but for Brookshaw's scheme, which has none. */
 SPH_FN int sphi_elliptic_correct(int scheme, sph_kernel k, int dim, const sphi_elliptic *a, sph_shepard s, sph_index i, sph_elliptic_correction *c,
-                                 sph_real *conditioning)
+                                 sph_elliptic_moments *m, sph_real *conditioning)
 {
-    sph_elliptic_moments m;
     sph_elliptic_inverse inverse;
     sph_sym gamma_inverse, gamma_star;
     sph_real trace;
@@ -2453,25 +2452,25 @@ SPH_FN int sphi_elliptic_correct(int scheme, sph_kernel k, int dim, const sphi_e
         return SPH_OK;
     }
     *conditioning = SPH_R(0);
-    m = sphi_elliptic_moments_of(k, dim, a, s, i);
-    if (sph_elliptic_invert(dim, a->options.gradient, &m, &inverse, conditioning)) return sphi_singular_status(k, dim, i, a->x, a->list, sphi_at(a->h, i), dim);
+    *m = sphi_elliptic_moments_of(k, dim, a, s, i);
+    if (sph_elliptic_invert(dim, a->options.gradient, m, &inverse, conditioning)) return sphi_singular_status(k, dim, i, a->x, a->list, sphi_at(a->h, i), dim);
     trace = inverse.x.x + (dim > 1 ? inverse.y.y : SPH_R(0)) + (dim > 2 ? inverse.z.z : SPH_R(0));
     if (scheme != SPHI_ELLIPTIC_CORRECTED) {
-        c->xi = sph_elliptic_inverse_times(dim, inverse, scheme == SPHI_ELLIPTIC_SCHWAIGER ? m.n : m.n_tilde);
+        c->xi = sph_elliptic_inverse_times(dim, inverse, scheme == SPHI_ELLIPTIC_SCHWAIGER ? m->n : m->n_tilde);
         if (a->options.gradient == (int)SPH_GRADIENT_FULL) {
-            if (sph_solve_gradient(dim, m.gamma, &gamma_inverse, conditioning)) {
+            if (sph_solve_gradient(dim, m->gamma, &gamma_inverse, conditioning)) {
                 c->xi = sph_scale(SPH_R(0), c->xi);
                 return SPH_SINGULAR;
             }
             trace = sphi_trace(dim, gamma_inverse);
         }
         if (a->options.trace) {
-            const sph_real full = sphi_trace(dim, m.gamma), left = sphi_trace(dim, sphi_elliptic_gamma_star(k, dim, a, s, i, m.gamma, c->xi));
+            const sph_real full = sphi_trace(dim, m->gamma), left = sphi_trace(dim, sphi_elliptic_gamma_star(k, dim, a, s, i, m->gamma, c->xi));
             if (left >= SPHI_GAMMA_STAR_MIN * full) trace = SPH_R(dim * dim) / left;
             else state = SPH_FELL_BACK;
         } else if (scheme == SPHI_ELLIPTIC_MSPH && a->options.gamma_star) {
-            gamma_star = sphi_elliptic_gamma_star(k, dim, a, s, i, m.gamma, c->xi);
-            if (sph_sym_eigenvalues(dim, gamma_star).x >= SPHI_GAMMA_STAR_MIN * sph_sym_eigenvalues(dim, m.gamma).x &&
+            gamma_star = sphi_elliptic_gamma_star(k, dim, a, s, i, m->gamma, c->xi);
+            if (sph_sym_eigenvalues(dim, gamma_star).x >= SPHI_GAMMA_STAR_MIN * sph_sym_eigenvalues(dim, m->gamma).x &&
                 sph_solve_gradient(dim, gamma_star, &gamma_inverse, 0) == SPH_OK)
                 trace = sphi_trace(dim, gamma_inverse);
             else state = SPH_FELL_BACK;
@@ -2515,8 +2514,9 @@ SPH_FN sph_index sphi_elliptic_apply(int scheme, sph_kernel k, int dim, sph_inde
         const sph_real h_i = sphi_at(a->h, i), m_i = sphi_at(a->m, i), u_i = sphi_at(u, i), potential_i = sphi_elliptic_potential(a, i);
         const sph_shepard s = sphi_elliptic_shepard(k, dim, a, i);
         sph_elliptic_correction correction;
+        sph_elliptic_moments moments;
         sph_real conditioning, sum = SPH_R(0);
-        int state = sphi_elliptic_correct(scheme, k, dim, a, s, i, &correction, &conditioning);
+        int state = sphi_elliptic_correct(scheme, k, dim, a, s, i, &correction, &moments, &conditioning);
         SPH_SUM(sum)
         for (p = a->list.start[i]; p < a->list.start[i + 1]; p++) {
             const sph_index j = a->list.index[p];
@@ -2541,8 +2541,9 @@ SPH_FN sph_index sphi_elliptic_row(int scheme, sph_kernel k, int dim, sph_index 
         const sph_real h_i = sphi_at(a->h, i), m_i = sphi_at(a->m, i), potential_i = sphi_elliptic_potential(a, i);
         const sph_shepard s = sphi_elliptic_shepard(k, dim, a, i);
         sph_elliptic_correction correction;
+        sph_elliptic_moments moments;
         sph_real conditioning;
-        int state = sphi_elliptic_correct(scheme, k, dim, a, s, i, &correction, &conditioning);
+        int state = sphi_elliptic_correct(scheme, k, dim, a, s, i, &correction, &moments, &conditioning);
         SPH_EACH
         for (p = a->list.start[i]; p < a->list.start[i + 1]; p++) {
             const sph_index j = a->list.index[p];
@@ -2694,8 +2695,7 @@ SPH_FN sph_index sph_elliptic_rows_msph_diagonal(sph_kernel k, int dim, sph_inde
         sph_elliptic_moments m;
         sph_elliptic_inverse inverse = {{SPH_R(0), SPH_R(0), SPH_R(0)}, {SPH_R(0), SPH_R(0), SPH_R(0)}, {SPH_R(0), SPH_R(0), SPH_R(0)}};
         sph_real conditioning;
-        int state = sphi_elliptic_correct(SPHI_ELLIPTIC_MSPH, k, dim, &a, s, i, &correction, &conditioning);
-        m = sphi_elliptic_moments_of(k, dim, &a, s, i);
+        int state = sphi_elliptic_correct(SPHI_ELLIPTIC_MSPH, k, dim, &a, s, i, &correction, &m, &conditioning);
         if (!sphi_unanswered(state)) state = sph_elliptic_invert(dim, options.gradient, &m, &inverse, 0) ? (int)SPH_SINGULAR : state;
         for (p = list.start[i]; p < list.start[i + 1]; p++) {
             const sph_index j = list.index[p];
@@ -3007,12 +3007,12 @@ SPH_FN sph_index sph_elliptic_diagnose(sph_kernel k, int dim, sph_index first, s
         const sph_vec x_i = sphi_point(dim, x, i);
         const sph_real h_i = sphi_at(h, i);
         const sph_shepard s = sphi_elliptic_shepard(k, dim, &a, i);
-        const sph_elliptic_moments m = sphi_elliptic_moments_of(k, dim, &a, s, i);
+        sph_elliptic_moments m;
         sph_elliptic_correction correction;
         sph_real conditioning, least = SPH_R(0), most = SPH_R(0), continuity = SPH_R(0), bound = SPH_R(0), condition = SPH_R(0);
         sph_sym K;
         sph_vec eigen;
-        int lost = 0, any = 0, state = sphi_elliptic_correct(SPHI_ELLIPTIC_MSPH, k, dim, &a, s, i, &correction, &conditioning);
+        int lost = 0, any = 0, state = sphi_elliptic_correct(SPHI_ELLIPTIC_MSPH, k, dim, &a, s, i, &correction, &m, &conditioning);
         for (p = list.start[i]; p < list.start[i + 1]; p++) {
             const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, s, x_i, h_i, list.index[p]);
             const sph_vec g = sph_elliptic_gradient_vector(dim, gradient, c.e, c.g);
@@ -3754,14 +3754,11 @@ SPH_FN sph_index sph_separate_coincident(int dim, sph_index first, sph_index las
                                          sph_vector_out position)
 {
     sph_index i, moved = 0;
-    const sph_index error = sph_count_coincident(dim, first, first, x, list, within);
-    if (error < 0) return error;
-    if (!sphi_finite(distance)) return SPH_ERROR_H;
-    if (sphi_check_vector(dim, position.x, position.y, position.z)) return SPH_ERROR_NULL;
-    {
-        const sph_index all = sph_count_coincident(dim, first, last, x, list, within);
-        if (all < 0) return all;
-    }
+    int error;
+    if (!sphi_finite(within) || within < SPH_R(0) || !sphi_finite(distance)) return SPH_ERROR_H;
+    error = sphi_check_list(dim, first, last, x, list, within);
+    if (!error) error = sphi_check_vector(dim, position.x, position.y, position.z);
+    if (error) return error;
     for (i = first; i < last; i++) {
         sph_vec at = sphi_point(dim, x, i);
         sph_index p;

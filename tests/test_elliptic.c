@@ -338,7 +338,7 @@ static void test_schwaiger_is_msph(void)
             pcg32_seed(&g, 4, 4);
             for (i = 0; i < s.c.n; i++) u[i] = SPH_R(cloud_symmetric(&g));
             for (gradient = 0; gradient < 4; gradient++) {
-                double apart = 0.0, printed = 0.0, size = 0.0, partial = 0.0;
+                double apart = 0.0, printed = 0.0, size = 0.0, partial = 0.0, transmitted = 0.0;
                 double *const schwaiger = (double *)cloud_memory((size_t)s.c.n, sizeof *schwaiger);
                 CHECK(apply(S, &s, with(gradient), u) == 0);
                 for (i = 0; i < s.c.n; i++) schwaiger[i] = (double)s.out[i];
@@ -393,10 +393,34 @@ static void test_schwaiger_is_msph(void)
                             }
                         }
                     }
+                    { /* (68): what of it multiplies u_j - u_i when the gradients of m u and m are kept apart */
+                        double sum = 0.0, det = gamma[0][0] * inverse[0][0] + gamma[0][1] * inverse[1][0] + gamma[0][2] * inverse[2][0], xi[3] = {0, 0, 0};
+                        sph_vec v_xi;
+                        for (a = 0; a < dim; a++)
+                            for (d = 0; d < dim; d++) xi[a] += inverse[a][d] / det * N[d];
+                        v_xi.x = SPH_R(xi[0]);
+                        v_xi.y = SPH_R(xi[1]);
+                        v_xi.z = SPH_R(xi[2]);
+                        for (p = s.c.start[i]; p < s.c.start[i + 1]; p++) {
+                            const sph_index j = s.c.index[p];
+                            sph_vec e_ij;
+                            sph_kernel_gradient kg;
+                            cloud_position(&s.c, j, x_j);
+                            e_ij.x = SPH_R(x_j[0] - x_i[0]);
+                            e_ij.y = SPH_R(x_j[1] - x_i[1]);
+                            e_ij.z = SPH_R(x_j[2] - x_i[2]);
+                            kg.radial = -sph_kernel_f(KERNEL, dim, sph_length(dim, e_ij), own ? SPH_R(0.5) * (s.h[i] + s.h[j]) : s.c.h);
+                            kg.rest.x = kg.rest.y = kg.rest.z = SPH_R(0);
+                            sum +=
+                                (double)sph_transmissibility_partial_schwaiger(dim, gradient, e_ij, kg, v_xi, s.c.V[j], s.m[i], s.m[j]) * ((double)u[j] - u_i);
+                        }
+                        transmitted = worse(transmitted, trace / dim * (sum - (first - wrong)));
+                    }
                     printed = worse(printed, trace / dim * (first - second) - schwaiger[i]);
                     partial = worse(partial, trace / dim * (first - wrong) - schwaiger[i]);
                 }
                 CHECK_CLOSE(printed, 0.0, BY_PRECISION(1e-11, 2e-2) * size);
+                CHECK_CLOSE(transmitted, 0.0, BY_PRECISION(1e-11, 2e-2) * size);
                 CHECK(partial > 0.05 * size); /* (68) alone is not the scheme */
                 free(schwaiger);
             }
