@@ -458,7 +458,7 @@ SPH_FN unsigned sphi_negative(sph_real x)
         uint32_t u;
     } v;
     v.f = x;
-    return v.u >> 31;
+    return (unsigned)(v.u >> 31);
 #else
     union {
         double f;

@@ -45,7 +45,7 @@
  *   SPH_KERNELS(X, A), SPH_SWITCH_KERNEL(k, CALL)       all kernels; one dispatch of a kernel that is chosen at run time
  *
  * OPTIONS (0 or 1; set them with -D or before the first inclusion; the same in every header)
- *   SPH_SINGLE      0  1: sph_real is float
+ *   SPH_SINGLE      0  1: sph_real is float (1 where double is no wider than float, as on AVR)
  *   SPH_SIMD        1 under OpenMP >= 4, else 0.  1: the compiler obeys "omp simd" (-fopenmp, or -fopenmp-simd -DSPH_SIMD=1)
  *   SPH_PURE_SQRT   1 on gcc and clang, else 0.   1: tells the compiler that sqrt has no side effect (it then no longer sets errno in this file);
  *                      without it, or -fno-math-errno, no loop with a square root vectorises
@@ -76,8 +76,16 @@
 #  include <stdint.h>
 #endif
 
+#if defined(__SIZEOF_DOUBLE__) && __SIZEOF_DOUBLE__ < 8
+#  define SPHI_SINGLE_ONLY 1
+#else
+#  define SPHI_SINGLE_ONLY 0
+#endif
 #ifndef SPH_SINGLE
-#  define SPH_SINGLE 0
+#  define SPH_SINGLE SPHI_SINGLE_ONLY
+#endif
+#if SPHI_SINGLE_ONLY && !SPH_SINGLE
+#  error "double is no wider than float here: SPH_SINGLE must be 1"
 #endif
 #ifndef SPH_CHECK
 #  define SPH_CHECK 1
@@ -161,6 +169,11 @@ typedef float sph_real;
 typedef double sph_real;
 #endif
 typedef SPH_INDEX sph_index;
+#if SPH_OPENCL
+typedef int sphi_int32;
+#else
+typedef int32_t sphi_int32; /* where int may have 16 bits */
+#endif
 #define SPH_R(x) ((sph_real)(x))
 
 #if SPH_SINGLE && !SPH_OPENCL
@@ -175,8 +188,13 @@ typedef SPH_INDEX sph_index;
 /* clang-format on */
 
 /* Unit round-off, and a length ratio so short that its square is still a normal number but nothing nearer to a particle matters. */
-#define SPH_EPSILON (SPH_SINGLE ? SPH_R(1.1920928955078125e-7) : SPH_R(2.220446049250313e-16))
-#define SPHI_TINY (SPH_SINGLE ? SPH_R(1e-18) : SPH_R(1e-150))
+#if SPH_SINGLE
+#define SPH_EPSILON SPH_R(1.1920928955078125e-7)
+#define SPHI_TINY SPH_R(1e-18)
+#else
+#define SPH_EPSILON SPH_R(2.220446049250313e-16)
+#define SPHI_TINY SPH_R(1e-150)
+#endif
 
 /* ================================================================ status codes */
 

@@ -1289,9 +1289,9 @@ SPH_FN sph_vec sphi_point(int dim, sph_points p, sph_index i)
    also makes a length that is known to be 0 fold away: an int and with 0 is 0 by any rule, a product of reals is not. */
 SPH_FN sph_real sphi_nearest_image(sph_real d, sph_real length)
 {
-    const int periodic = length > SPH_R(0);
+    const sphi_int32 periodic = length > SPH_R(0);
     const sph_real inverse = (sph_real)periodic / (length + (sph_real)!periodic), t = d * inverse;
-    const int images = (int)(t + SPHI_COPYSIGN(SPH_R(0.5), t)) & -periodic;
+    const sphi_int32 images = (sphi_int32)(t + SPHI_COPYSIGN(SPH_R(0.5), t)) & -periodic;
     return d - length * (sph_real)images;
 }
 /* a - b, the vector from b to a: between the nearest images if p is periodic. All operators form their pair vectors here. */
@@ -1365,7 +1365,7 @@ SPH_FN int sphi_all_finite(sph_scalars a, sph_index n)
     return !bad;
 }
 
-/* One axis: the length, that no radius (support * h) of the largest h reaches beyond half of it, and that the images of positions can be counted in an int. */
+/* One axis: the length, that no radius (support * h) of the largest h reaches beyond half of it, and that the images of positions can be counted in 32 bits. */
 SPH_FN int sphi_check_axis(sph_real length, sph_real largest, const SPH_GLOBAL sph_real *x, size_t stride, sph_index n)
 {
     const sph_real furthest = SPH_R(1048576) * length;
@@ -1433,7 +1433,7 @@ SPH_FN int sphi_check_reach(sph_kernel k, int dim, sph_index first, sph_index la
     const int error = sphi_check_frame(dim, first, last, x, list);
     sph_index i;
     if (error == SPH_ERROR_DIM) return error;
-    if ((int)k < 0 || (int)k >= (int)SPH_KERNEL_COUNT) return SPH_ERROR_KERNEL;
+    if ((unsigned)k >= (unsigned)SPH_KERNEL_COUNT) return SPH_ERROR_KERNEL;
     if (!h.p || !V.p) return SPH_ERROR_NULL;
     if (error) return error;
     for (i = 0; SPH_CHECK && i < (h.stride ? x.n : 1); i++) {
@@ -4221,7 +4221,7 @@ SPH_FN sph_real sph_gravity_pair(sph_kernel k, sph_real r, sph_real h_i, sph_rea
 
 SPH_FN int sphi_check_gravity(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_scalars h, sph_scalars m, sph_real G)
 {
-    if ((int)k < 0 || (int)k >= (int)SPH_KERNEL_COUNT || !sph_kernel_has_gravity(k)) return SPH_ERROR_KERNEL;
+    if ((unsigned)k >= (unsigned)SPH_KERNEL_COUNT || !sph_kernel_has_gravity(k)) return SPH_ERROR_KERNEL;
     if (!x.x || !x.y || !x.z || !h.p || !m.p) return SPH_ERROR_NULL;
     if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
     if (first < 0 || first > last || last > x.n) return SPH_ERROR_RANGE;
