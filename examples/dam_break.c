@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * dam_break.c - a column of water collapses in a tank, in the terminal.
+ *
+ *     cc -O2 -I. -o dam_break examples/dam_break.c -lm
+ *     ./dam_break                  an animation where the output is a terminal, else a few pictures
+ *
+ * Weakly compressible SPH: water is a gas so stiff that its density stays within a percent, by Tait's equation of state with a speed of sound of ten times the
+ * largest speed. Three layers of wall particles take their pressure from the water in front of them (sph_wall_adami). The column is A wide and 2 A high,
+ * as in the experiments of Martin & Moyce 1952, Phil. Trans. R. Soc. A 244, 312; the tank is 5 A wide. Lengths are in A, times in sqrt(A / g).
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#define TO_A_TERMINAL isatty(1)
+#else
+#define TO_A_TERMINAL 0
+#endif
+
+#include "sph.h"
+
+enum { DIM = 2, LAYERS = 3, MOST = 2000, NEIGHBOURS = 60, COLUMNS = 78, ROWS = 23 };
+#define KERNEL SPH_WENDLAND_C2                                                  /* a constant: the compiler then folds kernel and dimension away */
+static const double width = 5, height = 3, rho0 = 1, g = 1, gamma7 = 7, c = 20; /* the fastest water: about 2 */
+static double dx, h, dt, t, m;
+static int n, n_water; /* water first, then walls */
+static double x[MOST], y[MOST], vx[MOST], vy[MOST], ax[MOST], ay[MOST], rho[MOST], p[MOST], is_water[MOST];
+static sph_index start[MOST + 1], list_index[MOST * NEIGHBOURS];
+static void *work; /* of the neighbour search */
+
+static void need(sph_index answer) /* what a sweep returns: below 0 an error */
+{
+    if (answer >= 0) return;
+    fprintf(stderr, "dam_break: t = %g: %s\n", t, sph_status_text((int)answer));
+    exit(1);
+}
+
+static void add(double px, double py, int water)
+{
+    x[n] = px;
+    y[n] = py;
+    is_water[n] = water;
+    p[n] = water ? rho0 * g * (2 - py) : 0; /* at rest under its weight */
+    rho[n] = sph_density_tait(p[n], rho0, c, gamma7, 0);
+    n++;
+}
+static void fill(int across) /* particles across the column: not more than 20, for MOST in all */
+{
+    const int nx = (int)(width * across), ny = (int)(height * across);
+    int i, j;
+    dx = 1.0 / across;
+    h = 1.3 * dx;
+    m = rho0 * dx * dx;
+    dt = sph_time_step_sound(h, c, 3);
+    for (j = 0; j < 2 * across; j++)
+        for (i = 0; i < across; i++) add((i + 0.5) * dx, (j + 0.5) * dx, 1);
+    n_water = n;
+    for (j = -LAYERS; j < ny; j++)
+        for (i = -LAYERS; i < nx + LAYERS; i++)
+            if (i < 0 || i >= nx || j < 0) add((i + 0.5) * dx, (j + 0.5) * dx, 0);
+    work = malloc(sph_grid_workspace(DIM, n));
+}
+
+/* continuity for the density, then pressures, then forces */
+static void rates(void)
+{
+    static double zero = 0, one = 1, divergence[MOST], p_wall[MOST], v_wall_x[MOST], v_wall_y[MOST];
+    const sph_points points = sph_points_separate(n, x, y, NULL);
+    const double radius = sph_kernel_support(KERNEL) * h;
+    const sph_scalars R = sph_scalars_same(&radius), H = sph_scalars_same(&h), mass = sph_scalars_same(&m), density = sph_scalars_array(rho);
+    const sph_scalars none = sph_scalars_same(&zero), absent = sph_scalars_array(NULL);
+    const sph_vectors v = {sph_scalars_array(vx), sph_scalars_array(vy), absent}, at_rest = {none, none, none}, no_normal = {absent, absent, absent};
+    const sph_gas gas = {mass, density, sph_scalars_same(&one)};
+    const sph_vec gravity = {0, -g, 0};
+    const sph_list list = {start, list_index};
+    const sph_fluid fluid = {mass, density, sph_scalars_array(p), sph_scalars_same(&c), v, SPH_VISCOSITY_MONAGHAN, 0.05, 0, 0.1};
+    sph_grid grid;
+    int64_t pairs;
+    int i;
+    need(sph_grid_build(DIM, points, radius, work, sph_grid_workspace(DIM, n), &grid));
+    need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, R, R, 0, start, list_index, MOST * NEIGHBOURS, &pairs));
+    need(sph_divergence_difference(KERNEL, DIM, 0, n_water, points, list, H, gas, v, divergence));
+    for (i = 0; i < n_water; i++) {
+        rho[i] -= dt * rho[i] * divergence[i];
+        p[i] = sph_pressure_tait(rho[i], rho0, c, gamma7, 0);
+    }
+    /* the walls stand still, also for the viscosity: their v_wall, which would make them rough, is not used */
+    need(sph_wall_adami(KERNEL, DIM, n_water, n, points, list, H, sph_scalars_array(is_water), density, sph_scalars_array(p), v, at_rest, gravity, no_normal,
+                        p_wall, (sph_vector_out){v_wall_x, v_wall_y, NULL}, NULL));
+    for (i = n_water; i < n; i++) {
+        p[i] = fmax(p_wall[i], 0); /* a wall pushes, it does not pull */
+        rho[i] = sph_density_tait(p[i], rho0, c, gamma7, 0);
+    }
+    need(sph_fluid_rates_monaghan(KERNEL, DIM, 0, n_water, points, list, H, fluid, (sph_vector_out){ax, ay, NULL}, NULL, NULL));
+}
+/* kick, drift, kick: leapfrog */
+static void step(void)
+{
+    int i;
+    for (i = 0; i < n_water; i++) {
+        vx[i] += 0.5 * dt * ax[i];
+        vy[i] += 0.5 * dt * (ay[i] - g);
+        x[i] += dt * vx[i];
+        y[i] += dt * vy[i];
+    }
+    rates();
+    for (i = 0; i < n_water; i++) {
+        vx[i] += 0.5 * dt * ax[i];
+        vy[i] += 0.5 * dt * (ay[i] - g);
+    }
+    t += dt;
+}
+
+static double front(void)
+{
+    double most = 0;
+    int i;
+    for (i = 0; i < n_water; i++) most = fmax(most, x[i] + 0.5 * dx);
+    return most;
+}
+static void draw(void) /* the faster, the darker */
+{
+    char picture[ROWS][COLUMNS + 1];
+    int i;
+    memset(picture, ' ', sizeof picture);
+    for (i = 0; i < n_water; i++) {
+        const int column = (int)floor(x[i] / width * COLUMNS), row = ROWS - 1 - (int)floor(y[i] / height * ROWS);
+        const double speed = sqrt(vx[i] * vx[i] + vy[i] * vy[i]);
+        if (row >= 0 && row < ROWS && column >= 0 && column < COLUMNS) picture[row][column] = "-=+*#%@@"[speed < 2 ? (int)(3.5 * speed) : 7];
+    }
+    for (i = 0; i < ROWS; i++) printf("|%.*s|\n", COLUMNS, picture[i]);
+    printf("t sqrt(g / A) = %.2f   front at %.2f A\n", t, front());
+}
+
+static double energy(void) /* kinetic and potential: without that of compression, 0.2 % of it */
+{
+    double sum = 0;
+    int i;
+    for (i = 0; i < n_water; i++) sum += m * (0.5 * (vx[i] * vx[i] + vy[i] * vy[i]) + g * y[i]);
+    return sum;
+}
+static int test(void)
+{
+    double most = 0, first, at[2] = {0, 0}, slope;
+    int failed = 0, lost = 0, i; /* Martin & Moyce, table 2: x / A = 2.11 and 3.67 at t sqrt(2 g / A) = 1.83 and 2.98 */
+    fill(12);
+    rates();
+    first = energy();
+    while (t < 2.98 / sqrt(2)) {
+        step();
+        most = fmax(most, energy() / first);
+        for (i = 0; i < 2; i++)
+            if (t * sqrt(2) < (i ? 2.98 : 1.83)) at[i] = front();
+    }
+    for (i = 0; i < n_water; i++) lost += !(x[i] > 0 && x[i] < width && y[i] > 0 && y[i] < height);
+    slope = (at[1] - at[0]) / (2.98 - 1.83);
+    if (!(fabs(slope / ((3.67 - 2.11) / (2.98 - 1.83)) - 1) < 0.1)) failed = printf("FAILED: the front is not within 10 %% of the experiment: %g\n", slope);
+    if (!(most < 1.003)) failed = printf("FAILED: energy grows by a factor of %g\n", most);
+    if (lost) failed = printf("FAILED: %d particles are outside of the tank\n", lost);
+    if (!failed) printf("ok\n");
+    return failed != 0;
+}
+
+int main(int argc, char **argv)
+{
+    const int terminal = argc == 1 && TO_A_TERMINAL, csv = argc == 3 && strcmp(argv[1], "-o") == 0;
+    FILE *file;
+    int frame, i;
+    if (argc == 2 && strcmp(argv[1], "-t") == 0) return test();
+    if (argc > 1 && !csv) {
+        const int help = strcmp(argv[1], "-h") == 0;
+        if (!help) fprintf(stderr, "dam_break: unknown option, or no value for it: %s\n", argv[1]);
+        fprintf(help ? stdout : stderr, "dam_break [-o FILE.csv | -t]   show the flow, write it at four times, or test it\n");
+        return help ? 0 : 2;
+    }
+    file = csv ? fopen(argv[2], "w") : stdout;
+    if (!file) {
+        perror(argv[2]);
+        return 2;
+    }
+    if (csv) fprintf(file, "t,x,y,vx,vy,p,water\n");
+    fill(20);
+    rates();
+    for (frame = 0; frame <= 120; frame++) {
+        while (t < frame * 0.03) step();
+        if (csv && frame % 40 == 0)
+            for (i = 0; i < n; i++) fprintf(file, "%.4g,%.5g,%.5g,%.5g,%.5g,%.5g,%g\n", t, x[i], y[i], vx[i], vy[i], p[i], is_water[i]);
+        else if (terminal || (!csv && frame % 40 == 0)) {
+            if (terminal) printf("\033[H\033[J");
+            draw();
+            fflush(stdout);
+        }
+    }
+    return csv && fclose(file) ? 2 : 0;
+}
