@@ -85,8 +85,7 @@
  *                  sph_separate_coincident(dim, first, last, points, list, within, distance, position)
  *                  sph_conserved_sums(dim, first, last, points, m, v, out)               mass, momentum, angular momentum, kinetic energy
  *   magneto-       (gas: m, rho, Omega; mhd: gas, P, u, cs, alpha, v, B, psi and parameters)
- *   hydrodynamics  sph_mhd_rates(k, dim, ..h: first, last, points, list, h, mhd, out)     momentum, induction, energy, psi, div B, div v
- *                  sph_mhd_signal_speed_largest(k, dim, ..h, mhd, out)                   for time steps
+ *   hydrodynamics  sph_mhd_rates(k, dim, ..h: first, last, points, list, h, mhd, out)     momentum, induction, energy, psi, div B, div v, v_sig
  *   divergence     sph_cleaning_rates(k, dim, ..h, gas, B, psi, div_v, ch, sigma, rate_B, rate_psi, div_B)   conservative cleaning of B alone
  *   cleaning       sph_cleaning_rates_symmetric, sph_cleaning_rates_nonconservative      other pairs of operators, for comparison
  *                  sph_divergence_difference(k, dim, ..h, gas, A, out)  sph_divergence_symmetric  sph_gradient_symmetric  sph_curl_difference
@@ -1154,19 +1153,25 @@ SPH_FN sph_vec sph_mhd_traction(sph_vec B, sph_real P, sph_real Bx, sph_vec x_ij
     t.z = B.z * Bx - p * x_ij.z;
     return t;
 }
+/* the same from squares: of the speed of sound, of the Alfven speed and of its part along the pair */
+SPH_FN sph_real sphi_fast_speed(sph_real sound2, sph_real alfven2, sph_real along2)
+{
+    const sph_real s = sound2 + alfven2, d = s * s - SPH_R(4) * sound2 * along2;
+    return SPHI_SQRT(SPH_R(0.5) * (s + SPHI_SQRT(SPH_R(0.5) * (d + SPHI_ABS(d)))));
+}
 /* The fast magnetosonic speed along the pair: v^2 = (cs^2 + vA^2 + sqrt((cs^2 + vA^2)^2 - 4 cs^2 (B . x/r)^2 / rho)) / 2 */
 SPH_FN sph_real sph_mhd_fast_speed(sph_real cs, sph_vec B, sph_real rho, sph_real B_along)
 {
-    const sph_real s = cs * cs + sph_dot(3, B, B) / rho, d = s * s - SPH_R(4) * cs * cs * B_along * B_along / rho;
-    return SPHI_SQRT(SPH_R(0.5) * (s + SPHI_SQRT(SPH_R(0.5) * (d + SPHI_ABS(d)))));
+    const sph_real per_rho = SPH_R(1) / rho;
+    return sphi_fast_speed(cs * cs, sph_dot(3, B, B) * per_rho, B_along * B_along * per_rho);
 }
 /* v_sig = (v_i + v_j + beta |w|) / 2, w = v_ij . x_ij / r: the speed at which two particles see each other. Price 2012, (105). */
 SPH_FN sph_real sph_mhd_signal_speed(sph_real fast_i, sph_real fast_j, sph_real beta, sph_real w)
 {
     return SPH_R(0.5) * (fast_i + fast_j + beta * SPHI_ABS(w));
 }
-/* Speed of sound along which conductivity equalises: sqrt(|P_i - P_j| / rho). Price 2008, JCP 227, 10040. */
-SPH_FN sph_real sph_conductivity_speed(sph_real P_i, sph_real P_j, sph_real rho_mean) { return SPHI_SQRT(SPHI_ABS(P_i - P_j) / rho_mean); }
+/* Speed of sound along which conductivity equalises: sqrt(|P_i - P_j| / rho), of the mean rho. Price 2008, JCP 227, 10040. */
+SPH_FN sph_real sph_conductivity_speed(sph_real P_i, sph_real P_j, sph_real per_rho) { return SPHI_SQRT(SPHI_ABS(P_i - P_j) * per_rho); }
 
 /* dpsi/dt = -ch^2 div B - sigma ch psi / h - psi div v / 2: (2) with 1/tau = sigma ch / h, (19). sigma: 0.2 to 0.3 in 2D, 0.8 to 1.2 in 3D (Tricco & Price 2012); see sph_cleaning_sigma. */
 SPH_FN sph_real sph_cleaning_rate(sph_real ch, sph_real sigma, sph_real h, sph_real psi, sph_real div_B, sph_real div_v)
@@ -3854,22 +3859,24 @@ SPH_FN int sphi_check_gas(sph_kernel k, int dim, sph_index first, sph_index last
 SPH_FN int sphi_components(int dim, sph_vectors v) { return v.z.p ? 3 : dim; }
 SPH_FN int sphi_check_out(int parts, sph_vector_out v) { return sphi_check_vector(parts, v.x, v.y, v.z); }
 
-/* the pair i, j: x_ij, r, and the factors of the kernel */
+/* the pair i, j: x_ij, r, and the factors of the kernel. One division serves all of rho_j and Omega_j. */
 typedef struct sphi_mhd_pair {
     sph_vec x;
-    sph_real r, F_i, F_j, g_i, g_j;
+    sph_real r, F_i, F_j, g_i, g_j, per_rho, per_omega;
 } sphi_mhd_pair;
 SPH_FN sphi_mhd_pair sphi_mhd_pair_of(sph_kernel k, int dim, int uniform, sph_points x, sph_scalars h, const sph_gas *g, sph_vec x_i, sph_real h_i,
                                       sph_real own, sph_index j)
 {
-    const sph_real rho_j = sphi_at(g->rho, j);
+    const sph_real rho_j = sphi_at(g->rho, j), omega_j = sphi_at(g->omega, j), per_both = SPH_R(1) / (omega_j * rho_j);
     sphi_mhd_pair c;
     c.x = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
     c.r = sph_length(dim, c.x);
     c.F_i = sph_kernel_f(k, dim, c.r, h_i);
     c.F_j = uniform ? c.F_i : sph_kernel_f(k, dim, c.r, sphi_at(h, j));
     c.g_i = c.F_i * own;
-    c.g_j = c.F_j / (sphi_at(g->omega, j) * rho_j * rho_j);
+    c.per_rho = omega_j * per_both;
+    c.per_omega = rho_j * per_both;
+    c.g_j = c.F_j * c.per_rho * per_both;
     return c;
 }
 SPH_FN sph_real sphi_mhd_own(const sph_gas *g, sph_index i) { return SPH_R(1) / (sphi_at(g->omega, i) * sphi_at(g->rho, i) * sphi_at(g->rho, i)); }
@@ -4065,62 +4072,73 @@ typedef struct sph_mhd {
 /* Where rates go; null pointers are not wanted (accelerations and rate_B are). */
 typedef struct sph_mhd_out {
     sph_vector_out acceleration, rate_B;
-    SPH_GLOBAL sph_real *rate_u, *rate_psi, *div_B, *div_v;
+    SPH_GLOBAL sph_real *rate_u, *rate_psi, *div_B, *div_v, *v_sig;
 } sph_mhd_out;
 
 SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list,
                                 sph_scalars h, const sph_mhd *s, const sph_mhd_out *out)
 {
-    sph_index i, p, failed = 0;
+    const sph_real support = sph_kernel_support(k);
+    sph_real v_sig[SPHI_TILE];
+    sph_index i, p, tile, end, failed = 0;
     for (i = first; i < last; i++) {
         const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(parts, s->v, i), B_i = sphi_vector_at(parts, s->B, i);
         const sph_real h_i = sphi_at(h, i), rho_i = sphi_at(s->gas.rho, i), own = sphi_mhd_own(&s->gas, i), omega_i = sphi_at(s->gas.omega, i);
         const sph_real P_i = sphi_at(s->P, i), u_i = sphi_at(s->u, i), cs_i = sphi_at(s->cs, i), alpha_i = sphi_at(s->alpha, i),
                        psi_i = cleans ? sphi_at(s->psi, i) : SPH_R(0);
+        const sph_real per_rho_i = SPH_R(1) / rho_i, per_omega_i = SPH_R(1) / omega_i, sound2_i = cs_i * cs_i, alfven2_i = sph_dot(3, B_i, B_i) * per_rho_i;
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0), tension = SPH_R(0), sv = SPH_R(0), sB = SPH_R(0), heat = SPH_R(0);
         sph_real ix = SPH_R(0), iy = SPH_R(0), iz = SPH_R(0), cx = SPH_R(0), cy = SPH_R(0), cz = SPH_R(0), rx = SPH_R(0), ry = SPH_R(0), rz = SPH_R(0);
         sph_vec a, b;
-        sph_real div_v, div_B;
+        sph_real div_v, div_B, fastest = sphi_fast_speed(sound2_i, alfven2_i, SPH_R(0));
         int lost;
-        SPH_SUM(ax, ay, az, tension, sv, sB, heat, ix, iy, iz, cx, cy, cz, rx, ry, rz)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            const sphi_mhd_pair c = sphi_mhd_pair_of(k, dim, uniform, x, h, &s->gas, x_i, h_i, own, j);
-            const sph_vec B_j = sphi_vector_at(parts, s->B, j), v_ij = sph_subtract(parts, v_i, sphi_vector_at(parts, s->v, j)),
-                          B_ij = sph_subtract(parts, B_i, B_j);
-            const sph_real m_j = sphi_at(s->gas.m, j), rho_j = sphi_at(s->gas.rho, j), P_j = sphi_at(s->P, j), rho = SPH_R(0.5) * (rho_i + rho_j);
-            const sph_real Bx_i = sph_dot(dim, B_i, c.x), Bx_j = sph_dot(dim, B_j, c.x), vx = sph_dot(dim, v_ij, c.x), per_r = SPH_R(1) / (c.r + SPHI_TINY),
-                           w = vx * per_r;
-            const sph_vec t_i = sph_mhd_traction(B_i, P_i, Bx_i, c.x), t_j = sph_mhd_traction(B_j, P_j, Bx_j, c.x);
-            const sph_real G = SPH_R(0.5) * (c.F_i / omega_i + c.F_j / sphi_at(s->gas.omega, j));
-            const sph_real v_sig = sph_mhd_signal_speed(sph_mhd_fast_speed(cs_i, B_i, rho_i, Bx_i * per_r),
-                                                        sph_mhd_fast_speed(sphi_at(s->cs, j), B_j, rho_j, Bx_j * per_r), s->beta, w);
-            const sph_real q =
-                SPH_R(0.25) * (alpha_i + sphi_at(s->alpha, j)) * v_sig * (w - SPHI_ABS(w)) / rho; /* alpha v_sig w / rho where they approach; <= 0 */
-            const sph_real eta = s->alpha_B * v_sig / (rho * rho);
-            /* q G x / r: repels; the two tractions */
-            const sph_real push = q * G;
-            ax += m_j * (t_i.x * c.g_i + t_j.x * c.g_j + push * c.x.x);
-            ay += m_j * (t_i.y * c.g_i + t_j.y * c.g_j + push * c.x.y);
-            az += m_j * (t_i.z * c.g_i + t_j.z * c.g_j + push * c.x.z);
-            tension += m_j * (Bx_i * c.g_i + Bx_j * c.g_j);
-            sv += m_j * vx * c.F_i;
-            sB += m_j * (Bx_i - Bx_j) * c.F_i;
-            ix += m_j * v_ij.x * Bx_i * c.F_i;
-            iy += m_j * v_ij.y * Bx_i * c.F_i;
-            iz += m_j * v_ij.z * Bx_i * c.F_i;
-            if (cleans) {
-                const sph_real e = m_j * (psi_i * c.g_i + sphi_at(s->psi, j) * c.g_j);
-                cx += e * c.x.x;
-                cy += e * c.x.y;
-                cz += e * c.x.z;
+        for (tile = list.start[i]; tile < list.start[i + 1]; tile = end) {
+            end = list.start[i + 1] - tile < SPHI_TILE ? list.start[i + 1] : tile + SPHI_TILE;
+            SPH_SUM(ax, ay, az, tension, sv, sB, heat, ix, iy, iz, cx, cy, cz, rx, ry, rz)
+            for (p = tile; p < end; p++) {
+                const sph_index j = list.index[p];
+                const sphi_mhd_pair c = sphi_mhd_pair_of(k, dim, uniform, x, h, &s->gas, x_i, h_i, own, j);
+                const sph_vec B_j = sphi_vector_at(parts, s->B, j), v_ij = sph_subtract(parts, v_i, sphi_vector_at(parts, s->v, j)),
+                              B_ij = sph_subtract(parts, B_i, B_j);
+                const sph_real m_j = sphi_at(s->gas.m, j), P_j = sphi_at(s->P, j), cs_j = sphi_at(s->cs, j);
+                const sph_real per_rho = SPH_R(2) / (rho_i + sphi_at(s->gas.rho, j)); /* of the mean */
+                const sph_real Bx_i = sph_dot(dim, B_i, c.x), Bx_j = sph_dot(dim, B_j, c.x), vx = sph_dot(dim, v_ij, c.x), per_r = SPH_R(1) / (c.r + SPHI_TINY),
+                               w = vx * per_r, along_i = Bx_i * per_r, along_j = Bx_j * per_r, h_j = uniform ? h_i : sphi_at(h, j);
+                const sph_vec t_i = sph_mhd_traction(B_i, P_i, Bx_i, c.x), t_j = sph_mhd_traction(B_j, P_j, Bx_j, c.x);
+                const sph_real G = SPH_R(0.5) * (c.F_i * per_omega_i + c.F_j * c.per_omega);
+                const sph_real speed =
+                    sph_mhd_signal_speed(sphi_fast_speed(sound2_i, alfven2_i, along_i * along_i * per_rho_i),
+                                         sphi_fast_speed(cs_j * cs_j, sph_dot(3, B_j, B_j) * c.per_rho, along_j * along_j * c.per_rho), s->beta, w);
+                const sph_real q =
+                    SPH_R(0.25) * (alpha_i + sphi_at(s->alpha, j)) * speed * (w - SPHI_ABS(w)) * per_rho; /* alpha v_sig w / rho where they approach; <= 0 */
+                const sph_real eta = s->alpha_B * speed * per_rho * per_rho;
+                /* 0 beyond both supports; no comparison, which would keep gcc from vectorising */
+                v_sig[p - tile] = speed * (SPH_R(0.5) + SPHI_COPYSIGN(SPH_R(0.5), support * SPH_R(0.5) * (h_i + h_j + SPHI_ABS(h_i - h_j)) - c.r));
+                /* q G x / r: repels; the two tractions */
+                const sph_real push = q * G;
+                ax += m_j * (t_i.x * c.g_i + t_j.x * c.g_j + push * c.x.x);
+                ay += m_j * (t_i.y * c.g_i + t_j.y * c.g_j + push * c.x.y);
+                az += m_j * (t_i.z * c.g_i + t_j.z * c.g_j + push * c.x.z);
+                tension += m_j * (Bx_i * c.g_i + Bx_j * c.g_j);
+                sv += m_j * vx * c.F_i;
+                sB += m_j * (Bx_i - Bx_j) * c.F_i;
+                ix += m_j * v_ij.x * Bx_i * c.F_i;
+                iy += m_j * v_ij.y * Bx_i * c.F_i;
+                iz += m_j * v_ij.z * Bx_i * c.F_i;
+                if (cleans) {
+                    const sph_real e = m_j * (psi_i * c.g_i + sphi_at(s->psi, j) * c.g_j);
+                    cx += e * c.x.x;
+                    cy += e * c.x.y;
+                    cz += e * c.x.z;
+                }
+                rx += m_j * eta * B_ij.x * G * c.r;
+                ry += m_j * eta * B_ij.y * G * c.r;
+                rz += m_j * eta * B_ij.z * G * c.r;
+                heat += m_j * G * c.r *
+                        (SPH_R(-0.5) * q * w - SPH_R(0.5) * eta * sph_dot(parts, B_ij, B_ij) +
+                         s->alpha_u * sph_conductivity_speed(P_i, P_j, per_rho) * (u_i - sphi_at(s->u, j)) * per_rho);
             }
-            rx += m_j * eta * B_ij.x * G * c.r;
-            ry += m_j * eta * B_ij.y * G * c.r;
-            rz += m_j * eta * B_ij.z * G * c.r;
-            heat += m_j * G * c.r *
-                    (SPH_R(-0.5) * q * w - SPH_R(0.5) * eta * sph_dot(parts, B_ij, B_ij) +
-                     s->alpha_u * sph_conductivity_speed(P_i, P_j, rho) * (u_i - sphi_at(s->u, j)) / rho);
+            for (p = 0; p < end - tile; p++) fastest = v_sig[p] > fastest ? v_sig[p] : fastest;
         }
         div_v = -sv / (omega_i * rho_i);
         div_B = -sB / (omega_i * rho_i);
@@ -4136,10 +4154,21 @@ SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k
         if (out->rate_u) lost |= sphi_store_finite(out->rate_u, i, P_i * own * sv + heat);
         if (out->rate_psi) lost |= sphi_store_finite(out->rate_psi, i, cleans ? sph_cleaning_rate(s->ch, s->sigma, h_i, psi_i, div_B, div_v) : SPH_R(0));
         if (out->div_B) lost |= sphi_store_finite(out->div_B, i, div_B);
+        if (out->v_sig) lost |= sphi_store_finite(out->v_sig, i, fastest);
         if (out->div_v) lost |= sphi_store_finite(out->div_v, i, div_v);
         failed += lost;
     }
     return failed;
+}
+/* with what the loop may know as constants */
+SPH_FN sph_index sphi_mhd_some(int parts, int cleans, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
+                               const sph_mhd *s, const sph_mhd_out *out)
+{
+    if (cleans)
+        return h.stride ? sphi_mhd_range(0, parts, 1, k, dim, first, last, x, list, h, s, out)
+                        : sphi_mhd_range(1, parts, 1, k, dim, first, last, x, list, h, s, out);
+    return h.stride ? sphi_mhd_range(0, parts, 0, k, dim, first, last, x, list, h, s, out)
+                    : sphi_mhd_range(1, parts, 0, k, dim, first, last, x, list, h, s, out);
 }
 SPH_FN int sphi_check_mhd(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, const sph_mhd *s)
 {
@@ -4158,7 +4187,7 @@ SPH_FN int sphi_check_mhd(sph_kernel k, int dim, sph_index first, sph_index last
        du/dt: P / (Omega rho^2) sum_j m_j v_ij . grad W, heating by viscosity, resistivity (both >= 0) and conductivity
        dpsi/dt: (2), (25); div B: (20); div v.
    Without (9) the sum m (v^2/2 + u + B^2 / (2 rho) + psi^2 / (2 rho ch^2)) changes by the damping of psi only, to round-off, and momentum does not; with (9) momentum changes by sum m B (div B). Density from
-   sph_density_adaptive (its rate is -rho div v). v_sig: sph_mhd_signal_speed_largest, for time steps and switches. */
+   sph_density_adaptive (its rate is -rho div v). v_sig: the largest of a target with its neighbours within the larger support, for time steps and switches; without any, its own fast speed. */
 SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_mhd state,
                                sph_mhd_out out)
 {
@@ -4173,40 +4202,8 @@ SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_index first, sph_index
         (!sphi_finite(state.ch) || !sphi_finite(state.sigma) || !sphi_finite(state.alpha_u) || !sphi_finite(state.alpha_B) || !sphi_finite(state.tensile)))
         error = SPH_ERROR_VALUE;
     if (error) return error;
-    if (cleans)
-        return h.stride ? sphi_mhd_range(0, parts, 1, k, dim, first, last, x, list, h, &state, &out)
-                        : sphi_mhd_range(1, parts, 1, k, dim, first, last, x, list, h, &state, &out);
-    return h.stride ? sphi_mhd_range(0, parts, 0, k, dim, first, last, x, list, h, &state, &out)
-                    : sphi_mhd_range(1, parts, 0, k, dim, first, last, x, list, h, &state, &out);
-}
-
-/* The largest v_sig of each target and its neighbours within the larger support; without any, its own fast speed. */
-SPH_FN sph_index sph_mhd_signal_speed_largest(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_mhd state,
-                                              SPH_GLOBAL sph_real *out)
-{
-    const int parts = sphi_components(dim, state.v);
-    const sph_real support = sph_kernel_support(k);
-    int error = sphi_check_mhd(k, dim, first, last, x, list, h, &state);
-    sph_index i, p, failed = 0;
-    if (!error && !out) error = SPH_ERROR_NULL;
-    if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(parts, state.v, i), B_i = sphi_vector_at(parts, state.B, i);
-        const sph_real cs_i = sphi_at(state.cs, i), rho_i = sphi_at(state.gas.rho, i), h_i = sphi_at(h, i);
-        sph_real largest = sph_mhd_fast_speed(cs_i, B_i, rho_i, SPH_R(0));
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j)), B_j = sphi_vector_at(parts, state.B, j);
-            const sph_real r = sph_length(dim, x_ij), h_j = sphi_at(h, j), per_r = SPH_R(1) / (r + SPHI_TINY);
-            const sph_real fast =
-                sph_mhd_signal_speed(sph_mhd_fast_speed(cs_i, B_i, rho_i, sph_dot(dim, B_i, x_ij) * per_r),
-                                     sph_mhd_fast_speed(sphi_at(state.cs, j), B_j, sphi_at(state.gas.rho, j), sph_dot(dim, B_j, x_ij) * per_r), state.beta,
-                                     sph_dot(dim, sph_subtract(parts, v_i, sphi_vector_at(parts, state.v, j)), x_ij) * per_r);
-            if (r < support * (h_i > h_j ? h_i : h_j) && fast > largest) largest = fast;
-        }
-        failed += sphi_store_finite(out, i, largest);
-    }
-    return failed;
+    if (parts == dim) return sphi_mhd_some(dim, cleans, k, dim, first, last, x, list, h, &state, &out);
+    return sphi_mhd_some(3, cleans, k, dim, first, last, x, list, h, &state, &out);
 }
 
 /* ================================================================ list tier: self-gravity, three dimensions

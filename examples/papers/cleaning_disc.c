@@ -688,7 +688,7 @@ static void resistivity(report *r)
         state s = box(SIDE, rho, 0);
         double *const B = s.a[along == 0 ? BX : BY], *const change = s.a[along == 0 ? RBX : RBY], amplitude = 0, dt;
         sph_mhd m = {0};
-        sph_mhd_out out = {{NULL, NULL, NULL}, {NULL, NULL, NULL}, NULL, NULL, NULL, NULL};
+        sph_mhd_out out = {{NULL, NULL, NULL}, {NULL, NULL, NULL}, NULL, NULL, NULL, NULL, NULL};
         m.gas = gas(&s);
         m.P = m.u = m.cs = sph_scalars_same(&one);
         m.alpha = m.v.x = m.v.y = sph_scalars_same(&nought);

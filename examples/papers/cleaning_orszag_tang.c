@@ -47,8 +47,8 @@ typedef struct plan {
     double alpha_B, sigma, overclean;
 } plan;
 
-enum { LISTS, DENSITY, RATES, SIGNAL, PHASES };
-static const char *const phase_name[PHASES] = {"lists", "density", "rates", "signal speed"};
+enum { LISTS, DENSITY, RATES, PHASES };
+static const char *const phase_name[PHASES] = {"lists", "density", "rates"};
 
 typedef struct gas {
     sph_index n;
@@ -296,11 +296,8 @@ static sph_index rates_sweep(gas *g, const plan *c, sph_index first, sph_index l
     out.rate_psi = c->cleans == CONJUGATE ? g->rate[PSI] : NULL;
     out.div_B = g->a[DIV_B];
     out.div_v = g->a[DIV_V];
+    out.v_sig = g->a[SPEED];
     return sph_mhd_rates(KERNEL, 2, first, last, points(g), list(g), field(g, H), magnetised(g, c, c->cleans == CONJUGATE), out);
-}
-static sph_index signal_sweep(gas *g, const plan *c, sph_index first, sph_index last)
-{
-    return sph_mhd_signal_speed_largest(KERNEL, 2, first, last, points(g), list(g), field(g, H), magnetised(g, c, 0), g->a[SPEED]);
 }
 static sph_index nonconservative_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
@@ -323,7 +320,7 @@ static void gas_state(gas *g, const plan *c)
 }
 static void gas_rates(gas *g, const plan *c, double t)
 {
-    clock_t mark, now;
+    clock_t mark;
     sph_index i;
     gas_density(g, t);
     mark = clock();
@@ -338,12 +335,8 @@ static void gas_rates(gas *g, const plan *c, double t)
             g->rate[BY][i] += g->a[SCRATCH_Y][i];
         }
     }
-    now = clock();
-    g->cpu[RATES] += (double)(now - mark) / CLOCKS_PER_SEC;
-    mark = now;
-    expect(everywhere(signal_sweep, g, c), "sph_mhd_signal_speed_largest");
     for (i = 0; i < g->n; i++) g->rate[ALPHA][i] = sph_viscosity_switch_rate(g->a[ALPHA][i], 0.1, 2, g->a[SPEED][i], g->a[H][i], g->a[DIV_V][i]);
-    g->cpu[SIGNAL] += (double)(clock() - mark) / CLOCKS_PER_SEC;
+    g->cpu[RATES] += (double)(clock() - mark) / CLOCKS_PER_SEC;
 }
 
 /* ---- steps: leapfrog, one evaluation of the rates each, everything but positions predicted by Euler's rule and corrected by the trapezoidal one ---- */
@@ -536,6 +529,7 @@ static balance gas_balance(gas *g, const plan *c, double t)
         out.rate_psi = g->rate[PSI];
         out.div_B = g->a[DIV_B];
         out.div_v = g->a[DIV_V];
+        out.v_sig = NULL;
         expect(sph_mhd_rates(KERNEL, 2, 0, g->n, points(g), list(g), field(g, H), s, out), "sph_mhd_rates");
     }
     for (i = 0, sum = size = 0; i < g->n; i++) {

@@ -67,8 +67,9 @@ typedef struct search {
 
 /* those from ICSPM on take long to compile and are in the main form only: their checks and their ranges are like those of the others */
 enum { DENSITY, GRADIENT, BROOKSHAW, ROWS, APPLY, ICSPM, ACCELERATION, FLUID, MSPH_ROWS, MHD, MHD_CLEANED, OPERATORS };
+enum { OUTPUTS = 11 };
 typedef struct outputs {
-    sph_real *g[10], *row;
+    sph_real *g[OUTPUTS], *row;
 } outputs;
 typedef struct ops {
     sph_index (*apply)(int which, const cloud *c, const outputs *out, int threads);
@@ -248,6 +249,7 @@ SPH_FN sph_index apply_range(int which, int dim, sph_index first, sph_index last
         r.rate_psi = o->g[7];
         r.div_B = o->g[8];
         r.div_v = o->g[9];
+        r.v_sig = o->g[10];
         if (which == MHD) return sph_mhd_rates(KERNEL, dim, first, last, x, list, h, s, r);
         s.psi = f;
         return sph_mhd_rates(KERNEL, dim, first, last, x, list, h, s, r);
@@ -854,7 +856,7 @@ static void bench_size(int dim, int side, int largest, int level, range *flat_li
     if (few) goto end;
 
     /* ---- operators, on the lists of the lattice */
-    for (k = 0; k < 10; k++) out.g[k] = (sph_real *)memory((size_t)n * sizeof *out.g[k]);
+    for (k = 0; k < OUTPUTS; k++) out.g[k] = (sph_real *)memory((size_t)n * sizeof *out.g[k]);
     out.row = (sph_real *)memory((size_t)lattice.pairs * sizeof *out.row);
     lattice.index = index[0];
     fill_lists(&lattice);
@@ -906,7 +908,7 @@ static void bench_size(int dim, int side, int largest, int level, range *flat_li
         target("2 threads: speed-up of corrected gradient at the largest n", ratio(op_threads[1][GRADIENT], 0, op_threads[2][GRADIENT], 0), ">=", 1.8);
     }
 
-    for (k = 0; k < 10; k++) free(out.g[k]);
+    for (k = 0; k < OUTPUTS; k++) free(out.g[k]);
     free(out.row);
 end:
     free(index[0]);
