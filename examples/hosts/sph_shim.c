@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: MIT */
+/* sph_shim.c - see sph_shim.h. */
+#include "sph_shim.h"
+
+struct sph_shim_cloud {
+    int kernel, dim;
+    sph_index first, last;
+    sph_points points;
+    sph_scalars h, V;
+    sph_list list;
+};
+
+/* The one switch around a sweep: SWEEP(K, D) with kernel and dimension as constants, which fold, for these kernels; the others share one copy that asks at each pair (and takes twice as long).
+   -DSHIM_SWITCH_KERNEL=SPH_SWITCH_KERNEL makes a copy for every kernel, at the cost of minutes of compile time; better put your own here. */
+/* clang-format off */
+#ifndef SHIM_SWITCH_KERNEL
+#define SHIM_SWITCH_KERNEL(k, CALL) \
+    switch (k) { \
+    case SPH_CUBIC_SPLINE: CALL(SPH_CUBIC_SPLINE) break; \
+    case SPH_WENDLAND_C2: CALL(SPH_WENDLAND_C2) break; \
+    default: CALL((sph_kernel)(k)) break; \
+    }
+#endif
+/* clang-format on */
+#define EVERY_DIM(K) answer = c->dim == 1 ? SWEEP(K, 1) : c->dim == 2 ? SWEEP(K, 2) : SWEEP(K, 3);
+/* what all sweeps over the lists begin with */
+#define CLOUD c->first, c->last, c->points, c->list, c->h
+
+int sph_shim_version(void) { return SPH_VERSION; }
+int sph_shim_real_size(void) { return (int)sizeof(sph_real); }
+int sph_shim_index_size(void) { return (int)sizeof(sph_index); }
+int sph_shim_kernel_from_name(const char *name) { return sph_kernel_from_name(name); }
+const char *sph_shim_status_text(int status) { return sph_status_text(status); }
+sph_real sph_shim_kernel_support(int kernel) { return sph_kernel_support((sph_kernel)kernel); }
+
+SPH_FN int kernel_wf(sph_kernel k, int dim, sph_index n, const sph_real *r, sph_real h, sph_real *w, sph_real *f)
+{
+    sph_index i;
+    for (i = 0; i < n; i++) {
+        const sph_wf v = sph_kernel_wf(k, dim, r[i], h);
+        if (w) w[i] = v.w;
+        if (f) f[i] = v.f;
+    }
+    return 0;
+}
+int sph_shim_kernel_wf(int kernel, int dim, sph_index n, const sph_real *r, sph_real h, sph_real *w, sph_real *f)
+{
+    int answer = SPH_ERROR_KERNEL;
+    if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
+    if (!r && n > 0) return SPH_ERROR_NULL;
+    if (!(h > SPH_R(0))) return SPH_ERROR_H;
+#define ANY_DIM(K) answer = kernel_wf(K, dim, n, r, h, w, f);
+    SPH_SWITCH_KERNEL((sph_kernel)kernel, ANY_DIM)
+    return answer;
+}
+
+/* ---------------------------------------------------------------- clouds */
+
+size_t sph_shim_cloud_size(void) { return sizeof(sph_shim_cloud); }
+int sph_shim_cloud_init(sph_shim_cloud *c, int kernel, int dim, sph_index n, const sph_real *x, const sph_real *y, const sph_real *z, size_t stride)
+{
+    if (!c || !x || (dim > 1 && !y) || (dim > 2 && !z)) return SPH_ERROR_NULL;
+    if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
+    if (kernel < 0 || kernel >= (int)SPH_KERNEL_COUNT) return SPH_ERROR_KERNEL;
+    c->kernel = kernel;
+    c->dim = dim;
+    c->points = sph_points_strided(n, x, y, z, stride);
+    sph_shim_cloud_range(c, 0, n);
+    sph_shim_cloud_volumes(c, 0, 0, 0, 0);
+    sph_shim_cloud_lists(c, 0, 0);
+    return 0;
+}
+void sph_shim_cloud_volumes(sph_shim_cloud *c, const sph_real *h, size_t h_stride, const sph_real *V, size_t V_stride)
+{
+    c->h = sph_scalars_strided(h, h_stride);
+    c->V = sph_scalars_strided(V, V_stride);
+}
+void sph_shim_cloud_lists(sph_shim_cloud *c, const sph_index *start, const sph_index *index)
+{
+    c->list.start = start;
+    c->list.index = index;
+}
+void sph_shim_cloud_periodic(sph_shim_cloud *c, sph_real lx, sph_real ly, sph_real lz) { c->points = sph_points_periodic(c->points, lx, ly, lz); }
+void sph_shim_cloud_range(sph_shim_cloud *c, sph_index first, sph_index last)
+{
+    c->first = first;
+    c->last = last;
+}
+
+size_t sph_shim_grid_workspace(int dim, sph_index n) { return sph_grid_workspace(dim, n); }
+sph_index sph_shim_grid_lists(const sph_shim_cloud *c, int criterion, const sph_real *radius, size_t radius_stride, void *work, size_t work_size,
+                              sph_index *start, sph_index *index, size_t capacity, int64_t *pairs)
+{
+    const sph_scalars R = sph_scalars_strided(radius, radius_stride);
+    sph_real reach = SPH_R(0);
+    sph_grid grid;
+    sph_index i, error;
+    if (!radius) return SPH_ERROR_NULL;
+    for (i = 0; i < (radius_stride ? c->points.n : 1); i++) reach = radius[(size_t)i * radius_stride] > reach ? radius[(size_t)i * radius_stride] : reach;
+    error = sph_grid_build(c->dim, c->points, reach, work, work_size, &grid);
+    return error ? error : sph_grid_lists(c->dim, &grid, c->points, criterion, R, R, 0, start, index, (int64_t)capacity, pairs);
+}
+
+/* ---------------------------------------------------------------- sweeps */
+
+sph_index sph_shim_density_summation(const sph_shim_cloud *c, const sph_real *m, size_t m_stride, sph_real *rho)
+{
+    sph_index answer;
+#define SWEEP(K, D) sph_density_summation(K, D, CLOUD, sph_scalars_strided(m, m_stride), rho)
+    SHIM_SWITCH_KERNEL(c->kernel, EVERY_DIM)
+#undef SWEEP
+    return answer;
+}
+sph_index sph_shim_gradient_cspm(const sph_shim_cloud *c, const sph_real *f, size_t f_stride, sph_real *gx, sph_real *gy, sph_real *gz, unsigned char *status)
+{
+    sph_index answer;
+#define SWEEP(K, D) sph_gradient_cspm(K, D, CLOUD, c->V, sph_scalars_strided(f, f_stride), gx, gy, gz, 0, status)
+    SHIM_SWITCH_KERNEL(c->kernel, EVERY_DIM)
+#undef SWEEP
+    return answer;
+}
+sph_index sph_shim_laplacian_brookshaw(const sph_shim_cloud *c, const sph_real *f, size_t f_stride, sph_real *out)
+{
+    sph_index answer;
+#define SWEEP(K, D) sph_laplacian_brookshaw(K, D, CLOUD, c->V, sph_scalars_strided(f, f_stride), out)
+    SHIM_SWITCH_KERNEL(c->kernel, EVERY_DIM)
+#undef SWEEP
+    return answer;
+}
+sph_index sph_shim_derivatives_icspm(const sph_shim_cloud *c, const sph_real *f, size_t f_stride, sph_real conditioning_min, int fallback_wls, sph_real *out,
+                                     unsigned char *status)
+{
+    sph_index answer;
+    sph_derivative_out o = {0};
+    if (!out) return SPH_ERROR_NULL;
+    o.gx = out;
+    o.hxx = out + c->dim;
+    if (c->dim > 1) o.gy = out + 1, o.hxy = o.hxx + 1, o.hyy = o.hxx + 2;
+    if (c->dim > 2) o.gz = out + 2, o.hxz = o.hxx + 3, o.hyz = o.hxx + 4, o.hzz = o.hxx + 5;
+    o.stride = c->dim == 1 ? 2 : c->dim == 2 ? 5 : 9;
+    o.status = status;
+#define SWEEP(K, D) sph_derivatives_icspm(K, D, CLOUD, c->V, sph_scalars_strided(f, f_stride), conditioning_min, fallback_wls, o)
+    EVERY_DIM((sph_kernel)c->kernel) /* one copy: what its 14 or 50 sums cost hides the switch */
+#undef SWEEP
+    return answer;
+}
+
+sph_index sph_shim_elliptic_rows_msph(const sph_shim_cloud *c, const sph_real *m, size_t m_stride, int trace, sph_real *row, sph_real *diagonal,
+                                      unsigned char *status)
+{
+    sph_index answer;
+    sph_elliptic_options options = sph_elliptic_defaults();
+    sph_row_out out = {0};
+    options.trace = trace;
+    out.row = row;
+    out.diagonal = diagonal;
+    out.status = status;
+#define SWEEP(K, D) sph_elliptic_rows_msph(K, D, CLOUD, c->V, sph_scalars_strided(m, m_stride), options, out)
+    SHIM_SWITCH_KERNEL(c->kernel, EVERY_DIM)
+#undef SWEEP
+    return answer;
+}
+
+sph_index sph_shim_rows_apply(const sph_shim_cloud *c, const sph_real *row, const sph_real *diagonal, const sph_real *u, size_t u_stride, sph_real *out)
+{
+    return sph_rows_apply(c->first, c->last, c->points.n, c->list, row, diagonal, sph_scalars_strided(u, u_stride), out);
+}
+sph_index sph_shim_collide_sequential(const sph_shim_cloud *c, sph_real distance, const sph_real *inverse_mass, size_t inverse_mass_stride,
+                                      sph_real restitution, sph_real *vx, sph_real *vy, sph_real *vz, size_t stride)
+{
+    return sph_collide_sequential(c->dim, c->first, c->last, c->points, c->list, distance, sph_scalars_strided(inverse_mass, inverse_mass_stride), restitution,
+                                  vx, vy, vz, stride, 0);
+}
