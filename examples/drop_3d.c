@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * drop_3d.c - a drop of liquid is squeezed flat: 3D, a free surface, and a solution to compare with.
+ *
+ *     cc -O2 -I. -o drop_3d examples/drop_3d.c -lm
+ *     ./drop_3d -v drop            drop_000.vtk, drop_001.vtk, ... for ParaView
+ *
+ * A ball of radius 1 starts with the velocity (x, y, -2 z), which is free of divergence. An ideal liquid keeps a velocity that is linear in x, y, z, and the ball becomes an
+ * ellipsoid with the semi-axes A, A, C, where p = P (1 - (x^2 + y^2) / A^2 - z^2 / C^2) and
+ *     A'' = 2 P / A,   C'' = 2 P / C,   2 P (2 / A^2 + 1 / C^2) = 2 (A'/A)^2 + (C'/C)^2          (density 1; nothing to hold it together)
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "sph.h"
+
+enum { DIM = 3, MOST = 3200, NEIGHBOURS = 120, COLUMNS = 80, ROWS = 17 };
+#define KERNEL SPH_WENDLAND_C2                    /* a constant: the compiler then folds kernel and dimension away */
+static const double rho0 = 1, gamma7 = 7, c = 20; /* the fastest particle: 2 */
+static double dx, h, dt, t, m;
+static int n;
+static double x[MOST], y[MOST], z[MOST], vx[MOST], vy[MOST], vz[MOST], ax[MOST], ay[MOST], az[MOST], rho[MOST], p[MOST];
+static double axis[2] = {1, 1}, speed[2] = {1, -2}; /* A, C of the solution */
+
+static void need(sph_index failed) /* what a sweep returns: 0, or how many particles failed, or an error */
+{
+    if (failed == 0) return;
+    fprintf(stderr, "drop_3d: t = %g: %s\n", t, failed < 0 ? sph_status_text((int)failed) : "a result overflowed");
+    exit(1);
+}
+
+static void fill(int across) /* particles along a radius: not more than 9, for MOST in all */
+{
+    int i, j, k;
+    dx = 1.0 / across;
+    h = sph_kernel_h_over_dx(KERNEL) * dx;
+    dt = sph_time_step_sound(h, c, 2);
+    for (i = -across; i < across; i++)
+        for (j = -across; j < across; j++)
+            for (k = -across; k < across; k++) {
+                const double px = (i + 0.5) * dx, py = (j + 0.5) * dx, pz = (k + 0.5) * dx, r2 = px * px + py * py + pz * pz;
+                if (r2 >= 1) continue;
+                x[n] = vx[n] = px;
+                y[n] = vy[n] = py;
+                z[n] = pz;
+                vz[n] = -2 * pz;
+                p[n] = 1 - r2; /* P = 1 at first */
+                rho[n++] = sph_density_tait(1 - r2, rho0, c, gamma7, 0);
+            }
+    m = rho0 * 4 / 3 * 3.14159265358979324 / n;
+}
+
+static sph_vectors velocity(void) { return (sph_vectors){sph_scalars_array(vx), sph_scalars_array(vy), sph_scalars_array(vz)}; }
+
+/* continuity for the density, then pressures, then forces */
+static void rates(void)
+{
+    static sph_index start[MOST + 1], list_index[MOST * NEIGHBOURS];
+    static double divergence[MOST], one = 1;
+    static void *work;
+    const sph_points points = sph_points_separate(n, x, y, z);
+    const double radius = sph_kernel_support(KERNEL) * h;
+    const sph_scalars R = sph_scalars_same(&radius), H = sph_scalars_same(&h), mass = sph_scalars_same(&m), density = sph_scalars_array(rho);
+    const sph_vectors v = velocity();
+    const sph_gas gas = {mass, density, sph_scalars_same(&one)};
+    const sph_fluid fluid = {mass, density, sph_scalars_array(p), sph_scalars_same(&c), v, SPH_VISCOSITY_MONAGHAN, 0.02, 0, 0.1};
+    const sph_list list = {start, list_index};
+    sph_grid grid;
+    int64_t pairs;
+    int i;
+    if (!work) work = malloc(sph_grid_workspace(DIM, MOST));
+    need(sph_grid_build(DIM, points, radius, work, sph_grid_workspace(DIM, MOST), &grid));
+    need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, R, R, 0, start, list_index, MOST * NEIGHBOURS, &pairs));
+    need(sph_divergence_difference(KERNEL, DIM, 0, n, points, list, H, gas, v, divergence));
+    for (i = 0; i < n; i++) {
+        rho[i] -= dt * rho[i] * divergence[i];
+        p[i] = sph_pressure_tait(rho[i], rho0, c, gamma7, 0);
+    }
+    need(sph_fluid_rates_monaghan(KERNEL, DIM, 0, n, points, list, H, fluid, (sph_vector_out){ax, ay, az}, NULL, NULL));
+}
+static void kick(void) /* half a step */
+{
+    int i;
+    for (i = 0; i < n; i++) {
+        vx[i] += 0.5 * dt * ax[i];
+        vy[i] += 0.5 * dt * ay[i];
+        vz[i] += 0.5 * dt * az[i];
+    }
+}
+static void step(void)
+{
+    const double a2 = axis[0] * axis[0], c2 = axis[1] * axis[1];
+    const double P = (speed[0] * speed[0] / a2 + 0.5 * speed[1] * speed[1] / c2) / (2 / a2 + 1 / c2);
+    int i;
+    kick();
+    for (i = 0; i < n; i++) {
+        x[i] += dt * vx[i];
+        y[i] += dt * vy[i];
+        z[i] += dt * vz[i];
+    }
+    rates();
+    kick();
+    t += dt;
+    for (i = 0; i < 2; i++) { /* the solution: semi-implicit Euler */
+        speed[i] += dt * 2 * P / axis[i];
+        axis[i] += dt * speed[i];
+    }
+}
+
+/* semi-axes of the particles: the mean of x^2 over an ellipsoid is A^2 / 5 */
+static double measured(int which)
+{
+    double sum = 0;
+    int i;
+    for (i = 0; i < n; i++) sum += which ? z[i] * z[i] : 0.5 * (x[i] * x[i] + y[i] * y[i]);
+    return sqrt(5 * sum / n);
+}
+
+static void draw(void) /* seen from the side: the more particles behind each other, the darker */
+{
+    int picture[ROWS][COLUMNS] = {{0}}, i, row;
+    for (i = 0; i < n; i++) {
+        const int column = (int)floor((x[i] / 3.4 + 0.5) * COLUMNS);
+        row = (int)floor((0.5 - z[i] / 2.2) * ROWS);
+        if (row >= 0 && row < ROWS && column >= 0 && column < COLUMNS) picture[row][column]++;
+    }
+    for (row = 0; row < ROWS; row++) {
+        for (i = 0; i < COLUMNS; i++) putchar(" .:-=+*#%@"[picture[row][i] > 18 ? 9 : (picture[row][i] + 1) / 2]);
+        putchar('\n');
+    }
+    printf("t = %.2f   A = %.3f (exact %.3f)   C = %.3f (exact %.3f)\n", t, measured(0), axis[0], measured(1), axis[1]);
+}
+
+static FILE *create(const char *name)
+{
+    FILE *const file = fopen(name, "w");
+    if (file) return file;
+    perror(name);
+    exit(2);
+}
+static void write_vtk(const char *prefix, int frame)
+{
+    char name[256];
+    FILE *file;
+    int i;
+    snprintf(name, sizeof name, "%.240s_%03d.vtk", prefix, frame);
+    file = create(name);
+    fprintf(file, "# vtk DataFile Version 3.0\ndrop_3d, t = %g\nASCII\nDATASET POLYDATA\nPOINTS %d double\n", t, n);
+    for (i = 0; i < n; i++) fprintf(file, "%g %g %g\n", x[i], y[i], z[i]);
+    fprintf(file, "POINT_DATA %d\nSCALARS pressure double 1\nLOOKUP_TABLE default\n", n);
+    for (i = 0; i < n; i++) fprintf(file, "%g\n", p[i]);
+    fprintf(file, "VECTORS velocity double\n");
+    for (i = 0; i < n; i++) fprintf(file, "%g %g %g\n", vx[i], vy[i], vz[i]);
+    fclose(file);
+}
+
+static int failed;
+static void check(const char *what, double value, double expected, double tolerance)
+{
+    if (fabs(value - expected) < tolerance) return;
+    printf("FAILED: %s is %g, not %g\n", what, value, expected);
+    failed = 1;
+}
+static int test(void)
+{
+    sph_conserved sums;
+    double first;
+    fill(6);
+    first = measured(0); /* a ball of particles is not quite round */
+    for (rates(); t < 0.3;) step();
+    need(sph_conserved_sums(DIM, 0, n, sph_points_separate(n, x, y, z), sph_scalars_same(&m), velocity(), &sums));
+    check("A", measured(0) / first, axis[0], 0.02);
+    check("C", measured(1) / first, axis[1], 0.02);
+    check("the momentum", sph_length(DIM, sums.momentum), 0, 1e-12);
+    if (!failed) printf("ok\n");
+    return failed;
+}
+
+int main(int argc, char **argv)
+{
+    const int csv = argc == 3 && strcmp(argv[1], "-o") == 0, vtk = argc == 3 && strcmp(argv[1], "-v") == 0;
+    FILE *file = stdout;
+    int frame, i;
+    if (argc == 2 && strcmp(argv[1], "-t") == 0) return test();
+    if (argc > 1 && !csv && !vtk) {
+        const int help = strcmp(argv[1], "-h") == 0;
+        if (!help) fprintf(stderr, "drop_3d: unknown option, or no value for it: %s\n", argv[1]);
+        fprintf(help ? stdout : stderr, "drop_3d [-o FILE.csv | -v PREFIX | -t]   draw the drop, write it for a plot, write frames, or test its shape\n");
+        return help ? 0 : 2;
+    }
+    if (csv) fprintf(file = create(argv[2]), "t,x,y,z,p,A,C\n");
+    fill(9);
+    rates();
+    for (frame = 0; frame <= 20; frame++) {
+        while (t < 0.02 * frame - 1e-9) step();
+        if (vtk) write_vtk(argv[2], frame);
+        if (frame % 10) continue;
+        for (i = 0; i < n && csv; i++) fprintf(file, "%g,%.4g,%.4g,%.4g,%.4g,%.5g,%.5g\n", 0.02 * frame, x[i], y[i], z[i], p[i], axis[0], axis[1]);
+        if (argc == 1) draw();
+    }
+    return csv && fclose(file) ? 2 : 0;
+}
