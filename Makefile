@@ -38,6 +38,9 @@ help:
 	@echo "make test-sanitize    the tests under the address and undefined-behaviour sanitizers"
 	@echo "make bench            time the search and the operators, as ratios to the machine's limits"
 	@echo "make figures          PNG of the figures from the last run (needs gnuplot)"
+	@echo "make install          the headers and sph.pc below PREFIX=$(PREFIX); make uninstall removes them"
+	@echo "make dist             a tarball, and the three headers as one file, sph_all.h"
+	@echo "make check-packages   a host built from every kind of package whose tool is installed"
 	@echo "make clean            remove $(BUILD)/"
 	@echo "There is nothing to build: copy $(HEADERS) into your code."
 
@@ -99,10 +102,33 @@ $(BUILD)/tests/%: tests/test_%.c $(wildcard tests/*.h) $(COMMON) $(HEADERS)
 	@mkdir -p $(@D)
 	$(CC) $(WARN) $(CFLAGS) -I. -o $@ $< $(LDLIBS)
 
+check-packages:
+	@CC="$(CC)" BUILD="$(BUILD)" sh tests/packages/packages.sh
+
 bench:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/bench/run.sh
+
+# ---------------------------------------------------------------- packages
+
+PREFIX = /usr/local
+VERSION := $(shell awk '/^\#define SPH_VERSION_(MAJOR|MINOR|PATCH)/ { printf "%s%s", dot, $$3; dot = "." }' sph_kernels.h)
+DIST = $(BUILD)/dist
+
+version:
+	@echo $(VERSION)
+install:
+	install -d "$(DESTDIR)$(PREFIX)/include" "$(DESTDIR)$(PREFIX)/share/pkgconfig"
+	install -m 644 $(HEADERS) "$(DESTDIR)$(PREFIX)/include"
+	printf 'prefix=%s\nName: sph\nDescription: Header-only C99 toolkit of SPH kernels and operators\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -lm\n' \
+	    "$(PREFIX)" "$(VERSION)" > "$(DESTDIR)$(PREFIX)/share/pkgconfig/sph.pc"
+uninstall:
+	rm -f $(HEADERS:%="$(DESTDIR)$(PREFIX)/include/%") "$(DESTDIR)$(PREFIX)/share/pkgconfig/sph.pc"
+dist:
+	@mkdir -p $(DIST)
+	git archive --prefix=sph-$(VERSION)/ -o $(DIST)/sph-$(VERSION).tar.gz HEAD
+	sh tests/packages/amalgamate.sh > $(DIST)/sph_all.h
 
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures test test-sanitize bench clean
+.PHONY: help reproduce reproduce-full figures test test-sanitize version install uninstall dist check-packages bench clean

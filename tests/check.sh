@@ -6,6 +6,7 @@
 BUILD=${BUILD:-build}
 CC=${CC:-cc}
 scratch=$BUILD/scratch/$(basename "$0" .sh)
+rm -rf "$scratch"
 mkdir -p "$scratch" || exit 2
 passed=0
 failed=0

@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: MIT
+#     vcpkg install sph --overlay-ports=tests/packages
+set(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../..")
+set(VCPKG_BUILD_TYPE release) # headers only
+vcpkg_cmake_configure(SOURCE_PATH "${SOURCE_PATH}")
+vcpkg_cmake_install()
+vcpkg_cmake_config_fixup(CONFIG_PATH share/cmake/sph)
+vcpkg_install_copyright(FILE_LIST "${SOURCE_PATH}/LICENSE")
