@@ -82,11 +82,9 @@ static void rates(void)
 static void kick(void) /* half a step */
 {
     int i;
-    for (i = 0; i < n; i++) {
-        vx[i] += 0.5 * dt * ax[i];
-        vy[i] += 0.5 * dt * ay[i];
-        vz[i] += 0.5 * dt * az[i];
-    }
+    for (i = 0; i < n; i++) vx[i] += 0.5 * dt * ax[i];
+    for (i = 0; i < n; i++) vy[i] += 0.5 * dt * ay[i];
+    for (i = 0; i < n; i++) vz[i] += 0.5 * dt * az[i];
 }
 static void step(void)
 {
@@ -94,11 +92,9 @@ static void step(void)
     const double P = (speed[0] * speed[0] / a2 + 0.5 * speed[1] * speed[1] / c2) / (2 / a2 + 1 / c2);
     int i;
     kick();
-    for (i = 0; i < n; i++) {
-        x[i] += dt * vx[i];
-        y[i] += dt * vy[i];
-        z[i] += dt * vz[i];
-    }
+    for (i = 0; i < n; i++) x[i] += dt * vx[i];
+    for (i = 0; i < n; i++) y[i] += dt * vy[i];
+    for (i = 0; i < n; i++) z[i] += dt * vz[i];
     rates();
     kick();
     t += dt;
@@ -186,7 +182,7 @@ int main(int argc, char **argv)
     if (argc > 1 && !csv && !vtk) {
         const int help = strcmp(argv[1], "-h") == 0;
         if (!help) fprintf(stderr, "drop_3d: unknown option, or no value for it: %s\n", argv[1]);
-        fprintf(help ? stdout : stderr, "drop_3d [-o FILE.csv | -v PREFIX | -t]   draw the drop, write it for a plot, write frames, or test its shape\n");
+        fprintf(help ? stdout : stderr, "drop_3d [-o FILE.csv | -v PREFIX | -t]   draw the drop, or write it, or frames, or test it\n");
         return help ? 0 : 2;
     }
     if (csv) fprintf(file = create(argv[2]), "t,x,y,z,p,A,C\n");
