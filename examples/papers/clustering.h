@@ -31,6 +31,13 @@
 #include <string.h>
 #include <time.h>
 
+#ifndef SPH_CHECK
+#define SPH_CHECK 0 /* the lists are the search's, and each step looks for particles that are not well, and names them: flow_healthy */
+#endif
+#ifndef FLOW_PERIODIC
+#define FLOW_PERIODIC 2 /* how many axes may be periodic, x first: those that cannot cost nothing */
+#endif
+
 #include "../../sph.h"
 #include "../common/options.h"
 #include "../common/progress.h"
@@ -188,11 +195,11 @@ struct flow {
     const char *name; /* of the run: in messages and of VTK files */
     sph_kernel kernel;
     double dref, h, dt, t;
-    double box_x, box_y; /* periodic lengths; 0: open */
+    double box_x, box_y; /* periodic lengths; 0: open; see FLOW_PERIODIC */
     double gravity_x, gravity_y;
     flow_state state[FLOW_PHASES];
     int form;               /* a flow_form: the summation density */
-    int rate_after_kick;    /* 1: the rate of density by the new velocities, at the cost of a second sweep; 0: by the old ones */
+    int rate_after_kick;    /* 1: the rate of density by the new velocities, at the cost of a sweep; 0: by the old ones */
     int ghosts_evolve;      /* 1: density and pressure of ghosts as those of the fluid; 0: they keep what they have */
     double alpha, eta;      /* of Monaghan's artificial viscosity: 0.1, 0.1 */
     int remedy;             /* a flow_remedy: none */
@@ -209,7 +216,7 @@ struct flow {
 
     /* particles: 0 ... n_fluid - 1 the fluid, then ghosts */
     int n, n_fluid, capacity;
-    double *x, *y, *vx, *vy, *ax, *ay, *m, *rho, *p, *c, *rate, *inverse_mass, *old_x, *old_y;
+    double *x, *y, *vx, *vy, *ax, *ay, *m, *rho, *p, *c, *rate, *volume, *inverse_mass, *old_x, *old_y; /* volume: with rate_after_kick only */
     unsigned char *phase, *ghost;
 
     /* what happened */
@@ -243,7 +250,7 @@ static inline void flow_open(flow *f, const char *name, sph_kernel kernel, doubl
 
 static inline void flow_close(flow *f)
 {
-    double *const arrays[] = {f->x, f->y, f->vx, f->vy, f->ax, f->ay, f->m, f->rho, f->p, f->c, f->rate, f->inverse_mass, f->old_x, f->old_y};
+    double *const arrays[] = {f->x, f->y, f->vx, f->vy, f->ax, f->ay, f->m, f->rho, f->p, f->c, f->rate, f->volume, f->inverse_mass, f->old_x, f->old_y};
     size_t a;
     for (a = 0; a < sizeof arrays / sizeof *arrays; a++) free(arrays[a]);
     free(f->phase);
@@ -259,8 +266,8 @@ static inline int flow_append(flow *f, double x, double y, int phase, double m, 
 {
     const int i = f->n++;
     if (f->n > f->capacity) {
-        double **const arrays[] = {&f->x,   &f->y, &f->vx, &f->vy,   &f->ax,           &f->ay,    &f->m,
-                                   &f->rho, &f->p, &f->c,  &f->rate, &f->inverse_mass, &f->old_x, &f->old_y};
+        double **const arrays[] = {&f->x, &f->y, &f->vx,   &f->vy,     &f->ax,           &f->ay,    &f->m,    &f->rho,
+                                   &f->p, &f->c, &f->rate, &f->volume, &f->inverse_mass, &f->old_x, &f->old_y};
         size_t a;
         f->capacity = 2 * f->n + 64;
         for (a = 0; a < sizeof arrays / sizeof *arrays; a++) *arrays[a] = (double *)clustering_memory(*arrays[a], (size_t)f->capacity * sizeof(double));
@@ -289,7 +296,10 @@ static inline int flow_add(flow *f, double x, double y, int phase, double m)
 /* One that pushes, but is not pushed, with p = 0: all fluid particles must be there already. */
 static inline int flow_add_ghost(flow *f, double x, double y, int phase, double m) { return flow_append(f, x, y, phase, m, 1); }
 
-static inline sph_points flow_points(const flow *f) { return sph_points_periodic(sph_points_separate(f->n, f->x, f->y, NULL), f->box_x, f->box_y, 0); }
+static inline sph_points flow_points(const flow *f)
+{
+    return sph_points_periodic(sph_points_separate(f->n, f->x, f->y, NULL), FLOW_PERIODIC > 0 ? f->box_x : 0, FLOW_PERIODIC > 1 ? f->box_y : 0, 0);
+}
 static inline sph_vectors flow_velocities(const flow *f)
 {
     sph_vectors v;
@@ -381,8 +391,17 @@ SPH_FN sph_index flow_rates_by(sph_kernel k, const flow *f, sph_scalars h, sph_f
     const sph_list l = neighbours_list(&f->all);
     const sph_vector_out a = flow_accelerations(f);
     if (f->form == FLOW_SUMMATION) return sph_fluid_rates_monaghan(k, 2, 0, f->n_fluid, flow_points(f), l, h, s, a, NULL, NULL);
+    if (f->form == FLOW_CONTINUITY && f->rate_after_kick) return sph_fluid_rates_colagrossi(k, 2, 0, flow_moved(f), flow_points(f), l, h, s, a, NULL, NULL);
     if (f->form == FLOW_CONTINUITY) return sph_fluid_rates_colagrossi(k, 2, 0, flow_moved(f), flow_points(f), l, h, s, a, f->rate, NULL);
     return sph_fluid_rates_hu_adams(k, 2, 0, f->n_fluid, flow_points(f), l, h, s, a, NULL, NULL);
+}
+SPH_FN sph_index flow_divergence_by(sph_kernel k, const flow *f, sph_scalars h)
+{
+    const double one = 1;
+    sph_gas g;
+    g.m = sph_scalars_array(f->volume);
+    g.rho = g.omega = sph_scalars_same(&one);
+    return sph_divergence_difference(k, 2, 0, flow_moved(f), flow_points(f), neighbours_list(&f->all), h, g, flow_velocities(f), f->rate);
 }
 
 static inline sph_index flow_density(flow *f)
@@ -410,6 +429,25 @@ static inline sph_index flow_rates(flow *f)
 #define FLOW_RATES(K) return flow_rates_by(K, f, h, s)
     FLOW_SWITCH_KERNEL(f->kernel, FLOW_RATES)
 #undef FLOW_RATES
+}
+
+/* div v with the volumes m / rho of all particles */
+static inline sph_index flow_divergence(flow *f)
+{
+    const double length = f->h;
+    const sph_scalars h = sph_scalars_same(&length);
+    int i;
+    for (i = 0; i < f->n; i++) f->volume[i] = f->m[i] / f->rho[i];
+#define FLOW_DIVERGENCE(K) return flow_divergence_by(K, f, h)
+    FLOW_SWITCH_KERNEL(f->kernel, FLOW_DIVERGENCE)
+#undef FLOW_DIVERGENCE
+}
+/* (5.23) alone, as -rho div v: half the cost of all rates */
+static inline void flow_continuity(flow *f)
+{
+    int i;
+    clustering_expect(flow_divergence(f));
+    for (i = 0; i < flow_moved(f); i++) f->rate[i] *= -f->rho[i];
 }
 
 static inline void flow_pressure(flow *f)
@@ -500,7 +538,7 @@ static inline void flow_step(flow *f)
     if (!flow_healthy(f)) return;
     flow_collide(f);
     if (f->form == FLOW_CONTINUITY) {
-        if (f->rate_after_kick) clustering_expect(flow_rates(f));
+        if (f->rate_after_kick) flow_continuity(f);
         for (i = 0; i < flow_moved(f); i++) f->rho[i] += f->dt * f->rate[i];
     }
     for (i = 0; i < f->n_fluid; i++) {

@@ -14,6 +14,7 @@
  * and what then happens (see 'which equations') is not what figures 8 and 9 show. The density moves on by the velocities of the end of the step: by those of its beginning the step is unstable.
  */
 #include "../common/statistics.h"
+#define FLOW_PERIODIC 0
 #include "clustering.h"
 
 typedef struct tank {

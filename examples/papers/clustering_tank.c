@@ -5,7 +5,7 @@
  *     cc -O2 -o clustering_tank examples/papers/clustering_tank.c -lm
  *     clustering_tank -out DIR -figures DIR [-full]       (-h for help)
  *
- * Column of 1 m, periodic in x: 115 rows of 8 particles of a hexagonal lattice, dref = 1/100, heights (j + 1/2) sqrt(3)/2 dref; rho0 = 1000, c = 30, g = 9.81, alpha = 1, to t = 1. Below it rows of ghosts that continue the
+ * Column of 1 m, periodic in x: 115 rows of 8 particles (9 with h = 2 dref) of a hexagonal lattice, dref = 1/100, heights (j + 1/2) sqrt(3)/2 dref; rho0 = 1000, c = 30, g = 9.81, alpha = 1, to t = 1. Below it rows of ghosts that continue the
  * lattice as far as a support reaches, at rest; their density follows (5.23), as that of the fluid does. All start with the pressure rho0 g (1 - y), the density that belongs to it, and the mass rho V.
  * The error is that of the slope of the least-squares line through the pressures at 0.1 < y < 0.9, against -rho0 g; table 1 is its mean over all steps.
  *
@@ -15,9 +15,10 @@
  * its mean weight is 1 + g (1 - 1/2) / c^2 times rho0 g:   error = (1 + 0.5 g / c^2) / G - 1, of which 0.545 points are physics.
  */
 #include "../common/statistics.h"
+#define FLOW_PERIODIC 1
 #include "clustering.h"
 
-enum { ROWS = 115, COLUMNS = 8 };
+enum { ROWS = 115 };
 static const double gravity = 9.81, water = 1000, sound = 30;
 
 /* ================================================================ a run */
@@ -92,6 +93,7 @@ static tank_result simulate(sph_kernel kernel, double smoothing, int remedy, int
 {
     const int rows = dref > 0.00999 && dref < 0.01001 ? ROWS : (int)(1 / (hexagonal * dref)),
               reach = (int)ceil(sph_kernel_support(kernel) * smoothing / hexagonal);
+    int columns = 8; /* more where a support and its skin would reach beyond half the box */
     const double step = hexagonal * dref;
     tank_result r;
     tank t;
@@ -100,8 +102,8 @@ static tank_result simulate(sph_kernel kernel, double smoothing, int remedy, int
     memset(&t, 0, sizeof t);
     memset(&r, 0, sizeof r);
     flow_open(&f, name, kernel, dref, smoothing * dref);
-    f.box_x = COLUMNS * dref;
-    if (2 * sph_kernel_support(kernel) * smoothing + 2 * f.skin > COLUMNS) f.skin = 0; /* a support and a skin must not reach beyond half the box */
+    while (columns < 2 * (sph_kernel_support(kernel) * smoothing + f.skin)) columns++;
+    f.box_x = columns * dref;
     f.dt = dt;
     f.form = FLOW_CONTINUITY;
     f.alpha = 1;
@@ -113,9 +115,9 @@ static tank_result simulate(sph_kernel kernel, double smoothing, int remedy, int
     f.vtk = o->vtk ? o->out : NULL;
     f.ghosts_evolve = !adami;
     for (j = 0; j < rows; j++)
-        for (i = 0; i < COLUMNS; i++) flow_add(&f, (i + 0.5 * (j % 2)) * dref, (j + 0.5) * step, 0, 1);
+        for (i = 0; i < columns; i++) flow_add(&f, (i + 0.5 * (j % 2)) * dref, (j + 0.5) * step, 0, 1);
     for (j = -1; j >= -reach; j--)
-        for (i = 0; i < COLUMNS; i++) flow_add_ghost(&f, (i + 0.5 * (-j % 2)) * dref, (j + 0.5) * step, 0, 1);
+        for (i = 0; i < columns; i++) flow_add_ghost(&f, (i + 0.5 * (-j % 2)) * dref, (j + 0.5) * step, 0, 1);
     for (i = 0; i < f.n; i++) {
         f.p[i] = exact_pressure(f.y[i]);
         f.rho[i] = sph_density_tait(f.p[i], water, sound, 1, 0);
