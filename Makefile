@@ -37,6 +37,7 @@ help:
 	@echo "make test             the tests; the last line is 'N passed, N failed'"
 	@echo "make test-sanitize    the tests under the address and undefined-behaviour sanitizers"
 	@echo "make bench            time the search and the operators, as ratios to the machine's limits"
+	@echo "make docs             the headers' comments as pages (needs doxygen)"
 	@echo "make figures          PNG of the figures from the last run (needs gnuplot)"
 	@echo "make install          the headers and sph.pc below PREFIX=$(PREFIX); make uninstall removes them"
 	@echo "make dist             a tarball, and the three headers as one file, sph_all.h"
@@ -105,6 +106,10 @@ $(BUILD)/tests/%: tests/test_%.c $(wildcard tests/*.h) $(COMMON) $(HEADERS)
 check-packages:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/packages/packages.sh
 
+docs:
+	@if ! command -v doxygen > /dev/null 2>&1; then echo "doxygen is not installed: the manual is at the top of each header"; \
+	else mkdir -p $(BUILD) && (cat Doxyfile; echo "OUTPUT_DIRECTORY = $(BUILD)/docs") | doxygen - && echo "$(BUILD)/docs/html/index.html"; fi
+
 bench:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/bench/run.sh
 
@@ -131,4 +136,4 @@ dist:
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures test test-sanitize version install uninstall dist check-packages bench clean
+.PHONY: help reproduce reproduce-full figures test test-sanitize version install uninstall dist check-packages docs bench clean
