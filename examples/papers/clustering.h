@@ -370,13 +370,14 @@ static inline void flow_neighbours(flow *f)
 
 /* ---------------------------------------------------------------- accelerations */
 
-/* The paper's three kernels as constants, which fold; one copy for all others, which asks at each pair. SPH_SWITCH_KERNEL would make a copy for every kernel that there is, at the cost of compile time. */
+/* The paper's three kernels and the Wendland C2 of two dimensions as constants, which fold; one copy for all others, which asks at each pair. SPH_SWITCH_KERNEL would make a copy for every kernel that there is, at the cost of compile time. */
 /* clang-format off */
 #define FLOW_SWITCH_KERNEL(k, CALL) \
     switch (k) { \
     case SPH_WENDLAND_C2_1D: CALL(SPH_WENDLAND_C2_1D); \
     case SPH_CONVEX: CALL(SPH_CONVEX); \
     case SPH_HERMITE: CALL(SPH_HERMITE); \
+    case SPH_WENDLAND_C2: CALL(SPH_WENDLAND_C2); \
     default: CALL(k); \
     }
 /* clang-format on */

@@ -11,95 +11,7 @@
  *   The vortices of Taylor and Green in a periodic box: how fast their energy decays, as a viscosity, beside the viscosity that was asked for.
  */
 #include "../common/statistics.h"
-#include "clustering.h"
-
-/* What the hooks need beside the flow. */
-typedef struct viscous {
-    double mu, body_force;
-    double *share, *none, *wall_p, *wall_vx, *wall_vy, *vx, *vy, *ax, *ay; /* one number for each particle */
-} viscous;
-
-static void viscous_open(viscous *w, const flow *f, double mu, double body_force)
-{
-    double **const arrays[] = {&w->share, &w->none, &w->wall_p, &w->wall_vx, &w->wall_vy, &w->vx, &w->vy, &w->ax, &w->ay};
-    size_t a;
-    int i;
-    for (a = 0; a < sizeof arrays / sizeof *arrays; a++) *arrays[a] = (double *)clustering_memory(NULL, (size_t)f->n * sizeof(double));
-    for (i = 0; i < f->n; i++) {
-        w->share[i] = f->ghost[i] ? 0 : 1;
-        w->none[i] = 0;
-    }
-    w->mu = mu;
-    w->body_force = body_force;
-}
-static void viscous_close(viscous *w)
-{
-    double *const arrays[] = {w->share, w->none, w->wall_p, w->wall_vx, w->wall_vy, w->vx, w->vy, w->ax, w->ay};
-    size_t a;
-    for (a = 0; a < sizeof arrays / sizeof *arrays; a++) free(arrays[a]);
-}
-
-static sph_vectors vectors(const double *x, const double *y)
-{
-    sph_vectors v;
-    v.x = sph_scalars_array(x);
-    v.y = sph_scalars_array(y);
-    v.z = sph_scalars_array(NULL);
-    return v;
-}
-
-/* Pressure, and the density that belongs to it, of ghosts, and the velocity that makes the fluid stick to them; their own stays that of the plate. */
-SPH_FN sph_index walls_by(sph_kernel k, flow *f, viscous *w)
-{
-    const sph_vec nothing = {0, 0, 0};
-    const sph_vectors none = vectors(NULL, NULL);
-    sph_vector_out v;
-    v.x = w->wall_vx;
-    v.y = w->wall_vy;
-    v.z = NULL;
-    return sph_wall_adami(k, 2, f->n_fluid, f->n, flow_points(f), neighbours_list(&f->all), sph_scalars_same(&f->h), sph_scalars_array(w->share),
-                          sph_scalars_array(f->rho), sph_scalars_array(f->p), flow_velocities(f), flow_velocities(f), nothing, none, w->wall_p, v, NULL);
-}
-static void walls(flow *f)
-{
-    viscous *const w = (viscous *)f->data;
-    int i;
-    if (f->n == f->n_fluid) return;
-#define FLOWS_WALLS(K) clustering_expect(walls_by(K, f, w))
-    SPH_SWITCH_KERNEL(f->kernel, FLOWS_WALLS)
-#undef FLOWS_WALLS
-    for (i = f->n_fluid; i < f->n; i++) {
-        const flow_state *const s = &f->state[f->phase[i]];
-        f->p[i] = w->wall_p[i];
-        f->rho[i] = sph_density_tait(f->p[i], s->rho0, s->c, 1, s->p0);
-    }
-}
-
-SPH_FN sph_index viscosity_by(sph_kernel k, const flow *f, const viscous *w)
-{
-    sph_vector_out a;
-    a.x = w->ax;
-    a.y = w->ay;
-    a.z = NULL;
-    return sph_viscous_mu_morris(k, 2, 0, f->n_fluid, flow_points(f), neighbours_list(&f->all), sph_scalars_same(&f->h), sph_scalars_array(f->m),
-                                 sph_scalars_array(f->rho), vectors(w->vx, w->vy), sph_scalars_same(&w->mu), 0.1, a);
-}
-static void viscosity(flow *f)
-{
-    const viscous *const w = (const viscous *)f->data;
-    int i;
-    for (i = 0; i < f->n; i++) {
-        w->vx[i] = f->ghost[i] ? w->wall_vx[i] : f->vx[i];
-        w->vy[i] = f->ghost[i] ? w->wall_vy[i] : f->vy[i];
-    }
-#define FLOWS_VISCOSITY(K) clustering_expect(viscosity_by(K, f, w))
-    SPH_SWITCH_KERNEL(f->kernel, FLOWS_VISCOSITY)
-#undef FLOWS_VISCOSITY
-    for (i = 0; i < f->n_fluid; i++) {
-        f->ax[i] += w->ax[i] + w->body_force;
-        f->ay[i] += w->ay[i];
-    }
-}
+#include "clustering_viscous.h"
 
 typedef struct method {
     const char *name;
@@ -164,9 +76,6 @@ static flow_answer plates(const clustering_options *c, int couette, const method
                 }
             }
     viscous_open(&w, &f, 1, couette ? 0 : 8);
-    f.data = &w;
-    f.ghosts = walls;
-    f.force = viscosity;
     for (k = 0; k < PLATE_TIMES && answer == FLOW_DONE; k++) {
         answer = flow_run(&f, plate_times[k]);
         error[k] = 0;
@@ -277,8 +186,6 @@ static vortices taylor_green(const clustering_options *c, const method *m, int c
             f.vy[i] = sin(2 * clustering_pi * f.x[i]) * cos(2 * clustering_pi * f.y[i]);
         }
     viscous_open(&w, &f, nu, 0);
-    f.data = &w;
-    f.force = viscosity;
     start = flow_kinetic_energy(&f);
     o.answer = FLOW_DONE;
     for (k = 0; k < POINTS && o.answer == FLOW_DONE; k++) {

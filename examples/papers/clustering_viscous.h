@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * clustering_viscous.h - hooks of a flow (clustering.h) with physical viscosity: that of Morris, Fox & Zhu 1997, JCP 136, 214; walls of Adami, Hu & Adams 2012, JCP 231, 7057; and the velocity cleaning of Tricco &
+ * Price (7th SPHERIC workshop, Prato 2012, equations (29) to (39)).
+ *
+ *     viscous w;
+ *     viscous_open(&w, &f, mu, body_force);      all particles are there; sets f.data, f.ghosts, f.force
+ *     viscous_clean(&w, &f, ch);                 if divergence is to be cleaned: sets f.after
+ *     ... flow_run(&f, t) ...
+ *     viscous_close(&w);
+ */
+#ifndef CLUSTERING_VISCOUS_H
+#define CLUSTERING_VISCOUS_H
+
+#include "clustering.h"
+
+/* What the hooks need beside the flow: one number for each particle in each array. */
+typedef struct viscous {
+    double mu, body_force; /* along x */
+    double ch;             /* of cleaning; 0: none */
+    double *psi, *share, *wall_p, *wall_vx, *wall_vy, *vx, *vy, *ax, *ay;
+} viscous;
+
+static inline sph_vectors viscous_vectors(const double *x, const double *y)
+{
+    sph_vectors v;
+    v.x = sph_scalars_array(x);
+    v.y = sph_scalars_array(y);
+    v.z = sph_scalars_array(NULL);
+    return v;
+}
+
+/* ---------------------------------------------------------------- before the accelerations: psi and walls */
+
+SPH_FN sph_index viscous_walls_by(sph_kernel k, flow *f, viscous *w)
+{
+    const sph_vec nothing = {0, 0, 0};
+    const sph_vectors none = viscous_vectors(NULL, NULL);
+    sph_vector_out v;
+    v.x = w->wall_vx;
+    v.y = w->wall_vy;
+    v.z = NULL;
+    return sph_wall_adami(k, 2, f->n_fluid, f->n, flow_points(f), neighbours_list(&f->all), sph_scalars_same(&f->h), sph_scalars_array(w->share),
+                          sph_scalars_array(f->rho), sph_scalars_array(f->p), flow_velocities(f), flow_velocities(f), nothing, none, w->wall_p, v, NULL);
+}
+/* psi joins the pressure. Then pressure, and the density that belongs to it, of ghosts, and the velocity that makes the fluid stick to them; their own stays that of the wall. */
+static inline void viscous_pressures(flow *f)
+{
+    viscous *const w = (viscous *)f->data;
+    int i;
+    for (i = 0; i < f->n_fluid && w->ch > 0; i++) f->p[i] += w->psi[i];
+    if (f->n == f->n_fluid) return;
+#define VISCOUS_WALLS(K) \
+    clustering_expect(viscous_walls_by(K, f, w)); \
+    break
+    FLOW_SWITCH_KERNEL(f->kernel, VISCOUS_WALLS)
+#undef VISCOUS_WALLS
+    for (i = f->n_fluid; i < f->n; i++) {
+        const flow_state *const s = &f->state[f->phase[i]];
+        f->p[i] = w->wall_p[i];
+        f->rho[i] = sph_density_tait(f->p[i], s->rho0, s->c, 1, s->p0);
+    }
+}
+
+/* ---------------------------------------------------------------- after them: viscosity */
+
+SPH_FN sph_index viscous_accelerations_by(sph_kernel k, const flow *f, const viscous *w)
+{
+    sph_vector_out a;
+    a.x = w->ax;
+    a.y = w->ay;
+    a.z = NULL;
+    return sph_viscous_mu_morris(k, 2, 0, f->n_fluid, flow_points(f), neighbours_list(&f->all), sph_scalars_same(&f->h), sph_scalars_array(f->m),
+                                 sph_scalars_array(f->rho), viscous_vectors(w->vx, w->vy), sph_scalars_same(&w->mu), 0.1, a);
+}
+static inline void viscous_forces(flow *f)
+{
+    const viscous *const w = (const viscous *)f->data;
+    int i;
+    for (i = 0; i < f->n; i++) {
+        w->vx[i] = f->ghost[i] ? w->wall_vx[i] : f->vx[i];
+        w->vy[i] = f->ghost[i] ? w->wall_vy[i] : f->vy[i];
+    }
+#define VISCOUS_FORCES(K) \
+    clustering_expect(viscous_accelerations_by(K, f, w)); \
+    break
+    FLOW_SWITCH_KERNEL(f->kernel, VISCOUS_FORCES)
+#undef VISCOUS_FORCES
+    for (i = 0; i < f->n_fluid; i++) {
+        f->ax[i] += w->ax[i] + w->body_force;
+        f->ay[i] += w->ay[i];
+    }
+}
+
+/* ---------------------------------------------------------------- after the step: psi by the rate of density, damped on both sides */
+
+static inline void viscous_psi(flow *f)
+{
+    const viscous *const w = (const viscous *)f->data;
+    const double damping = exp(-0.5 * sph_cleaning_sigma(2) * w->ch * f->dt / f->h);
+    int i;
+    if (f->form != FLOW_CONTINUITY || !f->rate_after_kick) flow_continuity(f);
+    for (i = 0; i < f->n_fluid; i++) w->psi[i] = damping * (damping * w->psi[i] + f->dt * sph_cleaning_rate_velocity(w->ch, 0, f->h, 0, f->rate[i]));
+}
+
+/* ---------------------------------------------------------------- */
+
+static inline void viscous_open(viscous *w, flow *f, double mu, double body_force)
+{
+    double **const arrays[] = {&w->psi, &w->share, &w->wall_p, &w->wall_vx, &w->wall_vy, &w->vx, &w->vy, &w->ax, &w->ay};
+    size_t a;
+    int i;
+    for (a = 0; a < sizeof arrays / sizeof *arrays; a++) *arrays[a] = (double *)clustering_memory(NULL, (size_t)f->n * sizeof(double));
+    for (i = 0; i < f->n; i++) {
+        w->psi[i] = 0;
+        w->share[i] = f->ghost[i] ? 0 : 1;
+    }
+    w->mu = mu;
+    w->body_force = body_force;
+    w->ch = 0;
+    f->data = w;
+    f->ghosts = viscous_pressures;
+    f->force = viscous_forces;
+}
+static inline void viscous_clean(viscous *w, flow *f, double ch)
+{
+    w->ch = ch;
+    f->after = viscous_psi;
+}
+static inline void viscous_close(viscous *w)
+{
+    double *const arrays[] = {w->psi, w->share, w->wall_p, w->wall_vx, w->wall_vy, w->vx, w->vy, w->ax, w->ay};
+    size_t a;
+    for (a = 0; a < sizeof arrays / sizeof *arrays; a++) free(arrays[a]);
+}
+
+#endif
