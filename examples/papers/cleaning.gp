@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The disc and the drop of the paper on divergence cleaning, from the data files in `dir`:
+# The figures of the paper on divergence cleaning, and of what goes beyond it, from the data files in `dir`:
 #     gnuplot -e "dir='build/figures/'" examples/papers/cleaning.gp
 set datafile separator ","
 set grid linecolor rgb "#dddddd"
@@ -150,6 +150,68 @@ if (there("cleaning_orszag_tang_fig3")) {
         set title size." columns"
         plot for [c = 1:7] history using ($1 == (size + 0) && strcol(2) eq vortex[c] && $3 > 0 ? $3 : NaN):4 every ::1 with lines linewidth 2 \
             dashtype dashes[c] linecolor rgb stroke[c] title vortex[c]
+    }
+    unset multiplot
+}
+
+# beyond the paper: the shock tube of Brio & Wu, the finest run in 2D and in 3D and the one without cleaning
+if (there("cleaning_shocktube_profiles")) {
+    reset
+    set datafile separator ","
+    tube = dir."cleaning_shocktube_profiles.csv"
+    finest(dim) = system(sprintf("grep '^\"cleaning\",%d' '%s' | cut -d, -f3 | sort -n | tail -1", dim, tube)) + 0
+    flat = finest(2)
+    solid = finest(3)
+    set output dir."cleaning_shocktube.png"
+    set terminal pngcairo size 1500,900 font "sans,12"
+    set multiplot layout 2,3 title "the shock tube of Brio and Wu at t = 0.1"
+    set grid linecolor rgb "#dddddd"
+    set xrange [-0.3:0.45]
+    set xlabel "x"
+    array quantity[6] = ["density", "v_x", "v_y", "B_y", "pressure", "B_x"]
+    do for [q = 1:6] {
+        set title quantity[q]
+        if (q == 1) { set key bottom left font ",9" } else { unset key }
+        plot tube using (strcol(1) eq "cleaning" && $2 == 3 && $3 == solid ? $4 : NaN):(column(4 + q)) every ::1 with points pointtype 7 pointsize 0.2 linecolor rgb "#cccccc" title sprintf("3D, dx = 1/%d", solid), \
+            tube using (strcol(1) eq "cleaning" && $2 == 2 && $3 == flat ? $4 : NaN):(column(4 + q)) every ::1 with points pointtype 7 pointsize 0.3 linecolor rgb "#d55e00" title sprintf("2D, dx = 1/%d", flat), \
+            tube using (strcol(1) eq "neither resistivity nor cleaning" ? $4 : NaN):(column(4 + q)) every ::1 with points pointtype 7 pointsize 0.3 linecolor rgb "#0072b2" title "1/200, neither resistivity nor cleaning", \
+            tube using (strcol(1) eq "volumes" ? $4 : NaN):(column(4 + q)) every ::1 with lines linecolor rgb "black" title "finite volumes"
+    }
+    unset multiplot
+}
+
+# beyond the paper: a peak of div B in a stream
+if (there("cleaning_advection_history")) {
+    reset
+    set datafile separator ","
+    stream = dir."cleaning_advection_history.csv"
+    set output dir."cleaning_advection.png"
+    set terminal pngcairo size 1500,560 font "sans,12"
+    set multiplot layout 1,3 title "A peak of div B in a stream, 50 x 50 particles"
+    set grid linecolor rgb "#dddddd"
+    set xrange [0:1]
+    set xlabel "t"
+    set key bottom left
+    array name[7] = ["control", "sigma = 0", "sigma = 0.1", "sigma = 0.3", "sigma = 1", "sigma = 0.3, 2 c_h", "sigma = 0.3, 4 c_h"]
+    array run[7] = ["control", "cleaning", "cleaning", "cleaning", "cleaning", "cleaning", "cleaning"]
+    array damping[7] = [0, 0, 0.1, 0.3, 1, 0.3, 0.3]
+    array speed[7] = [1, 1, 1, 1, 1, 2, 4]
+    array stroke[7] = ["#000000", "#999999", "#56b4e9", "#d55e00", "#0072b2", "#d55e00", "#d55e00"]
+    array dashes[7] = [1, 1, 1, 1, 1, 2, 3]
+    array quantity[3] = ["mean h |div B| / |B|", "largest h |div B| / |B|", "magnetic and psi energy, change in units of the peak's"]
+    array where[3] = [5, 6, 9]
+    do for [q = 1:3] {
+        set title quantity[q]
+        if (q < 3) {
+            set logscale y
+            set format y "10^{%L}"
+        } else {
+            unset logscale
+            set format y
+            unset key
+        }
+        plot for [c = 1:7] stream using (strcol(1) eq run[c] && abs($2 - damping[c]) < 1e-9 && abs($3 - speed[c]) < 1e-9 ? $4 : NaN):(column(where[q])) every ::1 \
+            with lines linewidth 2 dashtype dashes[c] linecolor rgb stroke[c] title name[c]
     }
     unset multiplot
 }
