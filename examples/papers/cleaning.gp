@@ -191,7 +191,6 @@ if (there("cleaning_advection_history")) {
     set grid linecolor rgb "#dddddd"
     set xrange [0:1]
     set xlabel "t"
-    set key bottom left
     array name[7] = ["control", "sigma = 0", "sigma = 0.1", "sigma = 0.3", "sigma = 1", "sigma = 0.3, 2 c_h", "sigma = 0.3, 4 c_h"]
     array run[7] = ["control", "cleaning", "cleaning", "cleaning", "cleaning", "cleaning", "cleaning"]
     array damping[7] = [0, 0, 0.1, 0.3, 1, 0.3, 0.3]
@@ -205,13 +204,37 @@ if (there("cleaning_advection_history")) {
         if (q < 3) {
             set logscale y
             set format y "10^{%L}"
+            unset key
         } else {
             unset logscale
             set format y
-            unset key
+            set key center right
         }
         plot for [c = 1:7] stream using (strcol(1) eq run[c] && abs($2 - damping[c]) < 1e-9 && abs($3 - speed[c]) < 1e-9 ? $4 : NaN):(column(where[q])) every ::1 \
             with lines linewidth 2 dashtype dashes[c] linecolor rgb stroke[c] title name[c]
+    }
+    unset multiplot
+}
+
+# beyond the paper: Euler potentials where a field is wound up
+if (there("cleaning_euler_potentials_windings")) {
+    reset
+    set datafile separator ","
+    windings = dir."cleaning_euler_potentials_windings.csv"
+    set output dir."cleaning_euler_potentials.png"
+    set terminal pngcairo size 1200,520 font "sans,12"
+    set multiplot layout 1,2 title "A field wound up by rotation, with the potentials and with the induction equation"
+    set grid linecolor rgb "#dddddd"
+    set xlabel "windings"
+    set yrange [-0.1:1.4]
+    array way[2] = ["Euler potentials", "induction equation"]
+    array title_of[2] = ["part of the exact field that is left", "error, of the exact field"]
+    sizes = system(sprintf("tail -n +2 '%s' | cut -d, -f2 | sort -u -n", windings))
+    do for [q = 1:2] {
+        set title title_of[q]
+        if (q == 1) { set key top right } else { unset key }
+        plot for [w = 1:2] for [s = 1:words(sizes)] windings using (strcol(1) eq way[w] && $2 == word(sizes, s) + 0 ? $3 : NaN):(column(3 + q)) every ::1 \
+            with linespoints pointtype 7 pointsize 0.5 linewidth 2 dashtype s linecolor rgb (w == 1 ? "#0072b2" : "#d55e00") title way[w].", ".word(sizes, s)." layers"
     }
     unset multiplot
 }
