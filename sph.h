@@ -75,7 +75,9 @@
 #  include <immintrin.h>
 #endif
 /* Functions too large to be inlined at every call. */
-#if defined(__GNUC__) || defined(__clang__)
+#if defined(__CUDACC__)
+#  define SPHI_LARGE static __host__ __device__ __noinline__
+#elif defined(__GNUC__) || defined(__clang__)
 #  define SPHI_LARGE static __attribute__((unused, noinline))
 #else
 #  define SPHI_LARGE static

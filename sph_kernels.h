@@ -724,7 +724,7 @@ SPH_FN sph_real sph_gravity_dphidh(sph_kernel k, sph_real r, sph_real h)
 
 /* ================================================================ names, for programs that take them from the command line */
 
-#if !SPH_OPENCL && !defined(__CUDA_ARCH__)
+#if !SPH_OPENCL
 
 SPH_FN const char *sph_kernel_name(sph_kernel k)
 {

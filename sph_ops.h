@@ -2302,8 +2302,7 @@ SPH_FN int sphi_elliptic_check(sph_kernel k, int dim, sph_index first, sph_index
     error = sphi_check_field(a->m, a->x.n);
     if (!error && o.mean == (int)SPH_MOBILITY_UPWIND) error = sphi_check_field(o.potential, a->x.n);
     if (error) return error;
-    if (!SPH_CHECK) return 0;
-    for (i = 0; i < (a->m.stride ? a->x.n : 1); i++) negative |= sphi_at(a->m, i) < SPH_R(0);
+    for (i = 0; SPH_CHECK && i < (a->m.stride ? a->x.n : 1); i++) negative |= sphi_at(a->m, i) < SPH_R(0);
     return negative ? SPH_ERROR_VALUE : 0;
 }
 
@@ -2674,8 +2673,7 @@ SPH_FN int sphi_check_diagonal(int dim, sph_diagonal M, sph_index n)
     if (!error && dim > 1) error = sphi_check_field(M.y, n);
     if (!error && dim > 2) error = sphi_check_field(M.z, n);
     if (error) return error;
-    if (!SPH_CHECK) return 0;
-    for (i = 0; i < n; i++) negative |= sphi_at(M.x, i) < SPH_R(0) || (dim > 1 && sphi_at(M.y, i) < SPH_R(0)) || (dim > 2 && sphi_at(M.z, i) < SPH_R(0));
+    for (i = 0; SPH_CHECK && i < n; i++) negative |= sphi_at(M.x, i) < SPH_R(0) || (dim > 1 && sphi_at(M.y, i) < SPH_R(0)) || (dim > 2 && sphi_at(M.z, i) < SPH_R(0));
     return negative ? SPH_ERROR_VALUE : 0;
 }
 
@@ -3457,8 +3455,7 @@ SPH_FN int sphi_check_collisions(int dim, sph_index first, sph_index last, sph_p
     error = sphi_check_list(dim, first, last, x, list, distance);
     if (!error) error = sphi_check_field(inverse_mass, x.n);
     if (error) return error;
-    if (!SPH_CHECK) return 0;
-    for (i = 0; i < (inverse_mass.stride ? x.n : 1); i++) negative |= sphi_at(inverse_mass, i) < SPH_R(0);
+    for (i = 0; SPH_CHECK && i < (inverse_mass.stride ? x.n : 1); i++) negative |= sphi_at(inverse_mass, i) < SPH_R(0);
     return negative ? SPH_ERROR_VALUE : 0;
 }
 /* Do these two collide? 0 no, 1 yes, -1 they coincide (closer than 1e-12 of the distance): no direction. all: receding ones, too. */
