@@ -138,6 +138,7 @@ SPH_FN size_t sph_grid_workspace(int dim, sph_index n)
 {
     const size_t bytes = sphi_place_size(dim > 0 && dim < 4 ? dim : 1) + 3 * sizeof(sph_index);
     if (dim < 1 || dim > 3 || n < 1 || (uint64_t)n + SPHI_PAD + 1 > SIZE_MAX / bytes / 2) return 0;
+    if (n > SPHI_INDEX_MAX - SPHI_TILE) return 0; /* loops over slots go by tiles, and look a tile ahead */
     return sphi_padded(n) * bytes;
 }
 

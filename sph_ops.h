@@ -1992,14 +1992,15 @@ SPH_FN void sphi_moments(int method, sph_kernel k, int dim, int with_f, sph_inde
     const sph_index end = list.start[i + 1];
     sphi_tile t;
     sphi_lanes s;
-    sph_index p;
+    sph_index left; /* counted down: beyond the last entry there may be no index to count up to */
     int l, c;
     for (l = 0; l < SPHI_LANES; l++) {
         SPHI_MATRIX(dim, SPHI_LANE_ZERO)
         if (with_f) { SPHI_VALUE(dim, SPHI_LANE_ZERO) }
     }
-    for (p = list.start[i]; p < end; p += SPHI_TILE) {
-        const int full = sphi_tile_gather(dim, with_f, &t, x_i, h_i, f_i, pos, V, f, list.index + p, end - p < SPHI_TILE ? (int)(end - p) : (int)SPHI_TILE);
+    for (left = end - list.start[i]; left > 0; left -= SPHI_TILE) {
+        const int full =
+            sphi_tile_gather(dim, with_f, &t, x_i, h_i, f_i, pos, V, f, list.index + (end - left), left < SPHI_TILE ? (int)left : (int)SPHI_TILE);
         for (c = 0; c < full; c += SPHI_LANES)
             for (l = 0; l < SPHI_LANES; l++) {
                 const sph_test_weights tw = sphi_test_weights(method, k, dim, t.q[c + l], t.V[c + l]);

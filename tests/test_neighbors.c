@@ -897,7 +897,8 @@ static sph_real next_up(sph_real x) { return SPH_R(SPH_SINGLE ? (double)nextafte
 static void test_radii(void)
 {
     enum { N = 20 };
-    static const sph_real wrong[] = {SPH_R(0), SPH_R(-1), SPH_R(NAN), SPH_R(INFINITY)};
+    /* the last two: their squares are no numbers, or 0, in sph_real */
+    static const sph_real wrong[] = {SPH_R(0), SPH_R(-1), SPH_R(NAN), SPH_R(INFINITY), SPH_SINGLE ? SPH_R(1e-30) : SPH_R(1e-200), SPH_SINGLE ? SPH_R(1e30) : SPH_R(1e200)};
     int dim, criterion, foreign, which;
     pcg32 random;
     pcg32_seed(&random, 6, 1);
@@ -937,6 +938,13 @@ static void test_radii(void)
                         *radius = half;
                     }
                 EXPECT(pairs == -5 && guarded_unwritten(&start) && guarded_unwritten(&index));
+                for (i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+                    guarded work = guarded_new(sph_grid_workspace(dim, N));
+                    sph_grid other;
+                    EXPECT(sph_grid_build(dim, points(&c), wrong[i], guarded_memory(&work), work.bytes, &other) == SPH_ERROR_H);
+                    EXPECT(guarded_unwritten(&work));
+                    free(work.base);
+                }
                 R[N - 1] = S[0] = reach; /* what the grid was made for, and as much more as it allows */
                 check_lists("radii", &p, &g, criterion, flags);
                 R[N - 1] = SPH_R(32) * reach;
@@ -1132,7 +1140,7 @@ static void test_rebuild(void)
         const sph_real skin = SPH_R(0.5), half = SPH_R(0.25);
         const sph_points p = points(&c), q = points(&d), boxed = sph_points_periodic(q, SPH_R(2), SPH_R(4), SPH_R(8));
         sph_index i;
-        int a;
+        int a, far_away;
         for (a = 0; a < dim; a++)
             for (i = 0; i < N; i++) after[a][i] = then[a][i];
         CHECK(sph_rebuild_due(dim, q, p, skin) == 0); /* nothing moved */
@@ -1159,6 +1167,13 @@ static void test_rebuild(void)
                     CHECK(sph_rebuild_due(dim, boxed, p, skin) == 0);
                     after[axis][i] = SPH_R(sign) * length;
                     CHECK(sph_rebuild_due(dim, boxed, p, SPH_R(1e-3)) == 0);
+                    for (far_away = 0; far_away < 3; far_away++) { /* more box lengths away than can be counted: now, then, at both times */
+                        const sph_real where = SPH_R(sign) * (SPH_SINGLE ? SPH_R(1e30) : SPH_R(1e300));
+                        then[axis][i] = far_away > 0 ? where : kept;
+                        after[axis][i] = far_away != 1 ? where : kept;
+                        CHECK(sph_rebuild_due(dim, boxed, p, skin) == SPH_ERROR_BOX);
+                        CHECK(sph_rebuild_due(dim, q, p, skin) == (far_away < 2));
+                    }
                     then[axis][i] = after[axis][i] = kept;
                 }
         /* aslant: by the length, not by a component */

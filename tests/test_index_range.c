@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * test_index_range.c - clouds and lists that fill the range of sph_index, which has 16 bits here so that they fit anywhere: sizes that do not fit are refused, loops that go by tiles end.
+ */
+/* Not forced inline: one copy of each function is enough. */
+#if defined(__GNUC__) || defined(__clang__)
+#define SPH_FN static __attribute__((noinline, unused))
+#pragma GCC diagnostic ignored "-Wconversion" /* sums of 16-bit numbers are ints */
+#endif
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wpass-failed" /* loops over a run-time kernel do not vectorise */
+#endif
+#include <stdint.h>
+#define SPH_INDEX int16_t
+
+#include "../sph.h"
+#include "check.h"
+#include "clouds.h"
+
+enum { MOST = 32767, TILE = 64 };
+
+/* ---- the search ---- */
+
+/* A line of n particles whose spacing is `apart`; the pairs that are nearer than 1. */
+static int64_t line_pairs(sph_index n, double apart, sph_index *answer, int *wrong)
+{
+    const size_t size = sph_grid_workspace(1, n), room = MOST;
+    sph_real *const x = (sph_real *)cloud_memory((size_t)n, sizeof *x), one = SPH_R(1);
+    sph_index *const start = (sph_index *)cloud_memory((size_t)n + 1, sizeof *start), *const index = (sph_index *)cloud_memory(room, sizeof *index);
+    void *const work = cloud_memory(size, 1);
+    const sph_scalars R = sph_scalars_same(&one);
+    sph_points p = sph_points_separate(n, x, 0, 0);
+    int64_t pairs = -1;
+    sph_grid g;
+    int i, q;
+    for (i = 0; i < n; i++) x[i] = SPH_R(i * apart);
+    *wrong = 0;
+    *answer = sph_grid_build(1, p, one, work, size, &g);
+    if (*answer == 0) *answer = sph_grid_lists(1, &g, p, SPH_GATHER, R, R, 0, start, index, (int64_t)room, &pairs);
+    for (i = 0; *answer == 0 && i < n; i++)
+        for (q = start[i]; q < start[i + 1]; q++) *wrong += !(fabs((double)x[i] - (double)x[index[q]]) < 1.0) || index[q] == i;
+    free(x);
+    free(start);
+    free(index);
+    free(work);
+    return pairs;
+}
+
+static void test_search(void)
+{
+    sph_index answer, n;
+    int wrong;
+    int dim;
+    for (dim = 1; dim <= 3; dim++) {
+        CHECK(sph_grid_workspace(dim, MOST) == 0);
+        CHECK(sph_grid_workspace(dim, MOST - TILE + 1) == 0);
+        CHECK(sph_grid_workspace(dim, MOST - TILE) > 0);
+    }
+    n = MOST - TILE;
+    CHECK(line_pairs(n, 2.0, &answer, &wrong) == 0 && answer == 0);
+    n = MOST / 2;
+    CHECK(line_pairs(n, 0.75, &answer, &wrong) == 2 * (n - 1) && answer == 0 && wrong == 0);
+    n = MOST / 2 + 1; /* 2 (n - 1) is what there is room for, less 1 */
+    CHECK(line_pairs(n, 0.75, &answer, &wrong) == 2 * (n - 1) && answer == 0 && wrong == 0);
+    n = MOST / 2 + 2;
+    CHECK(line_pairs(n, 0.75, &answer, &wrong) == 2 * (n - 1) && answer == SPH_ERROR_CAPACITY);
+    n = MOST - TILE;
+    CHECK(line_pairs(n, 0.75, &answer, &wrong) == 2 * (n - 1) && answer == SPH_ERROR_CAPACITY);
+}
+
+/* ---- sweeps: one row that ends with the last index there is ---- */
+
+static void test_sweep(sph_index length)
+{
+    enum { N = 401, I = N / 2 };
+    sph_real x[N], f[N], gx[N], hxx[N], row_diagonal[N], *const row = (sph_real *)cloud_memory(MOST, sizeof *row), V = SPH_R(0.01), h = SPH_R(1);
+    sph_index start[N + 1], *const index = (sph_index *)cloud_memory(MOST, sizeof *index);
+    const sph_list list = {start, index};
+    const sph_points p = sph_points_separate(N, x, 0, 0);
+    sph_derivative_out out = {0};
+    sph_row_out rows = {0};
+    double sum = 0;
+    int i, q;
+    for (i = 0; i < N; i++) {
+        x[i] = SPH_R(0.01 * (i - I));
+        f[i] = SPH_R(3) * x[i] * x[i] + SPH_R(2) * x[i];
+    }
+    for (i = 0; i <= N; i++) start[i] = (sph_index)(i <= I ? MOST - length : MOST);
+    for (q = 0; q < MOST; q++) index[q] = (sph_index)((I + 1 + q % (N - 1)) % N); /* all the others, many times over */
+    out.gx = gx;
+    out.hxx = hxx;
+    rows.row = row;
+    rows.diagonal = row_diagonal;
+    CHECK(sph_derivatives_wls(SPH_WENDLAND_C4, 1, I, I + 1, p, list, sph_scalars_same(&h), sph_scalars_same(&V), sph_scalars_array(f), SPH_R(0), out) == 0);
+    CHECK_CLOSE((double)gx[I], 2.0, 1e4 * (double)SPH_EPSILON);
+    CHECK_CLOSE((double)hxx[I], 6.0, 1e4 * (double)SPH_EPSILON);
+    CHECK(sph_derivative_rows_wls(SPH_WENDLAND_C4, 1, I, I + 1, p, list, sph_scalars_same(&h), sph_scalars_same(&V), sph_jet_laplacian(1), rows) == 0);
+    for (q = start[I]; q < start[I + 1]; q++) sum += (double)row[q] * ((double)f[index[q]] - (double)f[I]);
+    CHECK_CLOSE(sum, 6.0, 1e4 * (double)SPH_EPSILON);
+    free(row);
+    free(index);
+}
+
+int main(void)
+{
+    test_search();
+    test_sweep(MOST);
+    test_sweep(MOST - 1);
+    test_sweep(1000); /* several tiles, the last one not full */
+    return check_report("test_index_range");
+}
