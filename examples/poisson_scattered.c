@@ -7,7 +7,7 @@
  *
  * lap u = f in the unit square, u given on its edge. The rows of M-SPH (Lukyanov & Vuik 2020) are the matrix: two-point fluxes, and a sparse row for each point.
  * sph_elliptic_rows_boundary writes the rows of the edge, sph_csr_assemble makes a CSR matrix of them all, which any solver reads; the one here is
- * Gauss-Seidel with over-relaxation. f = -5 pi^2 sin(pi x) sin(2 pi y), whose solution is u = sin(pi x) sin(2 pi y).
+ * Gauss-Seidel with over-relaxation. f = -5 pi^2 cos(pi x) cos(2 pi y), whose solution is u = cos(pi x) cos(2 pi y).
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +29,7 @@ static void need(sph_index failed) /* what a sweep returns: 0, or how many parti
     exit(1);
 }
 
-static double exact(double px, double py) { return sin(pi * px) * sin(2 * pi * py); }
+static double exact(double px, double py) { return cos(pi * px) * cos(2 * pi * py); }
 
 /* side x side points; those inside are scattered by up to a quarter of the spacing */
 static void fill(int side)
@@ -144,14 +144,14 @@ static int test(void)
     double e[2], order;
     int k, failed = 0;
     for (k = 0; k < 2; k++) {
-        fill(k ? 33 : 17);
-        poisson(k ? 33 : 17);
+        fill(k ? 65 : 33);
+        poisson(k ? 65 : 33);
         if (!(residual <= 1e-9)) failed = printf("FAILED: the residual is %g after %d sweeps\n", residual, sweeps);
         e[k] = error();
     }
     order = log(e[0] / e[1]) / log(2);
     if (!(e[1] < 0.02)) failed = printf("FAILED: the largest error is %g\n", e[1]);
-    if (!(order > 1.2)) failed = printf("FAILED: the error falls with the power %g of the spacing\n", order);
+    if (!(order > 1.1)) failed = printf("FAILED: the error falls with the power %g of the spacing\n", order);
     if (!failed) printf("ok\n");
     return failed != 0;
 }
