@@ -26,6 +26,8 @@
 
 #if defined(_WIN32)
 #define SPH_SHIM_EXPORT __declspec(dllexport)
+#elif defined(__EMSCRIPTEN__)
+#define SPH_SHIM_EXPORT __attribute__((used, visibility("default")))
 #elif defined(__GNUC__)
 #define SPH_SHIM_EXPORT __attribute__((visibility("default")))
 #else

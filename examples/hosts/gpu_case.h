@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * gpu_case.h - what the OpenCL and the CUDA host share: a disordered cloud with its neighbour lists, found on the host; what the host computes from it; and the comparison.
+ */
+#ifndef GPU_CASE_H
+#define GPU_CASE_H
+
+#include "known.h"
+#include "sph.h"
+
+#include <stdlib.h>
+
+enum { CASE_SIDE = 24, CASE_N = CASE_SIDE * CASE_SIDE * CASE_SIDE, CASE_PER_PARTICLE = 80 };
+#define CASE_KERNEL SPH_WENDLAND_C2
+#define CASE_DIM 3
+
+typedef struct gpu_case {
+    sph_real h, x[CASE_N], y[CASE_N], z[CASE_N], m[CASE_N], V[CASE_N], mobility[CASE_N], u[CASE_N]; /* what goes to the device */
+    sph_index start[CASE_N + 1], index[CASE_PER_PARTICLE * CASE_N];
+    sph_real rho[CASE_N], laplacian[CASE_N], rho_device[CASE_N], laplacian_device[CASE_N]; /* by the host, and what comes back */
+    known_row known[KNOWN_MAX];
+    int rows;
+    sph_real w[KNOWN_MAX], f[KNOWN_MAX]; /* of the known rows: what comes back */
+} gpu_case;
+
+/* The cloud, its lists and the host's answers. Returns 0 if all is there. */
+static inline int case_make(gpu_case *c, const char *known)
+{
+    const double dx = 1.0 / CASE_SIDE;
+    const size_t size = sph_grid_workspace(CASE_DIM, CASE_N);
+    const sph_points x = sph_points_separate(CASE_N, c->x, c->y, c->z);
+    const sph_scalars V = sph_scalars_array(c->V);
+    sph_real radius;
+    sph_scalars R, h;
+    sph_list list;
+    sph_grid grid;
+    int64_t pairs;
+    int i, error;
+    void *const work = malloc(size);
+    if (!work) return 1;
+    c->h = SPH_R(1.2 * dx);
+    for (i = 0; i < CASE_N; i++) {
+        c->x[i] = SPH_R(dx * (i % CASE_SIDE + 0.5 + 0.2 * sin(37.0 * i)));
+        c->y[i] = SPH_R(dx * (i / CASE_SIDE % CASE_SIDE + 0.5 + 0.2 * cos(53.0 * i)));
+        c->z[i] = SPH_R(dx * (i / CASE_SIDE / CASE_SIDE + 0.5 + 0.2 * sin(71.0 * i)));
+        c->V[i] = SPH_R(dx * dx * dx);
+        c->m[i] = SPH_R(1.5) * c->V[i];
+        c->mobility[i] = SPH_R(1) + c->x[i];
+        c->u[i] = c->x[i] * c->x[i] + SPH_R(2) * c->y[i] * c->z[i];
+    }
+    radius = c->h * sph_kernel_support(CASE_KERNEL);
+    R = sph_scalars_same(&radius);
+    h = sph_scalars_same(&c->h);
+    error = (int)sph_grid_build(CASE_DIM, x, radius, work, size, &grid);
+    if (!error) error = (int)sph_grid_lists(CASE_DIM, &grid, x, SPH_GATHER, R, R, 0, c->start, c->index, CASE_PER_PARTICLE * CASE_N, &pairs);
+    free(work);
+    if (error) return error;
+    list.start = c->start;
+    list.index = c->index;
+    if (sph_density_summation(CASE_KERNEL, CASE_DIM, 0, CASE_N, x, list, h, sph_scalars_array(c->m), c->rho) != 0) return 1;
+    if (sph_elliptic_msph(CASE_KERNEL, CASE_DIM, 0, CASE_N, x, list, h, V, sph_scalars_array(c->mobility), sph_elliptic_defaults(), sph_scalars_array(c->u),
+                          sph_scalars_array(0), c->laplacian, 0) != 0)
+        return 1;
+    c->rows = known_read(known, c->known);
+    return c->rows == 0;
+}
+
+/* the largest difference, relative to the largest value; a NaN is infinitely far */
+static inline double case_difference(const sph_real *a, const sph_real *b)
+{
+    double off = 0, largest = 0;
+    int i;
+    for (i = 0; i < CASE_N; i++) {
+        const double d = fabs((double)a[i] - (double)b[i]);
+        if (!(d < HUGE_VAL)) return HUGE_VAL;
+        if (d > off) off = d;
+        largest = known_larger(largest, (double)b[i]);
+    }
+    return largest > 0 ? off / largest : HUGE_VAL;
+}
+/* Prints how far the device is from the host; returns the number of failures. */
+static inline int case_compare(const gpu_case *c, const char *device)
+{
+    const double tolerance = 1000 * (double)SPH_EPSILON, rho = case_difference(c->rho_device, c->rho), laplacian = case_difference(c->laplacian_device, c->laplacian);
+    const int bad = known_compare(c->rows, c->known, c->w, c->f, 16 * (double)SPH_EPSILON), middle = (CASE_SIDE / 2 * CASE_SIDE + CASE_SIDE / 2) * CASE_SIDE + CASE_SIDE / 2;
+    printf("%s, %s\n", device, SPH_SINGLE ? "float" : "double");
+    printf("  known answers: %d rows, %d off\n", c->rows, bad);
+    printf("  density          %12.6f in the middle, at most %.1e from the host's\n", (double)c->rho_device[middle], rho);
+    printf("  div(m grad u)    %12.6f in the middle, at most %.1e from the host's\n", (double)c->laplacian_device[middle], laplacian);
+    if (bad || !(rho <= tolerance) || !(laplacian <= tolerance)) printf("  WRONG\n");
+    return bad + !(rho <= tolerance) + !(laplacian <= tolerance);
+}
+
+#endif
