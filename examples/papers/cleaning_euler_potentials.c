@@ -182,10 +182,7 @@ static double run(int layers, match o[WAYS][SAMPLES + 1], FILE *curves, int quie
         if (k > 0) step(&c, (k - 1) * change, change);
         progress_update(&p, (k + 1.0) / (WINDINGS * PER_WINDING + 1));
         if (k == 0 || k % EVERY) continue;
-        for (way = 0; way < WAYS; way++) {
-            o[way][sample] = compare(&c, way, k * change);
-            fprintf(curves, "%s,%d,%.4g,%.6g,%.6g\n", way_name[way], layers, windings, o[way][sample].kept, o[way][sample].error);
-        }
+        for (way = 0; way < WAYS; way++) o[way][sample] = compare(&c, way, k * change);
         if (isnan(half) && o[POTENTIALS][sample].kept < 0.5) {
             const double now = o[POTENTIALS][sample].kept, before = o[POTENTIALS][sample - 1].kept;
             half = windings - (0.5 - now) / (before - now) * EVERY / PER_WINDING;
@@ -193,6 +190,9 @@ static double run(int layers, match o[WAYS][SAMPLES + 1], FILE *curves, int quie
     }
     progress_end(&p);
     cylinder_close(&c);
+    for (way = 0; way < WAYS; way++)
+        for (k = 1; k <= SAMPLES; k++)
+            fprintf(curves, "%s,%d,%.4g,%.6g,%.6g\n", way_name[way], layers, (double)k * EVERY / PER_WINDING, o[way][k].kept, o[way][k].error);
     return half;
 }
 
