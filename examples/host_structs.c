@@ -111,9 +111,9 @@ static void draw(void)
         fell_back += status[i] == SPH_FELL_BACK;
     }
     for (i = 0; i < ROWS; i++) printf("%.*s\n", COLUMNS, map[i]);
-    printf("< ^ > v: where water runs; o: flat; #: Laplacian below -20. %d of %d stations by least squares\n", fell_back, (int)N);
+    printf("< ^ > v: where water runs; o: flat; #: Laplacian below -20. Fallbacks: %d of %d\n", fell_back, (int)N);
     for (i = 0; i < 3; i++)
-        printf("station %-4s height %6.3f, slope (%6.3f, %6.3f), Laplacian %7.3f\n", hill[i].name, hill[i].height, hill[i].slope[0], hill[i].slope[1],
+        printf("%-4s height %6.3f, slope (%6.3f, %6.3f), Laplacian %7.3f\n", hill[i].name, hill[i].height, hill[i].slope[0], hill[i].slope[1],
                hill[i].laplacian);
     printf("error of the Laplacian (root mean square): %.3f\n", error());
 }

@@ -167,11 +167,11 @@ int main(int argc, char **argv)
         return help ? 0 : 2;
     }
     if (tests) return test();
-    for (side = 17; side <= 65; side = 2 * side - 1) {
+    for (side = writes ? 33 : 17; side <= 65; side = 2 * side - 1) {
         fill(side);
         poisson(side);
-        if (!writes && side == 33) draw();
-        if (writes && side == 33) return write_csv(argv[2]);
+        if (writes) return write_csv(argv[2]);
+        if (side == 33) draw();
         printf("%d x %d points: largest error %.5f, %d sweeps\n", side, side, error(), sweeps);
     }
     return 0;

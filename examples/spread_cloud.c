@@ -124,10 +124,10 @@ static void draw(void)
         }
     }
     for (k = 0; k < 3; k++)
-        printf("%-20s nearest neighbour at %.3f of the spacing; %5.1f %% within half of it; energy %.6f\n",
-               k == 0   ? "at first"
-               : k == 1 ? "without collisions"
-                        : "with collisions",
+        printf("%-20s nearest %.3f of the spacing, %5.1f %% within half; energy %.4f\n",
+               k == 0   ? "at first:"
+               : k == 1 ? "without collisions:"
+                        : "with collisions:",
                o[k].mean, 100 * o[k].close, o[k].sums.kinetic_energy);
 }
 
