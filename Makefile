@@ -23,7 +23,7 @@ DRIVERS_cleaning = $(patsubst examples/papers/%.c,%,$(wildcard examples/papers/c
 DRIVERS = $(foreach p,$(PAPERS),$(DRIVERS_$(p)))
 
 # Tests of the headers are built twice, in double and in float; tests of what the examples share in double only.
-TESTS_DOUBLE = common sparse elliptic_reference
+TESTS_DOUBLE = common sparse elliptic_reference collapse
 TESTS_OPTIONAL = gsl
 TESTS = $(filter-out $(TESTS_DOUBLE) $(TESTS_OPTIONAL),$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))
 TESTS_FLOAT = $(TESTS)
