@@ -124,7 +124,7 @@ static void draw(void)
         }
     }
     for (k = 0; k < 3; k++)
-        printf("%-20s nearest %.3f of the spacing, %5.1f %% within half; energy %.4f\n",
+        printf("%-19s nearest %.3f of spacing, %5.1f %% within half; energy %.2f\n",
                k == 0   ? "at first:"
                : k == 1 ? "without collisions:"
                         : "with collisions:",
