@@ -36,6 +36,7 @@ help:
 	@echo "make reproduce-full   with more realisations and finer clouds"
 	@echo "make test             the tests; the last line is 'N passed, N failed'"
 	@echo "make test-sanitize    the tests under the address and undefined-behaviour sanitizers"
+	@echo "make check-hosts      C++, Fortran, Python, WebAssembly, OpenCL, CUDA: the hosts whose tools are installed"
 	@echo "make check-embedded   the self-check on microcontrollers and other processors, in emulators; code size and memory"
 	@echo "make bench            time the search and the operators, as ratios to the machine's limits"
 	@echo "make docs             the headers' comments as pages (needs doxygen)"
@@ -111,6 +112,9 @@ docs:
 	@if ! command -v doxygen > /dev/null 2>&1; then echo "doxygen is not installed: the manual is at the top of each header"; \
 	else mkdir -p $(BUILD) && (cat Doxyfile; echo "OUTPUT_DIRECTORY = $(BUILD)/docs") | doxygen - && echo "$(BUILD)/docs/html/index.html"; fi
 
+check-hosts:
+	@CC="$(CC)" BUILD="$(BUILD)" sh tests/hosts/run.sh
+
 check-embedded:
 	@BUILD="$(BUILD)" sh tests/embedded/embedded.sh
 
@@ -140,4 +144,4 @@ dist:
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures test test-sanitize check-embedded version install uninstall dist check-packages docs bench clean
+.PHONY: help reproduce reproduce-full figures test test-sanitize check-hosts check-embedded version install uninstall dist check-packages docs bench clean
