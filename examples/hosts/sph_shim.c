@@ -105,7 +105,7 @@ sph_index sph_shim_grid_lists(const sph_shim_cloud *c, int criterion, const sph_
 
 sph_index sph_shim_density_summation(const sph_shim_cloud *c, const sph_real *m, size_t m_stride, sph_real *rho)
 {
-    sph_index answer;
+    sph_index answer = SPH_ERROR_KERNEL;
 #define SWEEP(K, D) sph_density_summation(K, D, CLOUD, sph_scalars_strided(m, m_stride), rho)
     SHIM_SWITCH_KERNEL(c->kernel, EVERY_DIM)
 #undef SWEEP
@@ -113,7 +113,7 @@ sph_index sph_shim_density_summation(const sph_shim_cloud *c, const sph_real *m,
 }
 sph_index sph_shim_gradient_cspm(const sph_shim_cloud *c, const sph_real *f, size_t f_stride, sph_real *gx, sph_real *gy, sph_real *gz, unsigned char *status)
 {
-    sph_index answer;
+    sph_index answer = SPH_ERROR_KERNEL;
 #define SWEEP(K, D) sph_gradient_cspm(K, D, CLOUD, c->V, sph_scalars_strided(f, f_stride), gx, gy, gz, 0, status)
     SHIM_SWITCH_KERNEL(c->kernel, EVERY_DIM)
 #undef SWEEP
@@ -121,7 +121,7 @@ sph_index sph_shim_gradient_cspm(const sph_shim_cloud *c, const sph_real *f, siz
 }
 sph_index sph_shim_laplacian_brookshaw(const sph_shim_cloud *c, const sph_real *f, size_t f_stride, sph_real *out)
 {
-    sph_index answer;
+    sph_index answer = SPH_ERROR_KERNEL;
 #define SWEEP(K, D) sph_laplacian_brookshaw(K, D, CLOUD, c->V, sph_scalars_strided(f, f_stride), out)
     SHIM_SWITCH_KERNEL(c->kernel, EVERY_DIM)
 #undef SWEEP
@@ -130,7 +130,7 @@ sph_index sph_shim_laplacian_brookshaw(const sph_shim_cloud *c, const sph_real *
 sph_index sph_shim_derivatives_icspm(const sph_shim_cloud *c, const sph_real *f, size_t f_stride, sph_real conditioning_min, int fallback_wls, sph_real *out,
                                      unsigned char *status)
 {
-    sph_index answer;
+    sph_index answer = SPH_ERROR_KERNEL;
     sph_derivative_out o = {0};
     if (!out) return SPH_ERROR_NULL;
     o.gx = out;
@@ -148,7 +148,7 @@ sph_index sph_shim_derivatives_icspm(const sph_shim_cloud *c, const sph_real *f,
 sph_index sph_shim_elliptic_rows_msph(const sph_shim_cloud *c, const sph_real *m, size_t m_stride, int trace, sph_real *row, sph_real *diagonal,
                                       unsigned char *status)
 {
-    sph_index answer;
+    sph_index answer = SPH_ERROR_KERNEL;
     sph_elliptic_options options = sph_elliptic_defaults();
     sph_row_out out = {0};
     options.trace = trace;
