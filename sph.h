@@ -198,11 +198,7 @@ SPH_FN int sphi_check_points(int dim, sph_points x)
     if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
     if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z)) return SPH_ERROR_NULL;
     if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
-    if (!SPH_CHECK) return 0;
-    if (!sphi_all_finite(sph_scalars_strided(x.x, x.stride), x.n)) return SPH_ERROR_POSITION;
-    if (dim > 1 && !sphi_all_finite(sph_scalars_strided(x.y, x.stride), x.n)) return SPH_ERROR_POSITION;
-    if (dim > 2 && !sphi_all_finite(sph_scalars_strided(x.z, x.stride), x.n)) return SPH_ERROR_POSITION;
-    return 0;
+    return sphi_check_positions(dim, x);
 }
 SPH_FN void sphi_enclose(sph_vec p, sph_vec *low, sph_vec *high)
 {
@@ -373,7 +369,7 @@ SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_real reach, voi
     return 0;
 }
 
-SPH_FN const sph_index *sph_grid_order(const sph_grid *grid) { return grid->member; }
+SPH_FN const sph_index *sph_grid_order(const sph_grid *grid) { return grid ? grid->member : 0; }
 
 /* For a host that has put all its arrays into cell order (sph_permute with sph_grid_order): from here on the grid speaks of particles by their new numbers, as if it had been built
    of the new arrays, and sph_grid_order is the identity. The old order is lost: permute first. Returns 0, or SPH_ERROR_NULL. */

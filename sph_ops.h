@@ -1399,31 +1399,40 @@ SPH_FN int sphi_check_frame(int dim, sph_index first, sph_index last, sph_points
     if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
     return first < 0 || first > last || last > x.n ? SPH_ERROR_RANGE : 0;
 }
-/* The positions, the box for sums that reach as far as `largest`, and the rows first ... last - 1. Without SPH_CHECK the box lengths alone. */
-SPH_FN int sphi_check_scan(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real largest)
+SPH_FN int sphi_check_positions(int dim, sph_points x)
+{
+    if (!SPH_CHECK) return 0;
+    if (!sphi_all_finite(sph_scalars_strided(x.x, x.stride), x.n)) return SPH_ERROR_POSITION;
+    if (dim > 1 && !sphi_all_finite(sph_scalars_strided(x.y, x.stride), x.n)) return SPH_ERROR_POSITION;
+    if (dim > 2 && !sphi_all_finite(sph_scalars_strided(x.z, x.stride), x.n)) return SPH_ERROR_POSITION;
+    return 0;
+}
+/* The rows first ... last - 1 of a list of n sources, which the targets are themselves unless foreign. Without SPH_CHECK their ends alone. */
+SPH_FN int sphi_check_entries(sph_index first, sph_index last, sph_list list, sph_index n, int foreign)
 {
     sph_index i, p;
-    int outside = 0, self = 0, error;
-    if (SPH_CHECK) {
-        if (!sphi_all_finite(sph_scalars_strided(x.x, x.stride), x.n)) return SPH_ERROR_POSITION;
-        if (dim > 1 && !sphi_all_finite(sph_scalars_strided(x.y, x.stride), x.n)) return SPH_ERROR_POSITION;
-        if (dim > 2 && !sphi_all_finite(sph_scalars_strided(x.z, x.stride), x.n)) return SPH_ERROR_POSITION;
-    }
-    error = sphi_check_box(dim, x, largest);
-    if (error || first == last) return error;
+    int outside = 0, self = 0;
+    if (first == last) return 0;
+    if (list.start[first] < 0 || list.start[last] < list.start[first]) return SPH_ERROR_LIST;
+    if (list.start[last] > list.start[first] && !list.index) return SPH_ERROR_NULL;
     if (!SPH_CHECK) return 0;
-    if (list.start[first] < 0) return SPH_ERROR_LIST;
     for (i = first; i < last; i++)
         if (list.start[i + 1] < list.start[i]) return SPH_ERROR_LIST;
-    if (list.start[last] > list.start[first] && !list.index) return SPH_ERROR_NULL;
     for (i = first; i < last; i++)
         for (p = list.start[i]; p < list.start[i + 1]; p++) {
             const sph_index j = list.index[p];
-            outside |= (j < 0) | (j >= x.n);
+            outside |= (j < 0) | (j >= n);
             self |= j == i;
         }
     if (outside) return SPH_ERROR_LIST;
-    return self ? SPH_ERROR_SELF : 0;
+    return self && !foreign ? SPH_ERROR_SELF : 0;
+}
+/* The positions, the box for sums that reach as far as `largest`, and the rows first ... last - 1. */
+SPH_FN int sphi_check_scan(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real largest)
+{
+    int error = sphi_check_positions(dim, x);
+    if (!error) error = sphi_check_box(dim, x, largest);
+    return error ? error : sphi_check_entries(first, last, list, x.n, 0);
 }
 /* Sweeps without a kernel: lists that reach as far as `distance`. */
 SPH_FN int sphi_check_list(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance)
@@ -3618,22 +3627,21 @@ SPH_FN sph_index sph_collision_acceleration_literal(int dim, sph_index first, sp
 /* ================================================================ list tier: the distribution of particles, and what it conserves */
 
 /* The distance from each target to its nearest source in the list; 0 and SPH_TOO_FEW where the list is empty. targets and sources may be the same points, or probes and particles (lists by SPH_LIST_FOREIGN): then the share of
-   probes with none within a distance is the void fraction. */
+   probes with none within a distance is the void fraction. The box is that of the sources. */
 SPH_FN sph_index sph_nearest_distance(int dim, sph_index first, sph_index last, sph_points targets, sph_points sources, sph_list list,
                                       SPH_GLOBAL sph_real *distance, SPH_GLOBAL unsigned char *status)
 {
     sph_index i, p, failed = 0;
-    if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
-    if (!targets.x || !sources.x || (dim > 1 && (!targets.y || !sources.y)) || (dim > 2 && (!targets.z || !sources.z)) || !list.start || !distance)
-        return SPH_ERROR_NULL;
-    if (targets.n < 1 || sources.n < 1) return SPH_ERROR_COUNT;
-    if (first < 0 || first > last || last > targets.n) return SPH_ERROR_RANGE;
-    for (i = first; i < last; i++) {
-        if (list.start[i] < 0 || list.start[i + 1] < list.start[i]) return SPH_ERROR_LIST;
-        if (list.start[i + 1] > list.start[i] && !list.index) return SPH_ERROR_NULL;
-        for (p = list.start[i]; p < list.start[i + 1] && SPH_CHECK; p++)
-            if (list.index[p] < 0 || list.index[p] >= sources.n) return SPH_ERROR_LIST;
-    }
+    int error = sphi_check_frame(dim, first, last, targets, list);
+    if (!error) error = sphi_check_frame(dim, 0, 0, sources, list);
+    if (!error && !distance) error = SPH_ERROR_NULL;
+    targets.box = sources.box;
+    if (!error) error = sphi_check_positions(dim, targets);
+    if (!error) error = sphi_check_positions(dim, sources);
+    if (!error) error = sphi_check_box(dim, targets, SPH_R(0));
+    if (!error) error = sphi_check_box(dim, sources, SPH_R(0));
+    if (!error) error = sphi_check_entries(first, last, list, sources.n, 1);
+    if (error) return error;
     for (i = first; i < last; i++) {
         const sph_vec x_i = sphi_point(dim, targets, i);
         sph_real least = SPH_R(-1);
@@ -4223,9 +4231,7 @@ SPH_FN int sphi_check_gravity(sph_kernel k, sph_index first, sph_index last, sph
     if (!sphi_finite(G)) return SPH_ERROR_VALUE;
     if (!SPH_CHECK) return 0;
     if (!sphi_all_finite(h, x.n) || !sphi_all_positive(h, x.n)) return SPH_ERROR_H;
-    if (!sphi_all_finite(sph_scalars_strided(x.x, x.stride), x.n) || !sphi_all_finite(sph_scalars_strided(x.y, x.stride), x.n) ||
-        !sphi_all_finite(sph_scalars_strided(x.z, x.stride), x.n))
-        return SPH_ERROR_POSITION;
+    if (sphi_check_positions(3, x)) return SPH_ERROR_POSITION;
     return sphi_all_finite(m, x.n) ? 0 : SPH_ERROR_VALUE;
 }
 /* Acceleration and potential G sum_j m_j (phi(r, h_i) + phi(r, h_j)) / 2 (itself included; may be null) of the targets, by all sources: n^2 steps, for small clouds and to measure trees against. Isolated: box
