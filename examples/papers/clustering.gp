@@ -202,3 +202,70 @@ if (there("clustering_taylor_green")) {
     unset ylabel
     set key
 }
+
+# beyond the paper: three dimensions, the cavity
+if (there("clustering_column3d")) {
+    set output dir."clustering_column3d.png"
+    set terminal pngcairo size 1500,560 font "sans,12"
+    set multiplot layout 1,2
+    set title "Front of a column of a x 2a x a, walls at the sides"
+    set xlabel "T = t sqrt(2 g / a)"
+    set ylabel "Z = x / a"
+    set xrange [0:3.4]
+    set yrange [1:4.5]
+    set key top left
+    array column3d[4] = ["martin_moyce", "koshizuka_oka", "plane", "space"]
+    array column3d_title[4] = ["Martin & Moyce 1952", "Koshizuka & Oka 1996", "two dimensions", "three dimensions"]
+    plot for [k = 1:2] dir."clustering_column3d.csv" using (strcol(1) eq column3d[k] ? $2 : NaN):3 every ::1 with points pointtype (k == 1 ? 6 : 4) pointsize 1.3 linecolor rgb column_color[k] title column3d_title[k] noenhanced, \
+        for [k = 3:4] "" using (strcol(1) eq column3d[k] ? $2 : NaN):3 every ::1 with lines linewidth 2 linecolor rgb color[k == 3 ? 1 : 2] title column3d_title[k]
+    set title "Speed [m/s] at T = 3.4"
+    unset key
+    set view 62, 18, 2.2
+    set view equal xyz
+    set autoscale
+    set cbrange [0:2]
+    unset tics
+    unset grid
+    unset border
+    unset xlabel
+    unset ylabel
+    splot dir."clustering_dam3d.csv" using 1:3:2:(sqrt($4**2 + $5**2 + $6**2)) every ::1 with points pointtype 7 pointsize 0.5 linecolor palette
+    unset multiplot
+    unset view
+    set key
+    set tics
+    set border
+    set grid linecolor rgb "#dddddd"
+}
+
+if (there("clustering_cavity")) {
+    set output dir."clustering_cavity.png"
+    set terminal pngcairo size 1700,600 font "sans,12"
+    set multiplot layout 1,3
+    set key top left
+    set title "Lid-driven cavity, Re = 100: u on x = 1/2"
+    set xlabel "u"
+    set ylabel "y"
+    array cavity[2] = ["plain 32", "cleaned 32"]
+    plot for [k = 1:2] dir."clustering_cavity.csv" using (strcol(1) eq cavity[k] && strcol(2) eq "u" ? $4 : NaN):3 every ::1 with lines linewidth 2 dashtype k linecolor rgb color[k] title (k == 1 ? "32 x 32" : "32 x 32, cleaned"), \
+        "" using (strcol(1) eq "ghia" && strcol(2) eq "u" ? $4 : NaN):3 every ::1 with points pointtype 6 pointsize 1.3 linecolor rgb color[3] title "Ghia, Ghia & Shin 1982" noenhanced
+    set key top right
+    set title "v on y = 1/2"
+    set xlabel "x"
+    set ylabel "v"
+    plot for [k = 1:2] dir."clustering_cavity.csv" using (strcol(1) eq cavity[k] && strcol(2) eq "v" ? $3 : NaN):4 every ::1 with lines linewidth 2 dashtype k linecolor rgb color[k] title (k == 1 ? "32 x 32" : "32 x 32, cleaned"), \
+        "" using (strcol(1) eq "ghia" && strcol(2) eq "v" ? $3 : NaN):4 every ::1 with points pointtype 6 pointsize 1.3 linecolor rgb color[3] title "Ghia, Ghia & Shin 1982" noenhanced
+    set title "Particles by speed at t = 15, cleaned"
+    unset key
+    unset xlabel
+    unset ylabel
+    set size ratio -1
+    set xrange [0:1]
+    set yrange [0:1]
+    set cbrange [0:1]
+    plot dir."clustering_cavity_cleaned_32.csv" using ($8 == 0 ? $1 : NaN):2:(sqrt($3**2 + $4**2)) every ::1 with points pointtype 7 pointsize 1 linecolor palette
+    unset multiplot
+    set size noratio
+    set autoscale
+    set key
+}

@@ -148,20 +148,32 @@ static inline sph_list neighbours_list(const neighbours *l)
     s.index = l->index;
     return s;
 }
-static inline void neighbours_find(neighbours *l, const sph_grid *grid, sph_points targets, double radius, int flags)
+static inline void neighbours_find(int dim, neighbours *l, const sph_grid *grid, sph_points targets, double radius, int flags)
 {
     const sph_scalars R = sph_scalars_same(&radius);
     int64_t pairs = 0;
     sph_index answer = SPH_ERROR_CAPACITY;
     l->start = (sph_index *)clustering_memory(l->start, ((size_t)targets.n + 1) * sizeof *l->start);
-    if (l->capacity) answer = sph_grid_lists(2, grid, targets, SPH_GATHER, R, R, flags, l->start, l->index, l->capacity, &pairs);
+    if (l->capacity) answer = sph_grid_lists(dim, grid, targets, SPH_GATHER, R, R, flags, l->start, l->index, l->capacity, &pairs);
     else pairs = 64 * (int64_t)targets.n;
     while (answer == (sph_index)SPH_ERROR_CAPACITY) {
         l->capacity = pairs + pairs / 8;
         l->index = (sph_index *)clustering_memory(l->index, (size_t)l->capacity * sizeof *l->index);
-        answer = sph_grid_lists(2, grid, targets, SPH_GATHER, R, R, flags, l->start, l->index, l->capacity, &pairs);
+        answer = sph_grid_lists(dim, grid, targets, SPH_GATHER, R, R, flags, l->start, l->index, l->capacity, &pairs);
     }
     clustering_expect(answer);
+}
+/* Of the pairs in rows 0 ... n - 1, those of two kinds. */
+static inline void neighbours_mixed(neighbours *l, sph_index n, const unsigned char *kind)
+{
+    sph_index i, p, kept = 0, next = 0;
+    for (i = 0; i < n; i++) {
+        p = next;
+        next = l->start[i + 1];
+        for (; p < next; p++)
+            if (kind[i] != kind[l->index[p]]) l->index[kept++] = l->index[p];
+        l->start[i + 1] = kept;
+    }
 }
 static inline void neighbours_free(neighbours *l)
 {
@@ -349,19 +361,10 @@ static inline void flow_neighbours(flow *f)
     flow_wrap(f->x, f->box_x, f->n);
     flow_wrap(f->y, f->box_y, f->n);
     flow_grid(f, flow_points(f), reach + skin, &grid);
-    neighbours_find(&f->all, &grid, flow_points(f), reach + skin, 0);
+    neighbours_find(2, &f->all, &grid, flow_points(f), reach + skin, 0);
     if (f->remedy) {
-        neighbours_find(&f->colliding, &grid, flow_points(f), f->distance * f->dref + skin, SPH_LIST_SORTED); /* sorted: the order of collisions matters */
-        if (f->walls_only) {                                                                                  /* drop what is not a pair of fluid and ghost */
-            sph_index i, p, kept = 0, next = 0;
-            for (i = 0; i < f->n; i++) {
-                p = next;
-                next = f->colliding.start[i + 1];
-                for (; p < next; p++)
-                    if (f->ghost[i] != f->ghost[f->colliding.index[p]]) f->colliding.index[kept++] = f->colliding.index[p];
-                f->colliding.start[i + 1] = kept;
-            }
-        }
+        neighbours_find(2, &f->colliding, &grid, flow_points(f), f->distance * f->dref + skin, SPH_LIST_SORTED); /* sorted: the order of collisions matters */
+        if (f->walls_only) neighbours_mixed(&f->colliding, f->n, f->ghost);
     }
     memcpy(f->old_x, f->x, (size_t)f->n * sizeof *f->x);
     memcpy(f->old_y, f->y, (size_t)f->n * sizeof *f->y);
@@ -642,7 +645,7 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
 
     if (!with_ghosts) x.n = f->n_fluid;
     flow_grid(f, x, reach, &grid);
-    neighbours_find(&l, &grid, x, reach, 0);
+    neighbours_find(2, &l, &grid, x, reach, 0);
     clustering_expect(sph_nearest_distance(2, 0, f->n_fluid, x, x, neighbours_list(&l), value, status));
     d.least = HUGE_VAL;
     for (i = 0; i < f->n_fluid; i++) {
@@ -679,7 +682,7 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
             if (count == 0) continue;
             {
                 const sph_points probe = sph_points_separate(count, px, py, NULL);
-                neighbours_find(&l, &grid, probe, reach, SPH_LIST_FOREIGN);
+                neighbours_find(2, &l, &grid, probe, reach, SPH_LIST_FOREIGN);
                 clustering_expect(sph_nearest_distance(2, 0, count, probe, x, neighbours_list(&l), distance, state));
             }
             for (i = 0; i < count; i++) {
@@ -705,7 +708,7 @@ static inline void flow_radial(flow *f, double area, double reach, int bins, dou
     int b;
     x.n = f->n_fluid;
     flow_grid(f, x, reach * f->dref, &grid);
-    neighbours_find(&l, &grid, x, reach * f->dref, 0);
+    neighbours_find(2, &l, &grid, x, reach * f->dref, 0);
     clustering_expect(sph_radial_distribution(2, 0, f->n_fluid, x, neighbours_list(&l), reach * f->dref, f->n_fluid / area, bins, g));
     *peak = *peak_at = 0;
     for (b = 0; b < bins; b++)

@@ -173,9 +173,8 @@ int main(int argc, char **argv)
         for (k = 0; k < 2; k++) {
             snprintf(run, sizeof run, "clustering_cavity_%s_%d", name[k], columns[g]);
             o[g][k] = simulate(&c, columns[g], k, 0, run);
-            for (i = GHIA; i < PROBES; i++)
-                fprintf(to.to, "%s %d,u,%g,%.6g\n%s %d,v,%g,%.6g\n", name[k], columns[g], probe(ghia_y, i), o[g][k].u[i], name[k], columns[g], probe(ghia_x, i),
-                        o[g][k].v[i]);
+            for (i = GHIA; i < PROBES; i++) fprintf(to.to, "%s %d,u,%g,%.6g\n", name[k], columns[g], probe(ghia_y, i), o[g][k].u[i]);
+            for (i = GHIA; i < PROBES; i++) fprintf(to.to, "%s %d,v,%g,%.6g\n", name[k], columns[g], probe(ghia_x, i), o[g][k].v[i]);
             snprintf(run, sizeof run, "%s, %d x %d", name[k], columns[g], columns[g]);
             rows(&r, run, &o[g][k], 1);
             if (g > 0) report_info(&r, "cavity", run, "order of u from the lattice before", log(o[g - 1][k].error[0] / o[g][k].error[0]) / log(2.0));

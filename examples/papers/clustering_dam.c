@@ -13,9 +13,9 @@
  * Equations: (5.23), (5.24). The paper says that it used those for its tank only, which leaves (2.2), (2.3) for this case; but a sum over masses smears the density over an interface of 1000 : 1,
  * and what then happens (see 'which equations') is not what figures 8 and 9 show. The density moves on by the velocities of the end of the step: by those of its beginning the step is unstable.
  */
-#include "../common/statistics.h"
 #define FLOW_PERIODIC 0
 #include "clustering.h"
+#include "clustering_column.h"
 
 typedef struct tank {
     double width, height, water_width, water_height, c;
@@ -33,13 +33,6 @@ typedef struct scenario {
     int phases;
 } scenario;
 
-/* The front: how far water has come below a quarter of its first height. */
-enum { SAMPLES = 400 };
-typedef struct record {
-    double every, below, t[SAMPLES], x[SAMPLES];
-    int count;
-} record;
-
 typedef struct outcome {
     flow_answer answer;
     double t; /* of the end */
@@ -48,10 +41,16 @@ typedef struct outcome {
     double front; /* at t */
     int lost;     /* fluid particles outside of the tank by more than dref / 2 */
     double kinetic_energy, fastest, microseconds;
-    record front_of;
+    front_record front_of;
 } outcome;
 
 /* ---------------------------------------------------------------- the flow */
+
+/* what the hook of a run needs: the front is how far water has come below a quarter of its first height */
+typedef struct watch {
+    double below;
+    front_record front;
+} watch;
 
 static double front(const flow *f, double below)
 {
@@ -63,21 +62,9 @@ static double front(const flow *f, double below)
 }
 static void watch_front(flow *f)
 {
-    record *r = (record *)f->data;
-    if (r->count == SAMPLES || f->t < r->count * r->every - 1e-9) return;
-    r->t[r->count] = f->t;
-    r->x[r->count++] = front(f, r->below);
+    watch *w = (watch *)f->data;
+    if (front_due(&w->front, f->t)) front_add(&w->front, f->t, front(f, w->below));
 }
-/* between samples */
-static double front_at(const record *r, double t)
-{
-    int k = 1;
-    if (r->count < 2) return (double)NAN;
-    while (k < r->count - 1 && r->t[k] < t) k++;
-    if (t > r->t[k] + 0.5 * r->every) return (double)NAN;
-    return r->x[k - 1] + (r->x[k] - r->x[k - 1]) * (t - r->t[k - 1]) / (r->t[k] - r->t[k - 1]);
-}
-
 /* Rows half a lattice distance above the bottom, and every other one shifted by half a particle: a quarter of dref from the left wall, or three. */
 static void fill(flow *f, const tank *b, int phases)
 {
@@ -103,7 +90,7 @@ static void fill(flow *f, const tank *b, int phases)
             }
 }
 
-static void open_dam(flow *f, const scenario *s, const tank *b, double dref, double smoothing, double dt, record *r)
+static void open_dam(flow *f, const scenario *s, const tank *b, double dref, double smoothing, double dt, watch *w)
 {
     flow_open(f, s->name, s->kernel, dref, smoothing * dref);
     f->dt = dt;
@@ -117,9 +104,9 @@ static void open_dam(flow *f, const scenario *s, const tank *b, double dref, dou
     f->remedy = s->remedy;
     f->walls_only = s->walls;
     fill(f, b, s->phases);
-    r->below = 0.25 * b->water_height;
-    r->count = 0;
-    f->data = r;
+    w->below = 0.25 * b->water_height;
+    w->front.count = 0;
+    f->data = w;
     f->after = watch_front;
     watch_front(f);
 }
@@ -136,7 +123,7 @@ static void measure(flow *f, const tank *b, outcome *o)
         o->lost += !(f->x[i] > -half && f->x[i] < b->width + half && f->y[i] > -half && f->y[i] < b->height + half);
         o->fastest = fmax(o->fastest, sqrt(f->vx[i] * f->vx[i] + f->vy[i] * f->vy[i]));
     }
-    o->front = front(f, o->front_of.below);
+    o->front = front(f, ((const watch *)f->data)->below);
     o->kinetic_energy = flow_kinetic_energy(f);
     o->microseconds = flow_microseconds(f);
     if (o->answer == FLOW_DONE) o->d = flow_measure(f, FLOW_ALL, 0, all, NULL);
@@ -146,12 +133,12 @@ static void measure(flow *f, const tank *b, outcome *o)
 static void run(const clustering_options *c, const scenario *s, const tank *b, double dref, double smoothing, double dt, const double *times, int count,
                 const char *figure, outcome *o)
 {
-    static record r; /* large */
+    static watch w; /* large */
     char file[96];
     flow f;
     int k;
-    r.every = times[count - 1] / (SAMPLES - 1);
-    open_dam(&f, s, b, dref, smoothing, dt, &r);
+    w.front.every = times[count - 1] / (FRONT_SAMPLES - 1);
+    open_dam(&f, s, b, dref, smoothing, dt, &w);
     f.quiet = c->quiet;
     f.vtk = c->vtk ? c->out : NULL;
     for (k = 0; k < count; k++) {
@@ -162,7 +149,7 @@ static void run(const clustering_options *c, const scenario *s, const tank *b, d
         memset(&o[k], 0, sizeof o[k]);
         o[k].answer = flow_run(&f, times[k]);
         if (o[k].answer == FLOW_INTERRUPTED) flow_require(&f, o[k].answer);
-        o[k].front_of = r;
+        o[k].front_of = w.front;
         measure(&f, b, &o[k]);
         if (o[k].answer == FLOW_BLEW_UP)
             snprintf(o[k].blow_up, sizeof o[k].blow_up, "t = %.4f: a particle of %s at (%.3f, %.3f): %s", f.t, f.phase[f.bad] == WATER ? "water" : "air",
@@ -246,7 +233,7 @@ static void fronts(report *r, const outcome *o, const clustering_options *c)
     clustering_figure(&to, c->figures, "clustering_front");
     fprintf(to.to, "run,t,x\n");
     for (k = 0; k < METHODS; k++) {
-        const record *f = &o[k].front_of;
+        const front_record *f = &o[k].front_of;
         const double v = speed(&o[k]);
         for (s = 0; s < f->count; s++) fprintf(to.to, "%s,%.6g,%.6g\n", methods[k].file, f->t[s], f->x[s]);
         if (isnan(v)) continue;
@@ -351,63 +338,29 @@ static void equations(report *r, const clustering_options *c, double dref, doubl
 
 /* ---------------------------------------------------------------- experiments */
 
-/* Fronts of a column of a x 2a on a dry bed: T = t sqrt(2 g / a), Z = x / a. Martin & Moyce 1952, Phil. Trans. R. Soc. Lond. A 244, 312, table 2 (a = 2.25 in, n^2 = 2); Koshizuka & Oka 1996, Nucl. Sci. Eng. 123,
-   421 (a = 0.146 m), as digitised for PySPH's examples (db_exp_data.py). */
-enum { MARTIN = 15, KOSHIZUKA = 9 };
-static const double martin_T[MARTIN] = {0.41, 0.84, 1.19, 1.43, 1.63, 1.83, 1.98, 2.20, 2.32, 2.51, 2.65, 2.83, 2.98, 3.11, 3.33};
-static const double martin_Z[MARTIN] = {1.11, 1.22, 1.44, 1.67, 1.89, 2.11, 2.33, 2.56, 2.78, 3.00, 3.22, 3.44, 3.67, 3.89, 4.11};
-static const double koshizuka_T[KOSHIZUKA] = {0, 0.381, 0.769, 1.153, 1.537, 1.935, 2.323, 2.719, 3.096};
-static const double koshizuka_Z[KOSHIZUKA] = {1, 1.111, 1.252, 1.505, 1.892, 2.241, 2.615, 3.003, 3.624};
-
-/* largest and mean of Z / Z_experiment - 1 */
-static void compare(const record *f, double a, const double *T, const double *Z, int count, double *worst, double *mean)
-{
-    int k;
-    *worst = *mean = 0;
-    for (k = 0; k < count; k++) {
-        const double off = front_at(f, T[k] / sqrt(2 * gravity / a)) / a / Z[k] - 1;
-        *mean += off / count;
-        if (fabs(off) > fabs(*worst)) *worst = off;
-    }
-}
-
 static void experiments(report *r, const clustering_options *c, int resolution)
 {
-    const double a = 0.05715, scale = sqrt(2 * gravity / a), end = 3.4 / scale;
+    const double a = column_a, end = 3.4 / column_T(1);
     const tank column = {5 * a, 3 * a, a, 2 * a, 10 * sqrt(gravity * 2 * a)};
     const double dref = a / resolution, dt = 0.2 * 1.5 * dref / column.c;
     static outcome o[2];
     char text[96];
     part_file to;
-    int k, s;
+    int k;
     snprintf(text, sizeof text, "Beyond the paper: a column of a x 2a, water only, dref = a/%d", resolution);
     report_section(r, text);
     clustering_figure(&to, c->figures, "clustering_column");
     fprintf(to.to, "run,T,Z\n");
-    for (s = 0; s < MARTIN; s++) fprintf(to.to, "martin_moyce,%g,%g\n", martin_T[s], martin_Z[s]);
-    for (s = 0; s < KOSHIZUKA; s++) fprintf(to.to, "koshizuka_oka,%g,%g\n", koshizuka_T[s], koshizuka_Z[s]);
+    column_experiment_lines(to.to);
     for (k = 0; k < 2; k++) {
         const scenario *const m = &methods[k ? SINGLE_COLLISIONS : SINGLE];
-        const record *const f = &o[k].front_of;
-        double worst, mean, t[MARTIN], z[MARTIN];
         run(c, m, &column, dref, 1.5, dt, &end, 1, NULL, &o[k]);
         if (o[k].answer == FLOW_BLEW_UP) {
             report_row(r, "column", m->name, "blew up", NULL, o[k].blow_up, NULL, NULL, REPORT_DIFFERS);
             continue;
         }
-        for (s = 0; s < f->count; s++) fprintf(to.to, "%s,%.6g,%.6g\n", m->file, f->t[s] * scale, f->x[s] / a);
-        for (s = 0; s < MARTIN; s++) {
-            t[s] = martin_T[s];
-            z[s] = front_at(f, t[s] / scale) / a;
-        }
-        report_relative(r, "column", m->name, "dZ/dT from T = 1.83 to 3.33 (Martin & Moyce 1952)", statistics_slope(t + 5, martin_Z + 5, MARTIN - 5),
-                        statistics_slope(t + 5, z + 5, MARTIN - 5), 0.15);
-        compare(f, a, martin_T, martin_Z, MARTIN, &worst, &mean);
-        report_info(r, "column", m->name, "mean of Z / Z of Martin & Moyce - 1", mean);
-        report_info(r, "column", m->name, "largest of these", worst);
-        compare(f, a, koshizuka_T, koshizuka_Z, KOSHIZUKA, &worst, &mean);
-        report_info(r, "column", m->name, "mean of Z / Z of Koshizuka & Oka - 1", mean);
-        report_info(r, "column", m->name, "largest of these", worst);
+        column_lines(to.to, m->file, &o[k].front_of);
+        column_rows(r, m->name, &o[k].front_of, 1);
     }
     clustering_figure_close(&to);
 }
@@ -417,10 +370,10 @@ static void experiments(report *r, const clustering_options *c, int resolution)
 /* figure 7 */
 static void initial(const clustering_options *c, double dref)
 {
-    static record r;
+    static watch w;
     flow f;
-    r.every = 1;
-    open_dam(&f, &methods[UNTREATED], &dam, dref, 1.5, 1e-4, &r);
+    w.front.every = 1;
+    open_dam(&f, &methods[UNTREATED], &dam, dref, 1.5, 1e-4, &w);
     flow_snapshot(&f, c->figures, "clustering_fig7");
     flow_close(&f);
 }
