@@ -1,0 +1,535 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * test_invariance.c - what every operator owes to space: the result does not depend on where the origin is, how the axes are turned or mirrored, the unit of length, the names of the
+ * particles, and how the host divides the targets. Each output is declared with what it is (scalar, vector, ...) and with its power of length.
+ *
+ *     test_invariance            checks
+ *     test_invariance -values    prints all outputs: tests/precision.sh compares those of float with those of double
+ */
+#if defined(__GNUC__) || defined(__clang__)
+#define SPH_FN static __attribute__((noinline, unused))
+#endif
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wpass-failed" /* loops over a run-time kernel do not vectorise */
+#endif
+
+#include "../sph.h"
+
+#include "check.h"
+#include "clouds.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EPSILON ((double)SPH_EPSILON)
+
+/* ---- a cloud with a field of every kind ---- */
+
+enum { M, RHO, OMEGA, V, P, U, CS, ALPHA, PSI, F, MU, ZETA, SHARE, H, REACH, VX, VY, VZ, BX, BY, BZ, FIELDS };
+enum { OUTPUTS = 12 };
+typedef struct world {
+    cloud c;
+    sph_real *a[FIELDS], *out[OUTPUTS];
+    sph_index *count;
+    unsigned char *status;
+    sph_real unit, sigma; /* the unit of length in the first cloud's; damping of the cleaning */
+    sph_vec gravity;
+} world;
+
+static world world_new(int dim, sph_index n)
+{
+    world w;
+    int k;
+    w.c = cloud_new(dim, n);
+    for (k = 0; k < FIELDS; k++) w.a[k] = (sph_real *)cloud_memory((size_t)n, sizeof *w.a[k]);
+    for (k = 0; k < OUTPUTS; k++) w.out[k] = (sph_real *)cloud_memory((size_t)n, sizeof *w.out[k]);
+    w.count = (sph_index *)cloud_memory((size_t)n, sizeof *w.count);
+    w.status = (unsigned char *)cloud_memory((size_t)n, 1);
+    w.unit = w.sigma = SPH_R(1);
+    w.gravity.x = SPH_R(0.3);
+    w.gravity.y = SPH_R(dim > 1 ? -1 : 0);
+    w.gravity.z = SPH_R(dim > 2 ? 0.4 : 0);
+    return w;
+}
+static void world_free(world *w)
+{
+    int k;
+    cloud_free(&w->c);
+    for (k = 0; k < FIELDS; k++) free(w->a[k]);
+    for (k = 0; k < OUTPUTS; k++) free(w->out[k]);
+    free(w->count);
+    free(w->status);
+}
+static double square(double x) { return x * x; }
+static sph_real distance(const cloud *c, sph_index i, sph_index j)
+{
+    double a[3], b[3];
+    cloud_position(c, i, a);
+    cloud_position(c, j, b);
+    return SPH_R(sqrt(square(a[0] - b[0]) + square(a[1] - b[1]) + square(a[2] - b[2])));
+}
+/* a jittered lattice with an edge; numbers that float and double share; lists of all pairs within the larger reach, with a margin so that no pair is on the edge of a list */
+static world first_world(int dim)
+{
+    static const int side[] = {0, 40, 9, 6};
+    cloud lattice = cloud_lattice(dim, side[dim], 1.3, 0.2, (uint64_t)dim + 40);
+    world w = world_new(dim, lattice.n);
+    sph_index i, j, *index;
+    pcg32 g;
+    int k;
+    pcg32_seed(&g, 5, (uint64_t)dim);
+    for (i = 0; i < w.c.n; i++) {
+        w.c.x[i] = SPH_R((float)lattice.x[i]);
+        w.c.y[i] = SPH_R((float)lattice.y[i]);
+        w.c.z[i] = SPH_R((float)lattice.z[i]);
+        for (k = 0; k < FIELDS; k++) w.a[k][i] = SPH_R((float)(1.0 + 0.4 * cloud_symmetric(&g)));
+        for (k = VX; k < FIELDS; k++) w.a[k][i] = SPH_R((k - VX) % 3 < dim ? (float)cloud_symmetric(&g) : 0.0f);
+        w.a[PSI][i] = SPH_R((float)cloud_symmetric(&g));
+        w.a[V][i] = SPH_R((float)(pow(lattice.dx, dim) * (1.0 + 0.2 * cloud_symmetric(&g))));
+        w.a[H][i] = SPH_R((float)((double)lattice.h * (1.0 + 0.1 * cloud_symmetric(&g))));
+        w.a[REACH][i] = SPH_R((float)(3.0 * (double)lattice.h));
+        w.a[M][i] = w.a[V][i];
+        w.a[SHARE][i] = SPH_R(i % 3 != 0);
+    }
+    w.c.dx = lattice.dx;
+    w.c.h = lattice.h;
+    index = w.c.index = (sph_index *)cloud_memory((size_t)w.c.n * (size_t)w.c.n, sizeof *index);
+    for (i = 0; i < w.c.n; i++) {
+        for (j = 0; j < w.c.n; j++)
+            if (j != i && distance(&w.c, i, j) < SPH_R(3.3) * lattice.h) *index++ = j;
+        w.c.start[i + 1] = (sph_index)(index - w.c.index);
+    }
+    cloud_free(&lattice);
+    return w;
+}
+
+/* ---- operators: each leaves its outputs for the targets first ... last - 1 in w->out ---- */
+
+static const sph_kernel KERNEL = SPH_WENDLAND_C4;
+static sph_scalars at(const world *w, int field) { return sph_scalars_array(w->a[field]); }
+static sph_vectors vectors(const world *w, int field)
+{
+    sph_vectors v;
+    v.x = at(w, field);
+    v.y = at(w, field + 1);
+    v.z = sph_scalars_array(w->c.dim > 2 ? w->a[field + 2] : 0);
+    return v;
+}
+static sph_vector_out into(const world *w, int k)
+{
+    sph_vector_out v;
+    v.x = w->out[k];
+    v.y = w->out[k + 1];
+    v.z = w->out[k + 2];
+    return v;
+}
+static sph_gas gas(const world *w)
+{
+    sph_gas g;
+    g.m = at(w, M);
+    g.rho = at(w, RHO);
+    g.omega = at(w, OMEGA);
+    return g;
+}
+typedef sph_index operator_fn(world *w, sph_index first, sph_index last);
+/* the arguments that most begin with */
+#define SWEEP KERNEL, w->c.dim, first, last, cloud_points(&w->c), cloud_list(&w->c), at(w, H)
+#define OUT(k) w->out[k]
+#define OPERATOR(name, call) \
+    static sph_index name(world *w, sph_index first, sph_index last) { return call; }
+
+OPERATOR(shepard_sum, sph_shepard_sum(SWEEP, at(w, V), OUT(0)))
+OPERATOR(interpolate, sph_interpolate_shepard(SWEEP, at(w, V), at(w, F), OUT(0), w->status))
+OPERATOR(density_summation, sph_density_summation(SWEEP, at(w, M), OUT(0)))
+OPERATOR(density_number, sph_density_number(SWEEP, at(w, M), OUT(0)))
+OPERATOR(gradient_difference, sph_gradient_difference(SWEEP, at(w, V), at(w, F), OUT(0), OUT(1), OUT(2)))
+OPERATOR(gradient_cspm, sph_gradient_cspm(SWEEP, at(w, V), at(w, F), OUT(0), OUT(1), OUT(2), OUT(3), w->status))
+OPERATOR(laplacian_brookshaw, sph_laplacian_brookshaw(SWEEP, at(w, V), at(w, F), OUT(0)))
+OPERATOR(laplacian_kernel, sph_laplacian_kernel(SWEEP, at(w, V), at(w, F), OUT(0)))
+OPERATOR(elliptic_brookshaw, sph_elliptic_brookshaw(SWEEP, at(w, V), at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
+OPERATOR(elliptic_corrected,
+         sph_elliptic_brookshaw_corrected(SWEEP, at(w, V), at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
+OPERATOR(elliptic_schwaiger, sph_elliptic_schwaiger(SWEEP, at(w, V), at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
+OPERATOR(elliptic_msph, sph_elliptic_msph(SWEEP, at(w, V), at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
+OPERATOR(viscous_morris, sph_viscous_mu_morris(SWEEP, at(w, M), at(w, RHO), vectors(w, VX), at(w, MU), SPH_R(0.1), into(w, 0)))
+OPERATOR(viscous_cleary, sph_viscous_mu_monaghan_cleary(SWEEP, at(w, M), at(w, RHO), vectors(w, VX), at(w, MU), SPH_R(0.1), into(w, 0)))
+OPERATOR(xsph, sph_velocity_xsph(SWEEP, at(w, M), at(w, RHO), vectors(w, VX), SPH_R(0.5), into(w, 0)))
+OPERATOR(divergence_difference, sph_divergence_difference(SWEEP, gas(w), vectors(w, BX), OUT(0)))
+OPERATOR(divergence_symmetric, sph_divergence_symmetric(SWEEP, gas(w), vectors(w, BX), OUT(0)))
+OPERATOR(gradient_symmetric, sph_gradient_symmetric(SWEEP, gas(w), at(w, F), into(w, 0)))
+OPERATOR(curl_difference, sph_curl_difference(SWEEP, gas(w), vectors(w, BX), into(w, 0)))
+OPERATOR(cleaning, sph_cleaning_rates(SWEEP, gas(w), vectors(w, BX), at(w, PSI), sph_scalars_array(0), SPH_R(1.3), w->sigma, into(w, 0), OUT(3), OUT(4)))
+OPERATOR(cleaning_symmetric,
+         sph_cleaning_rates_symmetric(SWEEP, gas(w), vectors(w, BX), at(w, PSI), sph_scalars_array(0), SPH_R(1.3), w->sigma, into(w, 0), OUT(3), OUT(4)))
+OPERATOR(cleaning_nonconservative,
+         sph_cleaning_rates_nonconservative(SWEEP, gas(w), vectors(w, BX), at(w, PSI), sph_scalars_array(0), SPH_R(1.3), w->sigma, into(w, 0), OUT(3), OUT(4)))
+OPERATOR(gravity_direct, sph_gravity_direct(KERNEL, first, last, cloud_points(&w->c), at(w, H), at(w, M), SPH_R(1), into(w, 0), OUT(3)))
+OPERATOR(gravity_zeta, sph_gravity_zeta(KERNEL, first, last, cloud_points(&w->c), cloud_list(&w->c), at(w, H), at(w, M), at(w, RHO), OUT(0)))
+OPERATOR(gravity_correction,
+         sph_gravity_correction(KERNEL, first, last, cloud_points(&w->c), cloud_list(&w->c), at(w, H), gas(w), at(w, ZETA), SPH_R(1), into(w, 0)))
+OPERATOR(nearest_distance, sph_nearest_distance(w->c.dim, first, last, cloud_points(&w->c), cloud_points(&w->c), cloud_list(&w->c), OUT(0), w->status))
+OPERATOR(hexatic_order, sph_hexatic_order(first, last, cloud_points(&w->c), cloud_list(&w->c), OUT(0), w->status))
+
+static sph_index density_adaptive(world *w, sph_index first, sph_index last)
+{
+    sph_index i;
+    for (i = first; i < last; i++) OUT(0)[i] = w->a[H][i];
+    return sph_density_adaptive(KERNEL, w->c.dim, first, last, cloud_points(&w->c), cloud_list(&w->c), at(w, REACH), at(w, M), SPH_R(1.2),
+                                BY_PRECISION(SPH_R(1e-13), SPH_R(1e-5)), OUT(0), OUT(1), OUT(2), w->status);
+}
+static sph_derivative_out derivatives_into(const world *w)
+{
+    sph_derivative_out o;
+    memset(&o, 0, sizeof o);
+    o.gx = OUT(0);
+    o.gy = OUT(1);
+    o.gz = OUT(2);
+    o.hxx = OUT(3);
+    o.hxy = OUT(4);
+    o.hyy = OUT(5);
+    o.hxz = OUT(6);
+    o.hyz = OUT(7);
+    o.hzz = OUT(8);
+    o.laplacian = OUT(9);
+    o.stride = 1;
+    return o;
+}
+OPERATOR(derivatives_cspm, sph_derivatives_cspm(SWEEP, at(w, V), at(w, F), SPH_R(0), derivatives_into(w)))
+OPERATOR(derivatives_icspm, sph_derivatives_icspm(SWEEP, at(w, V), at(w, F), SPH_R(0), 0, derivatives_into(w)))
+OPERATOR(derivatives_wls, sph_derivatives_wls(SWEEP, at(w, V), at(w, F), SPH_R(0), derivatives_into(w)))
+
+static sph_index msph_rows(world *w, sph_index first, sph_index last)
+{
+    sph_real *const row = (sph_real *)cloud_memory((size_t)w->c.start[w->c.n], sizeof *row);
+    sph_row_out o = {0, 0, 0, 0, 0};
+    sph_index failed;
+    o.row = row;
+    o.diagonal = OUT(1);
+    failed = sph_elliptic_rows_msph(SWEEP, at(w, V), at(w, MU), sph_elliptic_defaults(), o);
+    if (!failed) failed = sph_rows_apply(first, last, w->c.n, cloud_list(&w->c), row, OUT(1), at(w, F), OUT(0));
+    free(row);
+    return failed;
+}
+static sph_fluid fluid(const world *w)
+{
+    sph_fluid f;
+    f.m = at(w, M);
+    f.rho = at(w, RHO);
+    f.p = at(w, P);
+    f.c = at(w, CS);
+    f.v = vectors(w, VX);
+    f.viscosity = SPH_VISCOSITY_MONAGHAN;
+    f.alpha = SPH_R(0.7);
+    f.beta = SPH_R(1.1);
+    f.eta = SPH_R(0.1);
+    return f;
+}
+OPERATOR(fluid_monaghan, sph_fluid_rates_monaghan(SWEEP, fluid(w), into(w, 0), OUT(3), OUT(4)))
+OPERATOR(fluid_colagrossi, sph_fluid_rates_colagrossi(SWEEP, fluid(w), into(w, 0), OUT(3), OUT(4)))
+OPERATOR(fluid_hu_adams, sph_fluid_rates_hu_adams(SWEEP, fluid(w), into(w, 0), OUT(3), OUT(4)))
+static sph_index wall(world *w, sph_index first, sph_index last)
+{
+    sph_vectors none;
+    none.x = none.y = none.z = sph_scalars_array(0);
+    return sph_wall_adami(SWEEP, at(w, SHARE), at(w, RHO), at(w, P), vectors(w, VX), vectors(w, BX), w->gravity, none, OUT(3), into(w, 0), w->status);
+}
+static sph_index wall_slips(world *w, sph_index first, sph_index last)
+{
+    return sph_wall_adami(SWEEP, at(w, SHARE), at(w, RHO), at(w, P), vectors(w, VX), vectors(w, VX), w->gravity, vectors(w, BX), OUT(3), into(w, 0), w->status);
+}
+static sph_index collisions(world *w, sph_index first, sph_index last)
+{
+    const sph_real range = SPH_R(1.05) * SPH_R(w->c.dx);
+    const sph_index failed = sph_collision_count(w->c.dim, 0, w->c.n, cloud_points(&w->c), cloud_list(&w->c), range, at(w, M), vectors(w, VX), w->count);
+    return failed ? failed
+                  : sph_collision_change_weighted(w->c.dim, first, last, cloud_points(&w->c), cloud_list(&w->c), range, at(w, M), SPH_R(0.8), vectors(w, VX),
+                                                  w->count, into(w, 0));
+}
+static sph_index mhd(world *w, sph_index first, sph_index last)
+{
+    sph_mhd s;
+    sph_mhd_out o;
+    s.gas = gas(w);
+    s.P = at(w, P);
+    s.u = at(w, U);
+    s.cs = at(w, CS);
+    s.alpha = at(w, ALPHA);
+    s.v = vectors(w, VX);
+    s.B = vectors(w, BX);
+    s.psi = at(w, PSI);
+    s.ch = SPH_R(1.3);
+    s.sigma = w->sigma;
+    s.beta = SPH_R(2);
+    s.alpha_u = SPH_R(0.9);
+    s.alpha_B = SPH_R(0.6);
+    s.tensile = SPH_R(0.8);
+    o.acceleration = into(w, 0);
+    o.rate_B = into(w, 3);
+    o.rate_u = OUT(6);
+    o.rate_psi = OUT(7);
+    o.div_B = OUT(8);
+    o.div_v = OUT(9);
+    o.v_sig = OUT(10);
+    return sph_mhd_rates(SWEEP, s, o);
+}
+
+/* what an output is; its power of length is a + b dim (masses, densities and speeds keep their numbers when the unit changes, volumes do not) */
+typedef enum kind { END, SCALAR, VECTOR, AXIAL, SYMMETRIC } kind;
+typedef struct output {
+    kind is;
+    int at, a, b;
+} output;
+typedef struct operation {
+    const char *name;
+    operator_fn *call;
+    int dims;    /* bits 1, 2, 3 */
+    double hard; /* how much more rounding than a sum */
+    output out[8];
+} operation;
+enum { ALL = 14, PLANE = 4, SPACE = 8 };
+
+static const operation operations[] = {
+    {"shepard_sum", shepard_sum, ALL, 1, {{SCALAR, 0, 0, 0}}},
+    {"interpolate_shepard", interpolate, ALL, 1, {{SCALAR, 0, 0, 0}}},
+    {"density_summation", density_summation, ALL, 1, {{SCALAR, 0, 0, -1}}},
+    {"density_number", density_number, ALL, 1, {{SCALAR, 0, 0, -1}}},
+    {"density_adaptive", density_adaptive, ALL, 20, {{SCALAR, 0, 1, 0}, {SCALAR, 1, 0, -1}, {SCALAR, 2, 0, 0}}},
+    {"gradient_difference", gradient_difference, ALL, 1, {{VECTOR, 0, -1, 0}}},
+    {"gradient_cspm", gradient_cspm, ALL, 5, {{VECTOR, 0, -1, 0}}},
+    {"laplacian_brookshaw", laplacian_brookshaw, ALL, 1, {{SCALAR, 0, -2, 0}}},
+    {"laplacian_kernel", laplacian_kernel, ALL, 1, {{SCALAR, 0, -2, 0}}},
+    {"derivatives_cspm", derivatives_cspm, ALL, 200, {{VECTOR, 0, -1, 0}, {SYMMETRIC, 3, -2, 0}, {SCALAR, 9, -2, 0}}},
+    {"derivatives_icspm", derivatives_icspm, ALL, 4000, {{VECTOR, 0, -1, 0}, {SYMMETRIC, 3, -2, 0}, {SCALAR, 9, -2, 0}}},
+    {"derivatives_wls", derivatives_wls, ALL, 4000, {{VECTOR, 0, -1, 0}, {SYMMETRIC, 3, -2, 0}, {SCALAR, 9, -2, 0}}},
+    {"elliptic_brookshaw", elliptic_brookshaw, ALL, 1, {{SCALAR, 0, -2, 0}}},
+    {"elliptic_brookshaw_corrected", elliptic_corrected, ALL, 5, {{SCALAR, 0, -2, 0}}},
+    {"elliptic_schwaiger", elliptic_schwaiger, ALL, 20, {{SCALAR, 0, -2, 0}}},
+    {"elliptic_msph", elliptic_msph, ALL, 20, {{SCALAR, 0, -2, 0}}},
+    {"elliptic_rows_msph", msph_rows, ALL, 20, {{SCALAR, 0, -2, 0}, {SCALAR, 1, -2, 0}}},
+    {"fluid_rates_monaghan", fluid_monaghan, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
+    {"fluid_rates_colagrossi", fluid_colagrossi, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
+    {"fluid_rates_hu_adams", fluid_hu_adams, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
+    {"viscous_mu_morris", viscous_morris, ALL, 1, {{VECTOR, 0, -2, -1}}},
+    {"viscous_mu_monaghan_cleary", viscous_cleary, ALL, 1, {{VECTOR, 0, -2, -1}}},
+    {"velocity_xsph", xsph, ALL, 1, {{VECTOR, 0, 0, -1}}},
+    {"wall_adami", wall, ALL, 1, {{VECTOR, 0, 0, 0}, {SCALAR, 3, 0, 0}}},
+    {"wall_adami-free-slip", wall_slips, ALL, 1, {{VECTOR, 0, 0, 0}, {SCALAR, 3, 0, 0}}},
+    {"collision_change_weighted", collisions, ALL, 1, {{VECTOR, 0, 0, 0}}},
+    {"nearest_distance", nearest_distance, ALL, 1, {{SCALAR, 0, 1, 0}}},
+    {"hexatic_order", hexatic_order, PLANE, 5, {{SCALAR, 0, 0, 0}}},
+    {"mhd_rates",
+     mhd,
+     ALL,
+     1,
+     {{VECTOR, 0, -1, -1}, {VECTOR, 3, -1, -1}, {SCALAR, 6, -1, -1}, {SCALAR, 7, -1, -1}, {SCALAR, 8, -1, -1}, {SCALAR, 9, -1, -1}, {SCALAR, 10, 0, 0}}},
+    {"cleaning_rates", cleaning, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
+    {"cleaning_rates_symmetric", cleaning_symmetric, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
+    {"cleaning_rates_nonconservative", cleaning_nonconservative, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
+    {"divergence_difference", divergence_difference, ALL, 1, {{SCALAR, 0, -1, -1}}},
+    {"divergence_symmetric", divergence_symmetric, ALL, 1, {{SCALAR, 0, -1, -1}}},
+    {"gradient_symmetric", gradient_symmetric, ALL, 1, {{VECTOR, 0, -1, -1}}},
+    {"curl_difference", curl_difference, PLANE | SPACE, 1, {{AXIAL, 0, -1, -1}}},
+    {"gravity_direct", gravity_direct, SPACE, 1, {{VECTOR, 0, -2, 0}, {SCALAR, 3, -1, 0}}},
+    {"gravity_zeta", gravity_zeta, SPACE, 10, {{SCALAR, 0, -1, 0}}},
+    {"gravity_correction", gravity_correction, SPACE, 1, {{VECTOR, 0, -4, 0}}}};
+enum { OPERATIONS = (int)(sizeof operations / sizeof *operations) };
+
+/* ---- the same cloud, seen differently ---- */
+
+typedef struct view {
+    const char *name;
+    double unit, turn[3][3], shift[3], determinant;
+    int renames;
+} view;
+
+static view view_new(const char *name)
+{
+    view v;
+    int a;
+    memset(&v, 0, sizeof v);
+    v.name = name;
+    v.unit = v.determinant = 1.0;
+    for (a = 0; a < 3; a++) v.turn[a][a] = 1.0;
+    return v;
+}
+/* turned in the plane of the axes a and b */
+static void view_turn(view *v, int a, int b, double angle)
+{
+    const double c = cos(angle), s = sin(angle);
+    int k;
+    for (k = 0; k < 3; k++) {
+        const double p = v->turn[a][k], q = v->turn[b][k];
+        v->turn[a][k] = c * p - s * q;
+        v->turn[b][k] = s * p + c * q;
+    }
+}
+static void turned(const view *v, const double *from, double *to)
+{
+    int a;
+    for (a = 0; a < 3; a++) to[a] = v->turn[a][0] * from[0] + v->turn[a][1] * from[1] + v->turn[a][2] * from[2];
+}
+static sph_index new_name(const view *v, sph_index i, sph_index n) { return v->renames ? (sph_index)((i * (int64_t)7 + 3) % n) : i; }
+
+static world seen(const world *w, const view *v)
+{
+    world s = world_new(w->c.dim, w->c.n);
+    const sph_index n = w->c.n;
+    double p[3], q[3];
+    sph_index i, k, *old = (sph_index *)cloud_memory((size_t)n, sizeof *old);
+    int f;
+    s.unit = SPH_R(v->unit);
+    s.sigma = SPH_R(pow(v->unit, -w->c.dim)); /* so that all of the rate of psi has one power of length */
+    s.c.dx = w->c.dx * v->unit;
+    p[0] = (double)w->gravity.x;
+    p[1] = (double)w->gravity.y;
+    p[2] = (double)w->gravity.z;
+    turned(v, p, q);
+    s.gravity.x = SPH_R(q[0] / v->unit);
+    s.gravity.y = SPH_R(q[1] / v->unit);
+    s.gravity.z = SPH_R(q[2] / v->unit);
+    for (i = 0; i < n; i++) {
+        const sph_index j = new_name(v, i, n);
+        old[j] = i;
+        cloud_position(&w->c, i, p);
+        turned(v, p, q);
+        s.c.x[j] = SPH_R(v->unit * q[0] + v->shift[0]);
+        s.c.y[j] = SPH_R(v->unit * q[1] + v->shift[1]);
+        s.c.z[j] = SPH_R(v->unit * q[2] + v->shift[2]);
+        for (f = 0; f < VX; f++) s.a[f][j] = w->a[f][i] * SPH_R(f == H || f == REACH ? v->unit : f == V ? pow(v->unit, w->c.dim) : 1.0);
+        for (f = VX; f < FIELDS; f += 3) {
+            int a;
+            for (a = 0; a < 3; a++) p[a] = (double)w->a[f + a][i];
+            turned(v, p, q);
+            for (a = 0; a < 3; a++) s.a[f + a][j] = SPH_R(q[a]);
+        }
+    }
+    s.c.index = (sph_index *)cloud_memory((size_t)w->c.start[n], sizeof *s.c.index);
+    for (i = 0; i < n; i++) { /* the same neighbours; with new names also in another order */
+        const sph_index from = w->c.start[old[i]], count = w->c.start[old[i] + 1] - from;
+        s.c.start[i + 1] = s.c.start[i] + count;
+        for (k = 0; k < count; k++) s.c.index[s.c.start[i] + (v->renames ? count - 1 - k : k)] = new_name(v, w->c.index[from + k], n);
+    }
+    free(old);
+    return s;
+}
+
+/* what the first result must be in the view; to: up to six components */
+static int expected(const view *v, const world *w, const output *o, sph_index i, double *to)
+{
+    const double scale = pow(v->unit, o->a + o->b * w->c.dim);
+    double h[3][3], p[3] = {0, 0, 0}, q[3];
+    int a, b, c, d, parts = o->is == SCALAR ? 1 : o->is == SYMMETRIC ? w->c.dim * (w->c.dim + 1) / 2 : o->is == AXIAL ? 3 : w->c.dim;
+    static const int row[] = {0, 0, 1, 0, 1, 2}, column[] = {0, 1, 1, 2, 2, 2};
+    if (o->is == SCALAR) to[0] = (double)w->out[o->at][i];
+    else if (o->is == SYMMETRIC) {
+        memset(h, 0, sizeof h);
+        for (a = 0; a < parts; a++) h[row[a]][column[a]] = h[column[a]][row[a]] = (double)w->out[o->at + a][i];
+        for (a = 0; a < parts; a++)
+            for (b = 0, to[a] = 0.0; b < 3; b++)
+                for (c = 0; c < 3; c++) to[a] += v->turn[row[a]][b] * h[b][c] * v->turn[column[a]][c];
+    } else {
+        for (a = 0; a < parts; a++) p[a] = (double)w->out[o->at + a][i];
+        turned(v, p, q);
+        for (a = 0; a < parts; a++) to[a] = q[a] * (o->is == AXIAL ? v->determinant : 1.0);
+    }
+    for (d = 0; d < parts; d++) to[d] *= scale;
+    return parts;
+}
+
+static void check_view(const operation *op, const world *w, const view *v)
+{
+    world s = seen(w, v);
+    const output *o;
+    sph_index i;
+    CHECK(op->call(&s, 0, s.c.n) == 0);
+    for (o = op->out; o->is != END; o++) {
+        double worst = 0.0, size = 0.0, want[6];
+        int a, parts;
+        for (i = 0; i < w->c.n; i++) {
+            parts = expected(v, w, o, i, want);
+            for (a = 0; a < parts; a++) {
+                const double off = fabs(want[a] - (double)s.out[o->at + a][new_name(v, i, w->c.n)]);
+                if (!(off <= worst)) worst = off;
+                size = fmax(size, fabs(want[a]));
+            }
+        }
+        CHECK(size > 0.0);
+        if (!(worst <= 100.0 * op->hard * EPSILON * size)) fprintf(stderr, "sph_%s, output %d, %dD, %s:\n", op->name, (int)(o - op->out), w->c.dim, v->name);
+        CHECK_CLOSE(worst, 0.0, 100.0 * op->hard * EPSILON * size);
+    }
+    world_free(&s);
+}
+
+/* bit for bit the same by ranges, in any order, as threads would */
+static void check_pieces(const operation *op, world *w)
+{
+    const sph_index n = w->c.n, cut[] = {0, 1, n / 3, n / 3, n - 2, n};
+    const size_t size = (size_t)n * sizeof(sph_real);
+    sph_real *const whole = (sph_real *)cloud_memory(OUTPUTS, size);
+    int k;
+    for (k = 0; k < OUTPUTS; k++) memcpy(whole + k * n, w->out[k], size);
+    for (k = 0; k < OUTPUTS; k++) memset(w->out[k], 0, size);
+    for (k = 4; k >= 0; k--) CHECK(op->call(w, cut[k], cut[k + 1]) == 0);
+    for (k = 0; k < OUTPUTS; k++) CHECK(memcmp(whole + k * n, w->out[k], size) == 0);
+    free(whole);
+}
+
+static void check_operation(const operation *op, world *w)
+{
+    view v;
+    int k;
+    for (k = 0; k < OUTPUTS; k++) memset(w->out[k], 0, (size_t)w->c.n * sizeof(sph_real));
+    CHECK(op->call(w, 0, w->c.n) == 0);
+    v = view_new("another origin");
+    v.shift[0] = 0.7;
+    v.shift[1] = w->c.dim > 1 ? -1.3 : 0.0;
+    v.shift[2] = w->c.dim > 2 ? 0.4 : 0.0;
+    check_view(op, w, &v);
+    v = view_new("turned");
+    if (w->c.dim > 1) view_turn(&v, 0, 1, 0.7);
+    if (w->c.dim > 2) view_turn(&v, 1, 2, -1.1);
+    if (w->c.dim > 2) view_turn(&v, 0, 2, 2.3);
+    check_view(op, w, &v);
+    v.name = "mirrored";
+    v.turn[0][0] = -v.turn[0][0];
+    v.turn[0][1] = -v.turn[0][1];
+    v.turn[0][2] = -v.turn[0][2];
+    v.determinant = -1.0;
+    check_view(op, w, &v);
+    v = view_new("another unit of length");
+    v.unit = 3.7;
+    check_view(op, w, &v);
+    v = view_new("other names");
+    v.renames = 1;
+    check_view(op, w, &v);
+    check_pieces(op, w);
+}
+static void print_values(const operation *op, world *w)
+{
+    const output *o;
+    sph_index i;
+    (void)op->call(w, 0, w->c.n);
+    for (o = op->out; o->is != END; o++) {
+        const int parts = o->is == SCALAR ? 1 : o->is == SYMMETRIC ? w->c.dim * (w->c.dim + 1) / 2 : w->c.dim;
+        int a;
+        for (a = 0; a < parts; a++)
+            for (i = 0; i < w->c.n; i++) printf("%s/%d/%d %g %.12g\n", op->name, w->c.dim, o->at, op->hard, (double)w->out[o->at + a][i]);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const int values = argc > 1 && strcmp(argv[1], "-values") == 0;
+    int dim, k;
+    for (dim = 1; dim <= 3; dim++) {
+        world w = first_world(dim);
+        for (k = 0; k < OPERATIONS; k++)
+            if (operations[k].dims >> dim & 1) {
+                if (values) print_values(&operations[k], &w);
+                else check_operation(&operations[k], &w);
+            }
+        world_free(&w);
+    }
+    return values ? 0 : check_report("test_invariance");
+}
