@@ -1415,10 +1415,9 @@ SPH_FN int sphi_check_entries(sph_index first, sph_index last, sph_list list, sp
     if (first == last) return 0;
     if (list.start[first] < 0 || list.start[last] < list.start[first]) return SPH_ERROR_LIST;
     if (list.start[last] > list.start[first] && !list.index) return SPH_ERROR_NULL;
-    if (!SPH_CHECK) return 0;
-    for (i = first; i < last; i++)
+    for (i = first; SPH_CHECK && i < last; i++)
         if (list.start[i + 1] < list.start[i]) return SPH_ERROR_LIST;
-    for (i = first; i < last; i++)
+    for (i = first; SPH_CHECK && i < last; i++)
         for (p = list.start[i]; p < list.start[i + 1]; p++) {
             const sph_index j = list.index[p];
             outside |= (j < 0) | (j >= n);
