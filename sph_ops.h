@@ -1731,9 +1731,10 @@ SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_index first,
             sz += g.z;
         }
         {
-            int lost = sphi_store_finite(gx, i, sx);
-            if (dim > 1) lost |= sphi_store_finite(gy, i, sy);
-            if (dim > 2) lost |= sphi_store_finite(gz, i, sz);
+            const int lost = !sphi_finite(sx) || !sphi_finite(sy) || !sphi_finite(sz);
+            gx[i] = lost ? SPH_R(0) : sx;
+            if (dim > 1) gy[i] = lost ? SPH_R(0) : sy;
+            if (dim > 2) gz[i] = lost ? SPH_R(0) : sz;
             failed += lost;
         }
     }
@@ -1850,6 +1851,11 @@ SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_index first, 
             if (dim > 1) lost |= sphi_row_finite(wy, list.start[i], list.start[i + 1]);
             if (dim > 2) lost |= sphi_row_finite(wz, list.start[i], list.start[i + 1]);
             if (lost) state = SPH_NOT_FINITE;
+            for (p = list.start[i]; lost && p < list.start[i + 1]; p++) {
+                wx[p] = SPH_R(0);
+                if (dim > 1) wy[p] = SPH_R(0);
+                if (dim > 2) wz[p] = SPH_R(0);
+            }
         }
         if (conditioning) conditioning[i] = pivot;
         if (status) status[i] = (unsigned char)state;
@@ -2053,6 +2059,7 @@ SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_index f
         int state;
         sphi_moments(method, k, dim, 1, i, x, list, h_i, V, f, &m);
         state = sphi_solve(method, dim, &m, h_i, &j, want_conditioning ? &conditioning : 0);
+        if (!sphi_finite(conditioning)) conditioning = SPH_R(0); /* moments that overflowed */
         if (state) state = sphi_singular_status(k, dim, i, x, list, h_i, sphi_neighbours_needed(method, dim));
         else if (want_conditioning && SPHI_ABS(conditioning) < conditioning_min) state = SPH_ILL_CONDITIONED;
         if (fallback_wls && (state == SPH_SINGULAR || state == SPH_ILL_CONDITIONED)) {
@@ -2140,8 +2147,9 @@ SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_ind
                 row[p] = sph_row_weight(dim, c, e, sphi_test_weights(method, k, dim, sph_length(dim, e), sphi_at(V, j)));
                 sum += row[p];
             }
-            if (!sphi_finite(sum)) state = SPH_NOT_FINITE;
+            if (!sphi_finite(sum) || !sphi_finite(c.factor)) state = SPH_NOT_FINITE;
         }
+        if (!sphi_finite(conditioning)) conditioning = SPH_R(0);
         if (state) {
             for (p = list.start[i]; p < list.start[i + 1]; p++) row[p] = SPH_R(0);
             c.factor = sum = SPH_R(0);
@@ -2876,32 +2884,28 @@ SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_index fir
 
 /* -------- rows of any operator of this file: their use, and what they promise */
 
-/* the range, the list, and that there are rows; n: number of sources */
-SPH_FN int sphi_check_rows(sph_index first, sph_index last, sph_index n, sph_list list, const SPH_GLOBAL sph_real *row)
+/* the range, the list, and that there are rows of numbers; n: number of sources; diagonal may be null */
+SPH_FN int sphi_check_rows(sph_index first, sph_index last, sph_index n, sph_list list, const SPH_GLOBAL sph_real *row, const SPH_GLOBAL sph_real *diagonal)
 {
     sph_index i, p;
+    int error, lost = 0;
     if (!list.start) return SPH_ERROR_NULL;
     if (n < 1) return SPH_ERROR_COUNT;
     if (first < 0 || first > last || last > n) return SPH_ERROR_RANGE;
-    if (first == last) return 0;
-    if (list.start[first] < 0) return SPH_ERROR_LIST;
-    for (i = first; i < last; i++)
-        if (list.start[i + 1] < list.start[i]) return SPH_ERROR_LIST;
-    if (list.start[last] > list.start[first] && (!row || !list.index)) return SPH_ERROR_NULL;
-    for (i = first; i < last && SPH_CHECK; i++)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            if (list.index[p] < 0 || list.index[p] >= n) return SPH_ERROR_LIST;
-            if (list.index[p] == i) return SPH_ERROR_SELF;
-            if (!sphi_finite(row[p])) return SPH_ERROR_VALUE;
-        }
-    return 0;
+    error = sphi_check_entries(first, last, list, n, 0);
+    if (error || first == last) return error;
+    if (list.start[last] > list.start[first] && !row) return SPH_ERROR_NULL;
+    if (!SPH_CHECK) return 0;
+    for (p = list.start[first]; p < list.start[last]; p++) lost |= !sphi_finite(row[p]);
+    for (i = first; diagonal && i < last; i++) lost |= !sphi_finite(diagonal[i]);
+    return lost ? SPH_ERROR_VALUE : 0;
 }
 
 /* out_i = sum_p row[p] (u_j - u_i), or, if diagonal is given, diagonal[i] u_i + sum_p row[p] u_j. n: number of particles, all sources. The first is exact for constants. */
 SPH_FN sph_index sph_rows_apply(sph_index first, sph_index last, sph_index n, sph_list list, const SPH_GLOBAL sph_real *row,
                                 const SPH_GLOBAL sph_real *diagonal, sph_scalars u, SPH_GLOBAL sph_real *out)
 {
-    int error = sphi_check_rows(first, last, n, list, row);
+    int error = sphi_check_rows(first, last, n, list, row, diagonal);
     sph_index i, p, failed = 0;
     if (!error) error = sphi_check_field(u, n);
     if (!error && !out) error = SPH_ERROR_NULL;
@@ -2922,7 +2926,7 @@ SPH_FN sph_index sph_rows_apply(sph_index first, sph_index last, sph_index n, sp
 SPH_FN sph_index sph_rows_monotone(sph_index first, sph_index last, sph_index n, sph_list list, const SPH_GLOBAL sph_real *row,
                                    const SPH_GLOBAL sph_real *diagonal, SPH_GLOBAL unsigned char *monotone)
 {
-    const int error = sphi_check_rows(first, last, n, list, row);
+    const int error = sphi_check_rows(first, last, n, list, row, diagonal);
     sph_index i, p, others = 0;
     if (error) return error;
     if (!diagonal) return SPH_ERROR_NULL;
@@ -2947,7 +2951,7 @@ SPH_FN sph_index sph_rows_monotone(sph_index first, sph_index last, sph_index n,
    if there is nothing to limit it. For a uniform lattice and its 2 dim nearest neighbours it is dx^2 / (2 dim m). Half of it keeps maxima from growing. */
 SPH_FN sph_index sph_rows_time_step(sph_index first, sph_index last, sph_index n, sph_list list, const SPH_GLOBAL sph_real *row, SPH_GLOBAL sph_real *dt)
 {
-    const int error = sphi_check_rows(first, last, n, list, row);
+    const int error = sphi_check_rows(first, last, n, list, row, 0);
     sph_real largest = SPH_R(0);
     sph_index i, p;
     if (error) return error;
@@ -2964,19 +2968,33 @@ SPH_FN sph_index sph_rows_time_step(sph_index first, sph_index last, sph_index n
     return 0;
 }
 
+/* position and box as far as particle i goes */
+SPH_FN int sphi_check_one(int dim, sph_points x, sph_index i)
+{
+    const size_t o = (size_t)i * x.stride;
+    int error;
+    x.x += o;
+    if (dim > 1) x.y += o;
+    if (dim > 2) x.z += o;
+    x.n = 1;
+    error = sphi_check_positions(dim, x);
+    return error ? error : sphi_check_box(dim, x, SPH_R(0));
+}
 /* The growth factor lambda = 1 + tau sum_p row[p] (exp(i k . e) - 1) of the wave k at particle i under u + tau L u (von Neumann); |lambda| <= 1 is stable. (83) of Lukyanov & Vuik 2020. */
 SPH_FN sph_index sph_rows_growth(int dim, sph_index i, sph_points x, sph_list list, const SPH_GLOBAL sph_real *row, sph_real tau, sph_vec wave,
                                  SPH_GLOBAL sph_real *re, SPH_GLOBAL sph_real *im)
 {
     sph_real a = SPH_R(0), b = SPH_R(0);
     sph_index p;
-    int error;
-    if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
-    if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z) || !re || !im) return SPH_ERROR_NULL;
-    if (i < 0 || i >= x.n) return SPH_ERROR_RANGE;
-    error = sphi_check_rows(i, i + 1, x.n, list, row);
+    int error = sphi_check_frame(dim, i, i, x, list);
+    if (!error && (!re || !im)) error = SPH_ERROR_NULL;
+    if (!error && i >= x.n) error = SPH_ERROR_RANGE;
+    if (!error) error = sphi_check_rows(i, i + 1, x.n, list, row, 0);
+    if (!error && (!sphi_finite(tau) || !sphi_finite(sph_dot(dim, wave, wave)))) error = SPH_ERROR_VALUE;
+    if (!error) error = sphi_check_one(dim, x, i); /* of the positions only those that it needs: it is called for many i */
+    if (!error && SPH_CHECK)
+        for (p = list.start[i]; !error && p < list.start[i + 1]; p++) error = sphi_check_one(dim, x, list.index[p]);
     if (error) return error;
-    if (!sphi_finite(tau) || !sphi_finite(sph_dot(dim, wave, wave))) return SPH_ERROR_VALUE;
     for (p = list.start[i]; p < list.start[i + 1]; p++) {
         const sph_real phase = SPH_R(0.5) * sph_dot(dim, wave, sphi_separation(dim, x, sphi_point(dim, x, list.index[p]), sphi_point(dim, x, i)));
         const sph_real sine = SPHI_SIN(phase);
@@ -3013,7 +3031,7 @@ SPH_FN sph_index sph_elliptic_diagnose(sph_kernel k, int dim, sph_index first, s
     const int gradient = options.gradient;
     sph_index i, p, failed = 0;
     int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
-    if (!error && (gradient < 0 || gradient > (int)SPH_GRADIENT_SHEPARD_FULL)) error = SPH_ERROR_VALUE;
+    if (!error && (gradient < 0 || gradient > (int)SPH_GRADIENT_SHEPARD_FULL || !sphi_finite(options.conditioning_min))) error = SPH_ERROR_VALUE;
     if (error) return error;
     for (i = first; i < last; i++) {
         const sph_vec x_i = sphi_point(dim, x, i);
@@ -3095,12 +3113,10 @@ SPH_FN void sphi_sort_entries(sph_index *column, sph_real *value, sph_index n)
 SPH_FN sph_index sph_csr_assemble(sph_index first, sph_index last, sph_index n, sph_list list, const sph_real *row, const sph_real *diagonal, int drop_zeros,
                                   sph_index *start, sph_index *column, sph_real *value, int64_t capacity, int64_t *entries)
 {
-    const int error = sphi_check_rows(first, last, n, list, row);
+    const int error = sphi_check_rows(first, last, n, list, row, diagonal);
     sph_index i, p, at = 0;
     if (error) return error;
     if (!diagonal || !start || !column || !value) return SPH_ERROR_NULL;
-    for (i = first; i < last && SPH_CHECK; i++)
-        if (!sphi_finite(diagonal[i])) return SPH_ERROR_VALUE;
     if (capacity < sph_csr_size(first, last, list) || (int64_t)(sph_index)sph_csr_size(first, last, list) != sph_csr_size(first, last, list))
         return SPH_ERROR_CAPACITY;
     for (i = first; i < last; i++) {
@@ -3483,13 +3499,13 @@ typedef struct sph_collision_report {
 
 /* Collisions one after the other, in the order of rows and lists, each with the velocities that the one before left: changes v (stride as given) of sources, too, if they are not walls; the one sweep that writes
    beyond its targets, so never on two ranges at once. Each pair once, also if both rows name it. Momentum and angular momentum to round-off; energy never grows for restitution <= 1.
-   Returns 0 or an error; out may be null. */
+   Returns 0, the number of pairs whose velocities or energy would overflow (they exchange nothing), or an error; out may be null. */
 SPH_FN sph_index sph_collide_sequential(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance, sph_scalars inverse_mass,
                                         sph_real restitution, sph_real *vx, sph_real *vy, sph_real *vz, size_t stride, sph_collision_report *out)
 {
     int error = sphi_check_collisions(dim, first, last, x, list, distance, inverse_mass, restitution);
     sph_collision_report r;
-    sph_index i, p;
+    sph_index i, p, lost = 0;
     r.collisions = r.coincident = 0;
     r.energy = SPH_R(0);
     if (!error) error = sphi_check_vector(dim, vx, vy, vz);
@@ -3511,7 +3527,7 @@ SPH_FN sph_index sph_collide_sequential(int dim, sph_index first, sph_index last
             const sph_real w_j = sphi_at(inverse_mass, j);
             const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
             const sph_real r2 = sph_dot(dim, x_ij, x_ij);
-            sph_real c, d, v = (vx[a] - vx[b]) * x_ij.x;
+            sph_real c, d, energy, v = (vx[a] - vx[b]) * x_ij.x;
             int what;
             if (j < i && j >= first) continue; /* its own row has had it */
             if (dim > 1) v += (vy[a] - vy[b]) * x_ij.y;
@@ -3521,6 +3537,14 @@ SPH_FN sph_index sph_collide_sequential(int dim, sph_index first, sph_index last
             if (what <= 0) continue;
             c = sph_collision_pair(restitution, w_i, w_j, v, r2);
             d = sph_collision_pair(restitution, w_j, w_i, v, r2);
+            energy = r.energy - SPH_R(0.5) * (SPH_R(1) - restitution * restitution) / (w_i + w_j) * v * v / r2;
+            if (!sphi_finite(energy) || !sphi_finite(vx[a] + c * x_ij.x) || !sphi_finite(vx[b] - d * x_ij.x) ||
+                (dim > 1 && (!sphi_finite(vy[a] + c * x_ij.y) || !sphi_finite(vy[b] - d * x_ij.y))) ||
+                (dim > 2 && (!sphi_finite(vz[a] + c * x_ij.z) || !sphi_finite(vz[b] - d * x_ij.z)))) {
+                lost++;
+                continue;
+            }
+            r.energy = energy;
             vx[a] += c * x_ij.x;
             vx[b] -= d * x_ij.x;
             if (dim > 1) {
@@ -3532,11 +3556,10 @@ SPH_FN sph_index sph_collide_sequential(int dim, sph_index first, sph_index last
                 vz[b] -= d * x_ij.z;
             }
             r.collisions++;
-            r.energy -= SPH_R(0.5) * (SPH_R(1) - restitution * restitution) / (w_i + w_j) * v * v / r2;
         }
     }
     if (out) *out = r;
-    return 0;
+    return lost;
 }
 #endif
 
@@ -3708,12 +3731,12 @@ SPH_FN sph_index sph_hexatic_order(sph_index first, sph_index last, sph_points x
 }
 
 /* The radial distribution function: g[b] for r between b and b + 1 times reach / bins: pairs found in a shell per target over those expected at the number density (particles per volume). 1 far from a particle in a large
-   cloud. Full lists that hold every pair within reach. */
+   cloud. Full lists that hold every pair within reach. Returns how many shells are so small or large that g overflows (it is 0 there), or an error: SPH_ERROR_VALUE if there are no targets. */
 SPH_FN sph_index sph_radial_distribution(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real reach, sph_real number_density,
                                          int bins, SPH_GLOBAL sph_real *g)
 {
     int error, b;
-    sph_index i, p;
+    sph_index i, p, failed = 0;
     if (!sphi_finite(reach) || !(reach > SPH_R(0))) return SPH_ERROR_H;
     error = sphi_check_list(dim, first, last, x, list, reach);
     if (error) return error;
@@ -3736,9 +3759,9 @@ SPH_FN sph_index sph_radial_distribution(int dim, sph_index first, sph_index las
         const sph_real volume = dim == 1   ? SPH_R(2) * (out - in)
                                 : dim == 2 ? SPH_R(3.14159265358979323846) * (out * out - in * in)
                                            : SPH_R(4.18879020478639098462) * (out * out * out - in * in * in);
-        g[b] /= (sph_real)(last - first) * number_density * volume;
+        failed += sphi_store_finite(g, b, g[b] / ((sph_real)(last - first) * number_density * volume));
     }
-    return 0;
+    return failed;
 }
 
 /* Coincident pairs: targets that have a source within `distance` (1e-12 h: what the forces leave alone). Returns their number. */
@@ -3770,7 +3793,8 @@ SPH_FN sph_index sph_separate_coincident(int dim, sph_index first, sph_index las
     if (!error) error = sphi_check_vector(dim, position.x, position.y, position.z);
     if (error) return error;
     for (i = first; i < last; i++) {
-        sph_vec at = sphi_point(dim, x, i);
+        const sph_vec was = sphi_point(dim, x, i);
+        sph_vec at = was;
         sph_index p;
         int coincides = 0;
         for (p = list.start[i]; p < list.start[i + 1]; p++)
@@ -3784,6 +3808,7 @@ SPH_FN sph_index sph_separate_coincident(int dim, sph_index first, sph_index las
                 at.y += distance * flat * SPHI_SIN(turn);
                 if (dim > 2) at.z += distance * up;
             }
+            if (!sphi_finite(at.x) || !sphi_finite(at.y) || !sphi_finite(at.z)) at = was; /* there is no number for where it would be */
             moved++;
         }
         position.x[i] = at.x;
@@ -3814,7 +3839,8 @@ SPH_FN sph_index sph_conserved_sums(int dim, sph_index first, sph_index last, sp
     if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z) || !out) return SPH_ERROR_NULL;
     if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
     if (first < 0 || first > last || last > x.n) return SPH_ERROR_RANGE;
-    error = sphi_check_field(m, x.n);
+    error = sphi_check_positions(dim, x);
+    if (!error) error = sphi_check_field(m, x.n);
     if (!error) error = sphi_check_vectors(dim, v, x.n);
     if (error) return error;
     for (c = 0; c < 8; c++) sum[c] = lost[c] = SPH_R(0);
@@ -4203,9 +4229,8 @@ SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_index first, sph_index
     if (!error && cleans) error = sphi_check_field(state.psi, x.n);
     if (!error) error = sphi_check_out(parts, out.acceleration);
     if (!error) error = sphi_check_out(parts, out.rate_B);
-    if (!error &&
-        (!sphi_finite(state.ch) || !sphi_finite(state.sigma) || !sphi_finite(state.alpha_u) || !sphi_finite(state.alpha_B) || !sphi_finite(state.tensile)))
-        error = SPH_ERROR_VALUE;
+    if (!error && (!sphi_finite(state.ch) || state.ch < SPH_R(0) || !sphi_finite(state.sigma) || state.sigma < SPH_R(0))) error = SPH_ERROR_VALUE;
+    if (!error && (!sphi_finite(state.alpha_u) || !sphi_finite(state.alpha_B) || !sphi_finite(state.tensile))) error = SPH_ERROR_VALUE;
     if (error) return error;
     if (parts == dim) return sphi_mhd_some(dim, cleans, k, dim, first, last, x, list, h, &state, &out);
     return sphi_mhd_some(3, cleans, k, dim, first, last, x, list, h, &state, &out);
