@@ -515,7 +515,7 @@ static inline void sparse_solve_end(const sparse *A, const double *b, double *x,
 {
     sparse_residual(A, b, x, r);
     result->residual = sparse_norm(A->n, r) / b_norm;
-    if (!(result->residual <= DBL_MAX)) {
+    if (!(result->residual <= DBL_MAX) || !(sparse_norm(A->n, x) <= DBL_MAX)) { /* of a column without entries the residual does not tell */
         memset(x, 0, (size_t)A->n * sizeof *x);
         result->residual = 1.0;
         result->status = SPARSE_NOT_FINITE;
