@@ -226,7 +226,7 @@ static void test_column(void)
     static const sph_kernel kernels[] = {SPH_CUBIC_SPLINE, SPH_WENDLAND_C2, SPH_QUINTIC_SPLINE};
     enum { SIDE = 200 };
     double *const pixel = (double *)tree_memory(NULL, SIDE * SIDE, sizeof *pixel);
-    const double x[2] = {0.1, -0.2}, y[2] = {0.05, 0.3}, h[2] = {0.2, 0.001};
+    const double x[2] = {0.1, -0.2}, y[2] = {0.05, 0.3}, h[2] = {0.2, 0.001}, weight[2] = {0.5, 2};
     column_table t;
     int k, i;
     for (k = 0; k < 3; k++) {
@@ -239,11 +239,14 @@ static void test_column(void)
     t = column_table_of(SPH_CUBIC_SPLINE);
     CHECK_RELATIVE(column_shape(&t, 0), 1.5 / PI, 1e-8); /* twice the integral of w from 0 to 2 is 3/2 */
     for (i = 0; i < SIDE * SIDE; i++) pixel[i] = 0;
-    column_add(&t, 2, x, y, h, 0.7, 1, SIDE, pixel); /* a wide kernel, and one narrower than a pixel */
+    column_add(&t, 2, x, y, h, 0.7, NULL, 1, SIDE, pixel); /* a wide kernel, and one narrower than a pixel */
     {
         double mass = 0;
         for (i = 0; i < SIDE * SIDE; i++) mass += pixel[i] * pow(2.0 / SIDE, 2);
         CHECK_RELATIVE(mass, 1.4, 1e-2);
+        column_add(&t, 2, x, y, h, -0.7, weight, 1, SIDE, pixel);
+        for (i = 0, mass = 0; i < SIDE * SIDE; i++) mass += pixel[i] * pow(2.0 / SIDE, 2);
+        CHECK_RELATIVE(mass, -0.35, 1e-2); /* 0.7 (1 - 0.5) + 0.7 (1 - 2) */
     }
     free(pixel);
 }

@@ -238,3 +238,63 @@ if (there("cleaning_euler_potentials_windings")) {
     }
     unset multiplot
 }
+
+# the collapse of a cloud core: figure 4 (column density along y), the velocity along the axis there, figures 5 and 6
+if (there("cleaning_collapse_fig5")) {
+    reset
+    set datafile separator ","
+    history = dir."cleaning_collapse_fig5.csv"
+    clouds = system(sprintf("tail -n +2 '%s' | cut -d, -f1 | sort -u -n", history))
+    array outcome[2] = ["control", "cleaned"]
+    do for [cloud in clouds] {
+        columns(k) = sprintf("cleaning_collapse_fig4_%s_%s", cloud, outcome[k])
+        if (there(columns(1)) && there(columns(2))) {
+            do for [q = 1:2] {
+                set output dir.sprintf("cleaning_collapse_%s_%s.png", q == 1 ? "fig4" : "jet", cloud)
+                set terminal pngcairo size 1300,1200 font "sans,12"
+                set multiplot layout 2,2 title (q == 1 ? "Figure 4: column density along y, log_{10} g/cm^2, " : "Mean velocity along the axis, km/s, ").cloud." particles in the sphere"
+                unset key
+                set size ratio 1
+                if (q == 1) { set palette defined (0 "#000000", 1 "#3b0f70", 2 "#b73779", 3 "#fc8961", 4 "#fcfdbf") } else { set palette defined (-1 "#0072b2", 0 "#ffffff", 1 "#d55e00") }
+                do for [w = 0:1] {
+                    do for [k = 1:2] {
+                        file = dir.columns(k).".csv"
+                        set title sprintf("%s, t = %.4f t_{ff}", outcome[k], system(sprintf("sed -n 2p '%s' | cut -d, -f2", file)) + 0)
+                        set xlabel "x [10^{16} cm]"
+                        set ylabel "z [10^{16} cm]"
+                        half = w == 0 ? 0.25 : 5
+                        set xrange [-half:half]
+                        set yrange [-half:half]
+                        if (q == 1) { if (w == 0) { set cbrange [0:4] } else { set cbrange [-2:2] } } else { set cbrange [-1:1] }
+                        plot file every ::(1 + 14400 * w)::(14400 * (w + 1)) using 3:4:(q == 1 ? log10($5 + 1e-9) : $6) with image
+                    }
+                }
+                unset multiplot
+                set autoscale
+                set size noratio
+            }
+        }
+    }
+    array figure[2] = ["fig5", "fig6"]
+    array what[2] = ["Figure 5: mean of h |div B| / |B|", "Figure 6: linear momentum made, |P - P_0| [10^5 cm/s solar masses]"]
+    array strokes[4] = [1, 1, 2, 2]
+    array runs[4] = ["control", "cleaned", "control, alpha_B = 0", "cleaned, alpha_B = 0"]
+    do for [q = 1:2] {
+        set output dir.sprintf("cleaning_collapse_%s.png", figure[q])
+        set terminal pngcairo size (700 * words(clouds)),560 font "sans,12"
+        set multiplot layout 1,words(clouds) title what[q]." in the collapse of a cloud core"
+        set grid linecolor rgb "#dddddd"
+        set logscale y
+        set format y "10^{%L}"
+        set xlabel "t / t_{ff}"
+        set key top left
+        set autoscale x
+        if (q == 1) { set yrange [1e-3:2] } else { set yrange [1e-7:1] }
+        do for [cloud in clouds] {
+            set title cloud." particles in the sphere"
+            plot for [k = 1:4] history using ($1 == (cloud + 0) && strcol(2) eq runs[k] ? $3 : NaN):(q == 1 ? $6 : $9 * 1.152) every ::1 with lines linewidth 2 \
+                dashtype strokes[k] linecolor rgb (k % 2 ? "#000000" : "#d55e00") title runs[k]
+        }
+        unset multiplot
+    }
+}

@@ -141,8 +141,7 @@ typedef struct sample {
 /* What a run leaves behind, besides its pictures; with its samples behind it in a restart */
 typedef struct record {
     double momentum[3]; /* at the start */
-    int finished, pictures, inside;
-    char ended[192]; /* why it did */
+    int pictures, inside;
     long samples, room;
 } record;
 
@@ -155,7 +154,7 @@ typedef struct plan {
     long cap;          /* of the steps after the sink has formed */
 } plan;
 typedef struct outcome {
-    char name[64];
+    char name[64], ended[192]; /* why */
     record r;
     sample *at;
     sink core;
@@ -237,12 +236,12 @@ static void add_sample(outcome *o, const collapse *g, double dt)
 
 enum { SIDE = 120, WINDOWS = 2 };
 static const double window[WINDOWS] = {0.25, 5}; /* half widths */
-/* Column densities along y, about the sink or the densest particle, and in the small window the velocity along the axis weighted by mass */
+/* Along y, about the sink or the densest particle: column density [g/cm^2] and mean velocity along the axis [km/s] */
 static void write_columns(const setting *s, const collapse *g, const char *name, const char *moment)
 {
     const column_table table = column_table_of(COLLAPSE_KERNEL);
     const size_t pixels = (size_t)SIDE * SIDE;
-    double *const pixel = (double *)cleaning_memory(pixels, sizeof *pixel), *const x = (double *)cleaning_memory(2 * (size_t)g->s.n, sizeof *x),
+    double *const pixel = (double *)cleaning_memory(2 * pixels, sizeof *pixel), *const x = (double *)cleaning_memory(2 * (size_t)g->s.n, sizeof *x),
                   *const z = x + g->s.n, middle[3] = {g->s.core.x[0], g->s.core.x[1], g->s.core.x[2]};
     char file[128];
     FILE *to;
@@ -258,13 +257,15 @@ static void write_columns(const setting *s, const collapse *g, const char *name,
     }
     snprintf(file, sizeof file, "cleaning_collapse_fig4_%s%s", name + strlen("cleaning_collapse_"), moment);
     to = figure_open(s->figures, file);
-    fprintf(to, "window,t_ff,x,z,column\n");
+    fprintf(to, "window,t_ff,x,z,column,v_z\n");
     for (w = 0; w < WINDOWS; w++) {
-        memset(pixel, 0, pixels * sizeof *pixel);
-        column_add(&table, (int)g->s.n, x, z, g->a[H], g->model.m, window[w], SIDE, pixel);
+        memset(pixel, 0, 2 * pixels * sizeof *pixel);
+        column_add(&table, (int)g->s.n, x, z, g->a[H], g->model.m, NULL, window[w], SIDE, pixel);
+        column_add(&table, (int)g->s.n, x, z, g->a[H], g->model.m, g->a[VZ], window[w], SIDE, pixel + pixels);
         for (k = 0; k < pixels; k++)
-            fprintf(to, "%g,%.6g,%.6g,%.6g,%.6g\n", window[w], g->s.t / free_fall(), ((int)(k % SIDE) + 0.5) * 2 * window[w] / SIDE - window[w],
-                    ((int)(k / SIDE) + 0.5) * 2 * window[w] / SIDE - window[w], pixel[k] * unit_density() * UNIT_LENGTH);
+            fprintf(to, "%g,%.6g,%.6g,%.6g,%.6g,%.6g\n", window[w], g->s.t / free_fall(), ((int)(k % SIDE) + 0.5) * 2 * window[w] / SIDE - window[w],
+                    ((int)(k / SIDE) + 0.5) * 2 * window[w] / SIDE - window[w], pixel[k] * unit_density() * UNIT_LENGTH,
+                    pixel[k] > 0 ? pixel[pixels + k] / pixel[k] * 1e-5 * UNIT_LENGTH / unit_time() : 0);
     }
     figure_close(to);
     free(pixel);
@@ -283,13 +284,16 @@ static void write_vtk(vtk_series *series, const collapse *g)
     if (!vtk_series_add(series, g->s.t, (int)g->s.n, g->a[X], g->a[Y], g->a[Z], fields, 8)) fail("%s cannot be written", "a VTK file");
 }
 
-static void save(const setting *s, collapse *g, outcome *o)
+/* The last sample of a run that has ended is left out: it is that of the state that is saved, and comes again, so that a run that is given more time goes on. */
+static void save(const setting *s, collapse *g, const outcome *o)
 {
-    const size_t size = sizeof o->r + (size_t)o->r.samples * sizeof *o->at;
-    char *const more = (char *)tree_memory(NULL, size, 1);
-    memcpy(more, &o->r, sizeof o->r);
-    memcpy(more + sizeof o->r, o->at, (size_t)o->r.samples * sizeof *o->at);
-    if (!collapse_save(g, s->out, o->name, more, size)) fail("%s", g->trouble);
+    record r = o->r;
+    char *more;
+    if (o->ended[0]) r.samples--;
+    more = (char *)tree_memory(NULL, sizeof r + (size_t)o->r.samples * sizeof *o->at, 1);
+    memcpy(more, &r, sizeof r);
+    memcpy(more + sizeof r, o->at, (size_t)r.samples * sizeof *o->at);
+    if (!collapse_save(g, s->out, o->name, more, sizeof r + (size_t)r.samples * sizeof *o->at)) fail("%s", g->trouble);
     free(more);
 }
 /* 1: the run goes on from its restart. */
@@ -336,7 +340,7 @@ static void run(setting *s, const plan *p, outcome *o)
         collapse_momentum(&g, o->r.momentum);
         if (collapse_rates(&g)) fail("the start: %s", g.trouble);
     }
-    while (!o->r.finished && !interrupted) {
+    while (!o->ended[0] && !interrupted) {
         sph_index shortest;
         double dt = collapse_longest_step(&g, &shortest);
         add_sample(o, &g, dt);
@@ -345,20 +349,19 @@ static void run(setting *s, const plan *p, outcome *o)
             o->r.pictures = 1;
         }
         if (s->vtk > 0 && g.s.t >= s->vtk * series.count * free_fall()) write_vtk(&series, &g);
-        if (g.s.t >= p->end) snprintf(o->r.ended, sizeof o->r.ended, "its time is over");
-        else if (g.s.core.m > 0 && g.s.t >= g.s.core.born + p->after) snprintf(o->r.ended, sizeof o->r.ended, "%g t_ff after the sink", p->after / free_fall());
+        if (g.s.t >= p->end) snprintf(o->ended, sizeof o->ended, "its time is over");
+        else if (g.s.core.m > 0 && g.s.t >= g.s.core.born + p->after) snprintf(o->ended, sizeof o->ended, "%g t_ff after the sink", p->after / free_fall());
         else if (p->cap > 0 && g.s.core.m > 0 && g.s.steps - g.s.core.born_step >= p->cap)
-            snprintf(o->r.ended, sizeof o->r.ended, "%ld steps after the sink", p->cap);
+            snprintf(o->ended, sizeof o->ended, "%ld steps after the sink", p->cap);
         else if (dt < s->shortest)
-            snprintf(o->r.ended, sizeof o->r.ended, "time step: particle %ld wants %.3g, less than %.3g", (long)g.a[ID][shortest], dt, s->shortest);
-        else if (collapse_step(&g, fmin(dt, p->end - g.s.t))) snprintf(o->r.ended, sizeof o->r.ended, "%s", g.trouble);
-        if (o->r.ended[0]) {
-            o->r.finished = 1;
+            snprintf(o->ended, sizeof o->ended, "time step: particle %ld wants %.3g, less than %.3g", (long)g.a[ID][shortest], dt, s->shortest);
+        else if (collapse_step(&g, fmin(dt, p->end - g.s.t))) snprintf(o->ended, sizeof o->ended, "%s", g.trouble);
+        if (o->ended[0]) {
             if (!o->r.pictures || p->panel <= 0) write_columns(s, &g, o->name, "");
             else if (p->end > p->panel) write_columns(s, &g, o->name, "_end");
             if (s->vtk > 0) write_vtk(&series, &g);
         }
-        if (o->r.finished || interrupted || difftime(time(NULL), saved) >= 30) {
+        if (o->ended[0] || interrupted || difftime(time(NULL), saved) >= 30) {
             g.s.cpu += (double)(clock() - start) / CLOCKS_PER_SEC;
             start = clock();
             saved = time(NULL);
@@ -422,7 +425,7 @@ static void list_run(report *r, const char *size, const plan *p, const outcome *
     char text[256];
     double worst = 0, scale = 0;
     long k;
-    snprintf(text, sizeof text, "t = %.4f t_ff, %ld steps: %s", last->t / free_fall(), o->steps, o->r.ended);
+    snprintf(text, sizeof text, "t = %.4f t_ff, %ld steps: %s", last->t / free_fall(), o->steps, o->ended);
     report_row(r, size, p->name, "end of the run", NULL, text, NULL, NULL, REPORT_INFO);
     if (o->core.m > 0) {
         snprintf(text, sizeof text, "%.4f t_ff, then %.4f t_ff more; mass %.4f of %ld particles, moved (%.4f, %.4f, %.4f), v (%.3f, %.3f, %.3f)",
@@ -572,7 +575,7 @@ int main(int argc, char **argv)
         {"courant", "time step over its limit", OPTION_REAL, &s.courant, 1e-3, 1},
         {"shortest", "time step that ends a run [code units]", OPTION_REAL, &s.shortest, 0, 1},
         {"vtk", "write particles every so many free-fall times (folder of the figures); 0: never", OPTION_REAL, &s.vtk, 0, 10},
-        {"continue", "go on from the restarts in the folder of the results", OPTION_FLAG, &s.go_on, 0, 0},
+        {"continue", "go on from the restarts in the folder of the results, also to a later end", OPTION_FLAG, &s.go_on, 0, 0},
     };
     s.out = s.figures = ".";
     s.sigma = sph_cleaning_sigma(3);
@@ -609,7 +612,7 @@ int main(int argc, char **argv)
         if (strcmp(which, "control") != 0) PLAN("cleaned", 1, particles, alpha_B, end, after < 0 ? 0.02 : after, 0);
     } else {
         PLAN("control", 0, 2000, alpha_B, end, 5e-4, 800);
-        PLAN("cleaned", 1, 2000, alpha_B, end, 0.02, 0);
+        PLAN("cleaned", 1, 2000, alpha_B, end, s.full ? 0.02 : 0.01, 0);
         if (s.full) {
             PLAN("control, alpha_B = 0", 0, 2000, 0, end, 5e-4, 2000);
             PLAN("cleaned, alpha_B = 0", 1, 2000, 0, end, 0.02, 0);

@@ -39,9 +39,10 @@ static inline double column_shape(const column_table *t, double q)
     const int k = (int)at;
     return k >= COLUMN_TABLE ? 0 : t->y[k] + (at - k) * (t->y[k + 1] - t->y[k]);
 }
-/* Adds the particles' columns to the pixels, side x side of them over [-half, half]^2, row by row; x, y: coordinates across the line of sight from the middle. A kernel narrower than a pixel is widened to
+/* Adds the particles' columns, each times its weight (null: 1), to the pixels, side x side of them over [-half, half]^2, row by row; x, y: coordinates across the line of sight from the middle. A kernel narrower than a pixel is widened to
    it, so that its mass is seen. */
-static inline void column_add(const column_table *t, int n, const double *x, const double *y, const double *h, double m, double half, int side, double *pixel)
+static inline void column_add(const column_table *t, int n, const double *x, const double *y, const double *h, double m, const double *weight, double half,
+                              int side, double *pixel)
 {
     const double width = 2 * half / side;
     int i, a, b;
@@ -51,7 +52,8 @@ static inline void column_add(const column_table *t, int n, const double *x, con
         const int b0 = (int)fmax(0, floor((y[i] - reach + half) / width)), b1 = (int)fmin(side - 1, floor((y[i] + reach + half) / width));
         for (b = b0; b <= b1; b++)
             for (a = a0; a <= a1; a++)
-                pixel[b * side + a] += m / (wide * wide) * column_shape(t, hypot((a + 0.5) * width - half - x[i], (b + 0.5) * width - half - y[i]) / wide);
+                pixel[b * side + a] += (weight ? weight[i] : 1) * m / (wide * wide) *
+                                       column_shape(t, hypot((a + 0.5) * width - half - x[i], (b + 0.5) * width - half - y[i]) / wide);
     }
 }
 
