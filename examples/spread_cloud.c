@@ -15,7 +15,7 @@
 
 #include "sph.h"
 
-enum { DIM = 2, CLUMPS = 12 * 12, N = 4 * CLUMPS, NEIGHBOURS = 60, COLUMNS = 38, ROWS = 19 };
+enum { DIM = 2, CLUMPS = 12 * 12, N = 4 * CLUMPS, NEIGHBOURS = 60, COLUMNS = 37, ROWS = 18 };
 static const double spacing = 1.0 / 24, distance = 0.8 / 24, dt = 0.1 / 24; /* N particles in good order; the speed of most is about 1 */
 static double x[N], y[N], vx[N], vy[N], nearest[N], m = 1, inverse_mass = 1, t;
 static sph_index start[N + 1], list_index[N * NEIGHBOURS];

@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: MIT
+# The pictures of the gallery, from the tables that the examples write with -o:
+#     gnuplot -e "dir='build/gallery/'" examples/gallery.gp          (make gallery does it all)
+set datafile separator ","
+set palette defined (0 "#352a87", 0.25 "#0f7ec9", 0.5 "#1fb5a3", 0.75 "#d5ba58", 1 "#f9fb0e")
+there(name) = system(sprintf("test -r %s%s.csv && echo yes", dir, name)) eq "yes"
+csv(name) = dir.name.".csv"
+set style data points
+unset key
+dots = 7
+
+if (there("hello_kernel")) {
+    set terminal pngcairo size 600,360 font "sans,10"
+    set output dir."hello_kernel.png"
+    set key top right
+    set xlabel "r / h"
+    set grid linecolor rgb "#dddddd"
+    set multiplot layout 1,2
+    array kernel[4] = ["cubic-spline", "quintic-spline", "wendland-c2", "wendland-c6"]
+    array color[4] = ["#0072b2", "#d55e00", "#009e73", "#000000"]
+    do for [q = 3:4] {
+        set title q == 3 ? "W in 2D, h = 1" : "-dW/dr"
+        plot for [k = 1:4] csv("hello_kernel") using (strcol(1) eq kernel[k] ? $2 : NaN):q every ::1 with lines linewidth 2 linecolor rgb color[k] title kernel[k]
+    }
+    unset multiplot
+    unset key
+    unset grid
+    unset xlabel
+}
+
+# from here on, pictures of particles
+set tics format ""
+set tics scale 0
+set border linecolor rgb "#888888"
+
+if (there("density_cloud")) {
+    set terminal pngcairo size 600,440 font "sans,10"
+    set output dir."density_cloud.png"
+    set title "density of 6000 particles drawn from a Gaussian"
+    set logscale cb
+    set cbrange [0.001:0.16]
+    set format cb "%g"
+    set xrange [-4.2:4.2]
+    set yrange [-3:3]
+    set size ratio -1
+    plot csv("density_cloud") using 1:2:4 every ::1 pointtype dots pointsize 0.35 palette
+    unset logscale cb
+}
+
+if (there("gradient_correction")) {
+    set terminal pngcairo size 600,330 font "sans,10"
+    set output dir."gradient_correction.png"
+    set multiplot layout 1,2 title "error of the gradient of sin(2 pi x) cos(pi y), per cent of its largest value"
+    set xrange [0:1]
+    set yrange [0:1]
+    set logscale cb
+    set cbrange [0.3:60]
+    set format cb "%g"
+    do for [q = 4:5] {
+        set title q == 4 ? "without correction" : "with correction (CSPM)"
+        plot csv("gradient_correction") using 1:2:(100 * column(q) / (2 * pi)) every ::1 pointtype 5 pointsize 0.7 palette
+    }
+    unset multiplot
+    unset logscale cb
+}
+
+unset colorbox
+if (there("dam_break")) {
+    set terminal pngcairo size 600,400 font "sans,10"
+    set output dir."dam_break.png"
+    set multiplot layout 2,2 title "a column of water collapses; colour: speed"
+    set xrange [-0.2:5.2]
+    set yrange [-0.2:3]
+    set cbrange [0:2.5]
+    do for [k = 0:3] {
+        set title sprintf("t = %.1f sqrt(A / g)", 1.2 * k)
+        plot csv("dam_break") using (abs($1 - 1.2 * k) < 0.1 && $7 < 0.5 ? $2 : NaN):3 every ::1 pointtype dots pointsize 0.2 linecolor rgb "#888888", \
+            "" using (abs($1 - 1.2 * k) < 0.1 && $7 > 0.5 ? $2 : NaN):3:(sqrt($4**2 + $5**2)) every ::1 pointtype dots pointsize 0.35 palette
+    }
+    unset multiplot
+}
+
+if (there("heat_plate")) {
+    set terminal pngcairo size 600,250 font "sans,10"
+    set output dir."heat_plate.png"
+    set multiplot layout 1,3 title "temperature of a plate with a hot left edge"
+    set xrange [0:1]
+    set yrange [0:1]
+    set cbrange [0:1]
+    do for [k = 1:3] {
+        at = k == 1 ? 0.002 : k == 2 ? 0.02 : 0.2
+        set title sprintf("t = %g", at)
+        plot csv("heat_plate") using (abs($1 - at) < 1e-6 ? $2 : NaN):3:4 every ::1 pointtype 5 pointsize 0.6 palette
+    }
+    unset multiplot
+}
+
+if (there("poisson_scattered")) {
+    set terminal pngcairo size 600,420 font "sans,10"
+    set output dir."poisson_scattered.png"
+    set title "lap u = f on 1089 scattered points"
+    set xrange [0:1]
+    set yrange [0:1]
+    set zrange [-1:1]
+    set cbrange [-1:1]
+    set view 55,30
+    set size noratio
+    splot csv("poisson_scattered") using 1:2:3 every ::1 pointtype dots pointsize 0.7 palette
+    set size ratio -1
+}
+
+if (there("clean_field")) {
+    set terminal pngcairo size 600,250 font "sans,10"
+    set output dir."clean_field.png"
+    set multiplot layout 1,3 title "h div B: carried away as waves, and damped"
+    set xrange [0:1]
+    set yrange [0:1]
+    set palette defined (-1 "#2166ac", 0 "#f7f7f7", 1 "#b2182b")
+    set cbrange [-0.03:0.03]
+    do for [k = 1:3] {
+        at = k == 1 ? 0 : k == 2 ? 0.2 : 1
+        set title sprintf("t = %g", at)
+        plot csv("clean_field") using (abs($1 - at) < 1e-6 ? $2 : NaN):3:6 every ::1 pointtype 5 pointsize 0.42 palette
+    }
+    unset multiplot
+}
+
+if (there("spread_cloud")) {
+    set terminal pngcairo size 600,250 font "sans,10"
+    set output dir."spread_cloud.png"
+    set multiplot layout 1,3 title "clumps of four particles fly about"
+    set xrange [0:1]
+    set yrange [0:1]
+    array state[3] = ["at first", "without collisions", "with collisions"]
+    do for [k = 0:2] {
+        set title state[k + 1]
+        plot csv("spread_cloud") using ($1 == k ? $2 : NaN):3 every ::1 pointtype dots pointsize 0.3 linecolor rgb "#0072b2"
+    }
+    unset multiplot
+}
+
+if (there("host_structs")) {
+    set terminal pngcairo size 600,440 font "sans,10"
+    set output dir."host_structs.png"
+    set title "a hill: Laplacian of its height (colour), and where water runs"
+    set xrange [0:1]
+    set yrange [0:1]
+    set cbrange [-35:35]
+    set colorbox
+    plot csv("host_structs") using 1:2:6 every ::1 pointtype 5 pointsize 1 palette, \
+        "" using 1:2:(-0.012 * $4):(-0.012 * $5) every 11::1 with vectors head size 0.008,20 linecolor rgb "black"
+}
+
+if (there("host_lists")) {
+    set terminal pngcairo size 600,440 font "sans,10"
+    set output dir."host_lists.png"
+    set title "a hot spot bursts: pressure (colour) and acceleration"
+    set xrange [0:1]
+    set yrange [0:1]
+    set cbrange [0:11]
+    set palette defined (0 "#f7f7f7", 0.3 "#fdd49e", 0.7 "#fc8d59", 1 "#b30000")
+    plot csv("host_lists") using 1:2:3 every ::1 pointtype 5 pointsize 1.1 palette, \
+        "" using 1:2:(0.0008 * $4):(0.0008 * $5) every 2::1 with vectors head size 0.008,20 linecolor rgb "black"
+}
+
+unset colorbox
+set palette defined (0 "#0f7ec9", 0.5 "#1fb5a3", 1 "#d5ba58")
+if (there("drop_3d")) {
+    set terminal pngcairo size 600,250 font "sans,10"
+    set output dir."drop_3d.png"
+    set multiplot layout 1,3 title "a drop is squeezed flat: pressure on the plane y = 0, and the exact outline"
+    set xrange [-1.7:1.7]
+    set yrange [-1.1:1.1]
+    set cbrange [0:1]
+    set trange [0:2*pi]
+    do for [k = 0:2] {
+        at = 0.2 * k
+        stats [*:*] [*:*] csv("drop_3d") using (abs($1 - at) < 1e-6 ? $6 : NaN) every ::1 nooutput
+        A = STATS_mean
+        set parametric
+        set title sprintf("t = %.1f", at)
+        plot csv("drop_3d") using (abs($1 - at) < 1e-6 && abs($3) < 0.1 ? $2 : NaN):4:5 every ::1 pointtype dots pointsize 0.6 palette, \
+            A * cos(t), sin(t) / A**2 with lines linecolor rgb "black"
+        unset parametric
+    }
+    unset multiplot
+}
+
+if (there("embedded_loop")) {
+    set terminal pngcairo size 600,190 font "sans,10"
+    set output dir."embedded_loop.png"
+    set multiplot layout 1,4 title "16 x 16 lights: water runs to wherever is down; colour: pressure"
+    set xrange [0:16]
+    set yrange [0:16]
+    set cbrange [0:8]
+    array down[4] = ["down", "right", "up", "left"]
+    do for [k = 0:3] {
+        set title down[k + 1]
+        plot csv("embedded_loop") using ($1 == k ? $2 : NaN):3:4 every ::1 pointtype dots pointsize 0.6 palette
+    }
+    unset multiplot
+}

@@ -1,0 +1,49 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# The single-file examples: each is at most 200 lines, builds from the root without a warning with the very line of its opening comment, passes its self-check (-t), draws something,
+# writes a table (-o), has help, and answers wrong use with a clear error and exit status 2. The gallery names each, with its picture and its line.
+. tests/check.sh
+
+answers() { # status, text that must be printed, command ...
+    want=$1 text=$2
+    shift 2
+    "$@" > "$scratch/output" 2>&1
+    status=$?
+    [ $status -eq "$want" ] && grep -q -e "$text" "$scratch/output" && return
+    echo "status $status (expected $want), or without '$text':"
+    head -n 3 "$scratch/output"
+    return 1
+}
+build() { # the cc line with this compiler, warnings as errors, into the scratch directory
+    case $1 in "cc -O2 -I. -o $name examples/$name.c -lm") ;; *) echo "no such line: '$1'" && return 1 ;; esac
+    $CC -Wall -Wextra -Werror $(echo "${1#cc }" | sed "s|-o $name|-o $scratch/$name|")
+}
+
+for source in examples/*.c; do
+    name=$(basename "$source" .c)
+    line=$(sed -n 's/^ \*  *\(cc .*\)$/\1/p' "$source" | head -n 1)
+    check "$name: 200 lines" test "$(wc -l < "$source")" -le 200
+    check "$name: '$line'" build "$line"
+    check "$name: self-check" answers 0 "^ok$" "$scratch/$name" -t
+    check "$name: help" answers 0 "^$name .*-t" "$scratch/$name" -h
+    check "$name: unknown option" answers 2 "$name: .*-nonsense" "$scratch/$name" -nonsense
+    check "$name: missing value" answers 2 "$name: .*-o" "$scratch/$name" -o
+    check "$name: a file that cannot be written" answers 2 "no/such/folder" "$scratch/$name" -o no/such/folder/x.csv
+    check "$name: a table" "$scratch/$name" -o "$scratch/$name.csv"
+    check "$name: a table with numbers" test "$(wc -l < "$scratch/$name.csv")" -gt 100
+    check "$name: a table without failed numbers" test "$(grep -c -i -e nan -e inf "$scratch/$name.csv")" -eq 0
+    check "$name: something to see" answers 0 "[^ ]" "$scratch/$name"
+    check "$name: lines of 80 characters" test "$(awk '{ gsub(/\033\[[0-9]*[A-Z]/, ""); if (length($0) > most) most = length($0) } END { print most + 0 }' "$scratch/output")" -le 80
+    check "$name: the gallery has its line" grep -q -x -F "    $line" examples/README.md
+    check "$name: the gallery has its picture" grep -q -F "(gallery/$name.png)" examples/README.md
+    check "$name: a picture of at most 40 KB" test "$(wc -c < "examples/gallery/$name.png")" -le 40960
+done
+
+# no heap and no stdio where there is no host: what embedded_loop asks of the system is arithmetic
+if command -v nm > /dev/null 2>&1; then
+    check "embedded_loop, freestanding" $CC -std=c99 -ffreestanding -O2 -I. -c -o "$scratch/embedded_loop.o" examples/embedded_loop.c
+    check "embedded_loop needs nothing but arithmetic" test -z "$(nm -u "$scratch/embedded_loop.o" | grep -v -e ' w ' | awk '{ print $NF }' | grep -v -x -e '_*\(sqrtf\|fabsf\|floorf\|fmaxf\|copysignf\|powf\|memset\|memcpy\)')"
+else
+    skip "embedded_loop, freestanding" "nm is not installed"
+fi
+finish single
