@@ -384,6 +384,16 @@ static void identities(report *r, drop *d)
         snprintf(text, sizeof text, "mean of + sum m v_ij . grad W / rho = %.3f for v = x; as printed + %.3f", mean, -mean);
         report_claim_fails(r, "(28)", "v = x", "sign", "-", text, "+: a drop that grows gets thinner (-2 in its middle), and (36) has that sign");
     }
+    {
+        double inside = 0, volume = 0;
+        for (i = 0; i < d->n; i++) {
+            volume += d->m / d->a[RHO][i];
+            inside += d->m / d->a[RHO][i] * d->a[DIVV][i];
+        }
+        /* psi = 1: - int v . grad psi is 0; the surface integral is twice the area */
+        snprintf(text, sizeof text, "int psi div v = %.2f, surface %.2f: their difference should be 0, not their sum", inside, 2 * volume);
+        report_claim_fails(r, "(33)", "psi = 1, v = x", "sign of the surface integral", "+", text, "-: by parts; what is left of the difference is the rim's");
+    }
 }
 
 /* What the steps add to the energy of a drop without viscosity and cleaning, up to t = 0.02; control: one with dt = 0.3 h / cs */

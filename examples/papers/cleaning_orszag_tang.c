@@ -937,6 +937,14 @@ int main(int argc, char **argv)
         fprintf(stderr, "cleaning_orszag_tang: interrupted; the figures' data so far are in %s, and there is no result table\n", s.figures);
         return 130;
     }
+    {
+        char text[96];
+        const double twice = 2 * 5 / (12 * MATH_PI);
+        report_section(&r, "Section IV-B: units");
+        snprintf(text, sizeof text, "beta = 2 P / B0^2 = %.3f; %.3f for B0^2 = 1 / (4 pi)", twice, twice * 4 * MATH_PI);
+        report_claim_fails(&r, "Section IV-B", "t = 0", "B0", "1, with (6) to (9) in units of mu_0 = 1", text,
+                           "the vortex of Orszag & Tang has beta = 10/3: the print of B is in units of mu_0 = 4 pi");
+    }
     for (a = 0; a < count; a++) {
         char title[96];
         snprintf(title, sizeof title, "Orszag-Tang vortex, %s particles to t = %g", size_text(levels[a].side), levels[a].end);
