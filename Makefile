@@ -28,7 +28,7 @@ TESTS_OPTIONAL = gsl
 TESTS = $(filter-out $(TESTS_DOUBLE) $(TESTS_OPTIONAL),$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))
 TESTS_FLOAT = $(TESTS)
 TEST_PROGRAMS = $(TESTS:%=$(BUILD)/tests/%) $(TESTS_FLOAT:%=$(BUILD)/tests/%-float) $(TESTS_DOUBLE:%=$(BUILD)/tests/%)
-TEST_SCRIPTS = tests/index.sh tests/readme.sh tests/compile/strict.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
+TEST_SCRIPTS = tests/index.sh tests/readme.sh tests/compile/strict.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/single.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
 
 help:
 	@echo "make reproduce        run the papers' benchmarks, published beside measured values, and print a scoreboard"
@@ -41,6 +41,7 @@ help:
 	@echo "make bench            time the search and the operators, as ratios to the machine's limits"
 	@echo "make docs             the headers' comments as pages (needs doxygen)"
 	@echo "make figures          PNG of the figures from the last run (needs gnuplot)"
+	@echo "make gallery          PNG of examples/README.md, into $(BUILD)/gallery (needs gnuplot)"
 	@echo "make install          the headers and sph.pc below PREFIX=$(PREFIX); make uninstall removes them"
 	@echo "make dist             a tarball, and the three headers as one file, sph_all.h"
 	@echo "make check-packages   a host built from every kind of package whose tool is installed"
@@ -88,6 +89,16 @@ $(BUILD)/examples/scoreboard: examples/common/scoreboard.c $(COMMON)
 $(BUILD)/examples/%: examples/papers/%.c $(COMMON) $(HEADERS)
 	@mkdir -p $(@D)
 	$(CC) $(WARN) $(CFLAGS) $(SIMD) -o $@ $< $(LDLIBS)
+
+# the pictures that are checked in have gone through pngquant, to 64 colours
+GALLERY = $(patsubst examples/%.c,%,$(wildcard examples/*.c))
+gallery: $(GALLERY:%=$(BUILD)/gallery/%.csv)
+	@if command -v gnuplot > /dev/null 2>&1; then gnuplot -e "dir='$(BUILD)/gallery/'" examples/gallery.gp && echo "gallery: $(BUILD)/gallery/*.png"; \
+	else echo "gnuplot is not installed: no PNG; the data of the gallery are in $(BUILD)/gallery/*.csv"; fi
+$(BUILD)/gallery/%.csv: examples/%.c $(HEADERS)
+	@mkdir -p $(@D)
+	$(CC) $(WARN) $(CFLAGS) -I. -o $(@:.csv=) $< $(LDLIBS)
+	$(@:.csv=) -o $@
 
 # ---------------------------------------------------------------- tests
 
@@ -144,4 +155,4 @@ dist:
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures test test-sanitize check-hosts check-embedded version install uninstall dist check-packages docs bench clean
+.PHONY: help reproduce reproduce-full figures gallery test test-sanitize check-hosts check-embedded version install uninstall dist check-packages docs bench clean
