@@ -20,7 +20,7 @@ for cc in gcc clang; do
         check "C99, double" $cc -std=c99 $warn "$f"
         check "C99, float" $cc -std=c99 $warn -DSPH_SINGLE=1 "$f"
     done
-    for f in tests/test_common.c examples/papers/*.c examples/common/*.c; do check "C99" $cc -std=c99 $warn "$f"; done
+    for f in tests/test_common.c examples/*.c examples/papers/*.c examples/common/*.c; do check "C99" $cc -std=c99 $warn "$f"; done
 done
 for cxx in g++ clang++; do
     has $cxx || continue
