@@ -50,7 +50,7 @@
 typedef struct clustering_options {
     const char *kernel, *remedy, *out, *figures; /* kernel: null, or a run of one's own */
     double h, dref, dt, tend;                    /* h: in units of dref. 0: as the paper has it */
-    int full, vtk, quiet;
+    int kernels, full, vtk, quiet;
 } clustering_options;
 
 /* The entries that all drivers have; their own may follow. o: a clustering_options */
@@ -64,15 +64,16 @@ typedef struct clustering_options {
     {"tend", "of that run: end; 0: the paper's", OPTION_REAL, &(o).tend, 0, 1000}, \
     {"out", "folder of the result table (and of VTK files)", OPTION_TEXT, &(o).out, 0, 0}, \
     {"figures", "folder of the figures' data", OPTION_TEXT, &(o).figures, 0, 0}, \
+    {"kernels", "the table of kernels beside the paper's alone", OPTION_FLAG, &(o).kernels, 0, 0}, \
     {"full", "all variants, with the paper's time steps", OPTION_FLAG, &(o).full, 0, 0}, \
     {"vtk", "write 50 pictures of each run for ParaView", OPTION_FLAG, &(o).vtk, 0, 0}, \
     {"quiet", "no progress on the terminal", OPTION_FLAG, &(o).quiet, 0, 0}
 /* clang-format on */
-enum { CLUSTERING_OPTION_COUNT = 11 };
+enum { CLUSTERING_OPTION_COUNT = 12 };
 
 static inline clustering_options clustering_defaults(void)
 {
-    clustering_options o = {NULL, "none", ".", ".", 0, 0, 0, 0, 0, 0, 0};
+    clustering_options o = {NULL, "none", ".", ".", 0, 0, 0, 0, 0, 0, 0, 0};
     return o;
 }
 /* the option's value where it was given */
@@ -83,6 +84,11 @@ static inline double clustering_choose(double given, double usual) { return give
 static const double clustering_pi = 3.14159265358979323846;
 /* area of a particle of the hexagonal lattice, and distance of its rows, in units of dref^2 and dref */
 static const double hexagonal = 0.86602540378443864676;
+
+/* (1.1), (3.9), and beside them: kernels with a positive Fourier transform in two dimensions, and others made convex by the recipe of section III */
+static const sph_kernel clustering_kernels[] = {
+    SPH_WENDLAND_C2_1D, SPH_CONVEX, SPH_WENDLAND_C2, SPH_WENDLAND_C4, SPH_CONVEX_WENDLAND_C2, SPH_CONVEX_WENDLAND_C4, SPH_CONVEX_CUBIC_SPLINE};
+enum { CLUSTERING_KERNELS = sizeof clustering_kernels / sizeof *clustering_kernels };
 
 /* The hexagonal lattice: S = sum_j V W_ij, the particle itself included, and the factor G of the gradient of a linear field, -sum_j V r W' / 2. Both are 1 in the continuum. */
 static inline void clustering_lattice(sph_kernel k, double h_over_dref, double *S, double *G)
@@ -292,7 +298,7 @@ static inline int flow_append(flow *f, double x, double y, int phase, double m, 
     f->vx[i] = f->vy[i] = f->ax[i] = f->ay[i] = f->rate[i] = 0;
     f->m[i] = m;
     f->rho[i] = f->state[phase].rho0;
-    f->p[i] = ghost ? 0 : f->state[phase].p0;
+    f->p[i] = f->state[phase].p0;
     f->c[i] = f->state[phase].c;
     f->inverse_mass[i] = ghost ? 0 : 1 / m;
     f->phase[i] = (unsigned char)phase;
@@ -305,7 +311,7 @@ static inline int flow_add(flow *f, double x, double y, int phase, double m)
     f->n_fluid++;
     return flow_append(f, x, y, phase, m, 0);
 }
-/* One that pushes, but is not pushed, with p = 0: all fluid particles must be there already. */
+/* One that pushes, but is not pushed, with the p0 of its phase: all fluid particles must be there already. */
 static inline int flow_add_ghost(flow *f, double x, double y, int phase, double m) { return flow_append(f, x, y, phase, m, 1); }
 
 static inline sph_points flow_points(const flow *f)
@@ -604,7 +610,8 @@ static inline void flow_require(const flow *f, flow_answer answer)
     exit(3);
 }
 
-static inline double flow_microseconds(const flow *f) { return f->steps ? 1e6 * f->cpu / ((double)f->steps * f->n) : 0; }
+/* of CPU time for each fluid particle and step, neighbour lists and what the driver measures included */
+static inline double flow_microseconds(const flow *f) { return f->steps ? 1e6 * f->cpu / ((double)f->steps * f->n_fluid) : 0; }
 
 static inline void flow_conserved(const flow *f, sph_conserved *c)
 {

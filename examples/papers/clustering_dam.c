@@ -31,6 +31,7 @@ typedef struct scenario {
     int form, old_rate; /* old_rate: density by the velocities of the beginning of the step */
     int remedy, walls;  /* remedy: for all pairs, or with walls = 1 for those of fluid and ghost only */
     int phases;
+    double p0;
 } scenario;
 
 typedef struct outcome {
@@ -41,6 +42,8 @@ typedef struct outcome {
     double front; /* at t */
     int lost;     /* fluid particles outside of the tank by more than dref / 2 */
     double kinetic_energy, fastest, microseconds;
+    double steps_per_list; /* how long neighbour lists lasted */
+    int particles;         /* of fluid */
     front_record front_of;
 } outcome;
 
@@ -82,7 +85,7 @@ static void fill(flow *f, const tank *b, int phases)
                 if (!ghosts && inside && (water || phases > 1)) {
                     const double air = phases > 1 ? f->state[AIR].rho0 * gravity : 0;
                     const double p =
-                        water ? f->state[WATER].rho0 * gravity * (b->water_height - y) + air * (b->height - b->water_height) : air * (b->height - y);
+                        s->p0 + (water ? f->state[WATER].rho0 * gravity * (b->water_height - y) + air * (b->height - b->water_height) : air * (b->height - y));
                     const double rho = sph_density_tait(p, s->rho0, s->c, 1, s->p0);
                     const int i = flow_add(f, x, y, water ? WATER : AIR, rho * V);
                     f->rho[i] = rho;
@@ -97,6 +100,7 @@ static void open_dam(flow *f, const scenario *s, const tank *b, double dref, dou
     f->gravity_y = -gravity;
     f->state[WATER].rho0 = 1000;
     f->state[AIR].rho0 = 1;
+    f->state[WATER].p0 = f->state[AIR].p0 = s->p0;
     f->state[WATER].c = f->state[AIR].c = b->c;
     f->form = s->form;
     f->rate_after_kick = !s->old_rate;
@@ -126,6 +130,8 @@ static void measure(flow *f, const tank *b, outcome *o)
     o->front = front(f, ((const watch *)f->data)->below);
     o->kinetic_energy = flow_kinetic_energy(f);
     o->microseconds = flow_microseconds(f);
+    o->steps_per_list = (double)f->steps / (double)f->rebuilds;
+    o->particles = f->n_fluid;
     if (o->answer == FLOW_DONE) o->d = flow_measure(f, FLOW_ALL, 0, all, NULL);
 }
 
@@ -190,11 +196,11 @@ static void distribution_rows(report *r, const char *item, const char *setting, 
 
 enum { UNTREATED, CONVEX, COLLISIONS, SINGLE, SINGLE_COLLISIONS, METHODS };
 static const scenario methods[METHODS] = {
-    {"(1.1)", "wendland", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 1, 2},
-    {"(3.9)", "convex", SPH_CONVEX, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 1, 2},
-    {"(1.1) + collisions", "collisions", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 0, 2},
-    {"(1.1), water only", "single", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 1, 1},
-    {"(1.1) + collisions, water only", "single_collisions", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 0, 1},
+    {"(1.1)", "wendland", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 1, 2, 0},
+    {"(3.9)", "convex", SPH_CONVEX, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 1, 2, 0},
+    {"(1.1) + collisions", "collisions", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 0, 2, 0},
+    {"(1.1), water only", "single", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 1, 1, 0},
+    {"(1.1) + collisions, water only", "single_collisions", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 0, 1, 0},
 };
 /* an independent program at t = 0.1, dref = 1/200, dt = 2e-5 */
 static const double known[METHODS][8] = {
@@ -297,13 +303,13 @@ static void late(report *r, const outcome *o, double dref)
 static void equations(report *r, const clustering_options *c, double dref, double dt)
 {
     static const scenario others[] = {
-        {"(5.23), (5.24)", "continuity", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 1, 2},
-        {"(2.2), (2.3)", "summation", SPH_WENDLAND_C2_1D, FLOW_SUMMATION, 0, FLOW_SEQUENTIAL, 1, 2},
-        {"(2.2), (2.3) + collisions", "summation_collisions", SPH_WENDLAND_C2_1D, FLOW_SUMMATION, 0, FLOW_SEQUENTIAL, 0, 2},
-        {"Hu & Adams", "hu_adams", SPH_WENDLAND_C2_1D, FLOW_NUMBER, 0, FLOW_SEQUENTIAL, 1, 2},
-        {"Hu & Adams + collisions", "hu_adams_collisions", SPH_WENDLAND_C2_1D, FLOW_NUMBER, 0, FLOW_SEQUENTIAL, 0, 2},
-        {"no collisions with walls", "open_walls", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_NO_COLLISIONS, 0, 2},
-        {"density by old velocities", "old_rate", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 1, FLOW_SEQUENTIAL, 1, 2},
+        {"(5.23), (5.24)", "continuity", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 1, 2, 0},
+        {"(2.2), (2.3)", "summation", SPH_WENDLAND_C2_1D, FLOW_SUMMATION, 0, FLOW_SEQUENTIAL, 1, 2, 0},
+        {"(2.2), (2.3) + collisions", "summation_collisions", SPH_WENDLAND_C2_1D, FLOW_SUMMATION, 0, FLOW_SEQUENTIAL, 0, 2, 0},
+        {"Hu & Adams", "hu_adams", SPH_WENDLAND_C2_1D, FLOW_NUMBER, 0, FLOW_SEQUENTIAL, 1, 2, 0},
+        {"Hu & Adams + collisions", "hu_adams_collisions", SPH_WENDLAND_C2_1D, FLOW_NUMBER, 0, FLOW_SEQUENTIAL, 0, 2, 0},
+        {"no collisions with walls", "open_walls", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_NO_COLLISIONS, 0, 2, 0},
+        {"density by old velocities", "old_rate", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 1, FLOW_SEQUENTIAL, 1, 2, 0},
     };
     enum { OTHERS = sizeof others / sizeof *others, CONTINUITY = 0, SUMMATION, SUMMATION_COLLISIONS, HU_ADAMS, HU_ADAMS_COLLISIONS, OPEN_WALLS, OLD_RATE };
     static outcome o[OTHERS];
@@ -365,6 +371,33 @@ static void experiments(report *r, const clustering_options *c, int resolution)
     clustering_figure_close(&to);
 }
 
+/* ---------------------------------------------------------------- other kernels */
+
+/* with p0, rho0 c^2 of the air, the ghosts have it, too */
+static void kernels(report *r, const clustering_options *c, double dref, double dt)
+{
+    static const double background[] = {0, 100};
+    const double end = 0.1;
+    static outcome o;
+    char at[96], text[160];
+    int p, k;
+    snprintf(text, sizeof text, "Kernels beside the paper's: t = 0.1, dref = 1/%.0f", 1 / dref);
+    report_section(r, text);
+    for (p = 0; p < 2; p++)
+        for (k = 0; k < CLUSTERING_KERNELS; k++) {
+            scenario s = methods[UNTREATED];
+            s.kernel = clustering_kernels[k];
+            s.name = sph_kernel_name(s.kernel);
+            s.p0 = background[p];
+            run(c, &s, &dam, dref, 1.5, dt, &end, 1, NULL, &o);
+            snprintf(at, sizeof at, "%s, p0 = %g", s.name, s.p0);
+            snprintf(text, sizeof text, "%.3f, %.3f, %.3f; %.4f, %.2f; %.3f; %d", o.d.mean, o.d.below_50, o.d.below_75, o.d.void_share, o.d.hole, o.front,
+                     o.lost);
+            report_row(r, "kernel", at, "nnd mean, f(<.5), f(<.75); void, hole; front; outside", NULL, o.answer == FLOW_DONE ? text : o.blow_up, NULL, NULL,
+                       REPORT_INFO);
+        }
+}
+
 /* ---------------------------------------------------------------- */
 
 /* figure 7 */
@@ -380,7 +413,7 @@ static void initial(const clustering_options *c, double dref)
 
 static int own_run(report *r, const clustering_options *c)
 {
-    scenario own = {c->kernel, "own", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 1, 2};
+    scenario own = {c->kernel, "own", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 1, 2, 0};
     const double end = clustering_choose(c->tend, 0.7), dref = clustering_choose(c->dref, 0.01);
     outcome o;
     own.kernel = clustering_kernel(c);
@@ -389,6 +422,8 @@ static int own_run(report *r, const clustering_options *c)
     if (own.walls) own.remedy = FLOW_SEQUENTIAL;
     run(c, &own, &dam, dref, clustering_choose(c->h, 1.5), clustering_choose(c->dt, 0.01 * dref), &end, 1, "dam", &o);
     distribution_rows(r, "own run", own.name, &o, NULL);
+    info(r, "own run", own.name, "fluid particles", o.particles, (double)NAN);
+    info(r, "own run", own.name, "steps that a neighbour list lasts", o.steps_per_list, (double)NAN);
     return report_close(r) ? 1 : 0;
 }
 
@@ -409,6 +444,8 @@ int main(int argc, char **argv)
     dt = clustering_choose(c.dt, c.full ? 5e-6 : 1e-4);
 
     initial(&c, dref);
+    if (c.full || c.kernels) kernels(&r, &c, 0.01, clustering_choose(c.dt, 1e-4));
+    if (c.kernels) return report_close(&r) ? 1 : 0;
     for (k = 0; k < METHODS; k++) {
         const int count = c.full ? TIMES : k == UNTREATED || k == CONVEX ? 1 : THIRD + 1;
         run(&c, &methods[k], &dam, dref, 1.5, dt, times, count, "dam", o[k]);

@@ -211,6 +211,35 @@ echo "variant,precision,target,value,relation,limit,verdict" > "$targets"
 [ -r /proc/loadavg ] && echo "load of the machine before the first run (what it has beside us slows two threads most): $(cut -d ' ' -f 1-3 /proc/loadavg)"
 variants run_variant
 
+# Whole steps: the dam break of examples/papers by (5.23), (5.24) with collisions, neighbour lists kept under a skin of 0.3 particle distances. CPU time of a fluid particle and step, everything included; the shortest of three.
+# dam NAME THOROUGH COMPILER FLAGS ...
+dam() {
+    name=$1
+    shift 2
+    have "$1" && compiles 'int main(void) { return 0; }' "$@" || return
+    if ! "$@" -std=c99 -Wall -Wextra -Wpedantic -o "$dir/dam" examples/papers/clustering_dam.c -lm 2> "$log"; then
+        echo "$name: examples/papers/clustering_dam.c does not compile:"
+        head -n 20 "$log"
+        failed=1
+        return
+    fi
+    for round in 1 2 3; do
+        "$dir/dam" -kernel wendland-c2-1d -remedy sequential -dref 0.01 -dt 1e-4 -tend 0.03 -out "$dir" -figures "$dir" -quiet > "$log" || failed=1
+        cat "$dir/clustering_dam.csv"
+    done | awk -F, -v name="$name" -v csv="$csv" '
+    $3 ~ /^CPU time of a particle/ && (!us || $5 < us) { us = $5 }
+    $3 ~ /^CPU time of a particle/ && $5 > most { most = $5 }
+    $3 == "fluid particles" { n = $5 }
+    $3 ~ /neighbour list lasts/ { steps = $5 }
+    END {
+        if (!us) exit 1
+        printf "  %-30s %.3f us of CPU per particle and step (spread %.0f %%); %d particles, a list lasts %.1f steps\n", name, us, 100 * (most / us - 1), n, steps
+        printf "%s,double,2,%d,lattice,dam break step,,1,3,%.4g,,,,%.3g,,\n", name, n, 1000 * us, most / us - 1 >> csv
+    }' || failed=1
+}
+printf '\n======== a dam break, whole steps\n'
+variants dam
+
 # one line per target, one column per variant
 awk -F, '
 NR > 1 {
