@@ -277,23 +277,27 @@ if (there("cleaning_collapse_fig5")) {
     }
     array figure[2] = ["fig5", "fig6"]
     array what[2] = ["Figure 5: mean of h |div B| / |B|", "Figure 6: linear momentum made, |P - P_0| [10^5 cm/s solar masses]"]
-    array strokes[4] = [1, 1, 2, 2]
-    array runs[4] = ["control", "cleaned", "control, alpha_B = 0", "cleaned, alpha_B = 0"]
+    array strokes[6] = [1, 1, 2, 2, 3, 3]
+    array runs[6] = ["control", "cleaned", "control, alpha_B = 0", "cleaned, alpha_B = 0", "control, alpha_B = 0.1", "cleaned, alpha_B = 0.1"]
+    has(cloud, k) = system(sprintf("grep -c '^%s,\"%s\",' '%s'", cloud, runs[k], history)) + 0 > 0
     do for [q = 1:2] {
         set output dir.sprintf("cleaning_collapse_%s.png", figure[q])
-        set terminal pngcairo size (700 * words(clouds)),560 font "sans,12"
+        set terminal pngcairo size (words(clouds) > 1 ? 700 * words(clouds) : 950),560 font "sans,12"
         set multiplot layout 1,words(clouds) title what[q]." in the collapse of a cloud core"
         set grid linecolor rgb "#dddddd"
         set logscale y
         set format y "10^{%L}"
         set xlabel "t / t_{ff}"
-        set key top left
+        unset ylabel
+        set key top left noenhanced
         set autoscale x
         if (q == 1) { set yrange [1e-3:2] } else { set yrange [1e-7:1] }
         do for [cloud in clouds] {
             set title cloud." particles in the sphere"
-            plot for [k = 1:4] history using ($1 == (cloud + 0) && strcol(2) eq runs[k] ? $3 : NaN):(q == 1 ? $6 : $9 * 1.152) every ::1 with lines linewidth 2 \
-                dashtype strokes[k] linecolor rgb (k % 2 ? "#000000" : "#d55e00") title runs[k]
+            here = ""
+            do for [k = 1:6] { if (has(cloud, k)) { here = here." ".k } }
+            plot for [k in here] history using ($1 == (cloud + 0) && strcol(2) eq runs[k + 0] ? $3 : NaN):(q == 1 ? $6 : $9 * 1.152) every ::1 with lines linewidth 2 \
+                dashtype strokes[k + 0] linecolor rgb (k % 2 ? "#000000" : "#d55e00") title runs[k + 0]
         }
         unset multiplot
     }
