@@ -1,0 +1,1334 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * test_contract.c - tests/CONTRACT.md, cell by cell: what every function of the three headers that takes arrays answers to every kind of bad or degenerate input.
+ *
+ * The tables are read when the test runs (from the repository's root), and so are the headers: a function without a row, a row without a function, a cell without a fault
+ * behind it and a fault without a cell all fail. All arrays of a call lie in one piece of memory with guards in between; the whole of it is compared after each call.
+ *
+ * A new function needs a row in the tables, a line in `functions` and one to call it; a new fault a column and an entry in `columns`.
+ * tests/test_contract_unchecked.c is the same with SPH_CHECK = 0, without the columns under "Contents".
+ */
+#if defined(__unix__) || defined(__APPLE__)
+#define _POSIX_C_SOURCE 200809L /* alarm */
+#endif
+/* Not forced inline: kernels and dimensions are run-time values here, and one copy of each function is enough. */
+#if !defined(SPH_FN) && (defined(__GNUC__) || defined(__clang__))
+#define SPH_FN static __attribute__((noinline, unused))
+#endif
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wpass-failed" /* loops over a run-time kernel do not vectorise */
+#endif
+
+#include "../sph.h"
+#include "check.h"
+#include "clouds.h"
+
+#include <float.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#define WATCH(seconds) alarm(seconds)
+#else
+#define WATCH(seconds) ((void)0)
+#endif
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
+#else
+#define ASAN_POISON_MEMORY_REGION(at, size) ((void)0)
+#define ASAN_UNPOISON_MEMORY_REGION(at, size) ((void)0)
+#endif
+
+/* ---------------------------------------------------------------- what a call is made of */
+
+/* Every array: name, what it holds, the axis it belongs to (it is there for dim > axis), how many. The inputs first. */
+enum { REAL, INDEX_, BYTE, BYTES }; /* BYTES: anything else, by its size */
+enum {
+    EACH,
+    PAIR,
+    ROWS,
+    ROOM,
+    WORK_ROOM,
+    FEW
+}; /* one a particle, a pair, a particle and one more, for the largest list, the grid's workspace, 64 bytes and more */
+/* clang-format off */
+#define ARRAYS_OF(X) \
+    X(PX, REAL, 0, EACH) X(PY, REAL, 1, EACH) X(PZ, REAL, 2, EACH) \
+    X(QX, REAL, 0, EACH) X(QY, REAL, 1, EACH) X(QZ, REAL, 2, EACH) /* other positions: targets that are no sources, positions of before */ \
+    X(H, REAL, 0, EACH) X(REACH, REAL, 0, EACH) X(GUESS, REAL, 0, EACH) X(V, REAL, 0, EACH) X(M, REAL, 0, EACH) X(RHO, REAL, 0, EACH) X(OMEGA, REAL, 0, EACH) \
+    X(INVERSE_M, REAL, 0, EACH) X(MX, REAL, 0, EACH) X(MY, REAL, 1, EACH) X(MZ, REAL, 2, EACH) /* mobilities */ \
+    X(F, REAL, 0, EACH) X(U, REAL, 0, EACH) X(P, REAL, 0, EACH) X(C, REAL, 0, EACH) X(ALPHA, REAL, 0, EACH) \
+    X(VX, REAL, 0, EACH) X(VY, REAL, 1, EACH) X(VZ, REAL, 2, EACH) X(BX, REAL, 0, EACH) X(BY, REAL, 1, EACH) X(BZ, REAL, 2, EACH) \
+    X(ROW, REAL, 0, PAIR) X(DIAGONAL, REAL, 0, EACH) X(START, INDEX_, 0, ROWS) X(INDEX, INDEX_, 0, ROOM) X(ORDER, INDEX_, 0, EACH) X(COUNT, INDEX_, 0, EACH) \
+    X(GRID, BYTES, 0, FEW) X(WORK, BYTES, 0, WORK_ROOM) \
+    X(O0, REAL, 0, EACH) X(O1, REAL, 1, EACH) X(O2, REAL, 2, EACH) X(O3, REAL, 0, EACH) X(O4, REAL, 1, EACH) X(O5, REAL, 2, EACH) /* vectors */ \
+    X(HXX, REAL, 0, EACH) X(HXY, REAL, 1, EACH) X(HYY, REAL, 1, EACH) X(HXZ, REAL, 2, EACH) X(HYZ, REAL, 2, EACH) X(HZZ, REAL, 2, EACH) \
+    X(S0, REAL, 0, EACH) X(S1, REAL, 0, EACH) X(S2, REAL, 0, EACH) X(S3, REAL, 0, EACH) X(S4, REAL, 0, EACH) X(S5, REAL, 0, EACH) X(S6, REAL, 0, EACH) X(S7, REAL, 0, EACH) \
+    X(R0, REAL, 0, ROOM) X(R1, REAL, 1, ROOM) X(R2, REAL, 2, ROOM) /* rows */ \
+    X(I0, INDEX_, 0, ROWS) X(I1, INDEX_, 0, ROOM) X(REPORT, BYTES, 0, FEW) X(STATUS, BYTE, 0, EACH)
+/* clang-format on */
+#define ARRAY_NAME(name, holds, axis, room) name,
+enum array { ARRAYS_OF(ARRAY_NAME) ARRAYS, FIRST_OUTPUT = O0 };
+static const struct {
+    const char *name;
+    int holds, axis, room;
+} arrays[ARRAYS] = {
+#define ARRAY_ENTRY(name, holds, axis, room) {#name, holds, axis, room},
+    ARRAYS_OF(ARRAY_ENTRY)};
+#define BIT(a) ((uint64_t)1 << (a))
+#define XYZ(x) ((uint64_t)7 << (x))
+#define HESSIAN (BIT(HXX) | BIT(HXY) | BIT(HYY) | BIT(HXZ) | BIT(HYZ) | BIT(HZZ))
+#define POSITIONS (XYZ(PX) | XYZ(QX))
+
+/* Every number: name, what is out of its range, a good value. Lengths have an error of their own (H). */
+enum { ANY_NUMBER, NOT_NEGATIVE, POSITIVE, BELOW_ONE, OF_FLAGS, NO_LESS_THAN_0, ONE_OF };
+enum { VALUE_, LENGTH };
+/* clang-format off */
+#define NUMBERS_OF(X) \
+    X(LEAST, NOT_NEGATIVE, 0.0, VALUE_) X(CONDITIONING, ANY_NUMBER, 0.0, VALUE_) X(OPERATOR, ANY_NUMBER, 1.0, VALUE_) X(ETA, POSITIVE, 1.0, VALUE_) \
+    X(TOLERANCE, BELOW_ONE, 1e-3, VALUE_) X(RESTITUTION, NOT_NEGATIVE, 0.9, VALUE_) X(CONTACT, POSITIVE, 1.0, VALUE_) X(DENSITY, POSITIVE, 20.0, VALUE_) \
+    X(GRAVITY, ANY_NUMBER, 1.0, VALUE_) X(CH, NOT_NEGATIVE, 1.0, VALUE_) X(SIGMA, NOT_NEGATIVE, 0.3, VALUE_) X(PARAMETER_A, ANY_NUMBER, 1.0, VALUE_) \
+    X(PARAMETER_B, ANY_NUMBER, 0.5, VALUE_) X(PARAMETER_C, ANY_NUMBER, 0.1, VALUE_) X(PARAMETER_D, ANY_NUMBER, 1.0, VALUE_) X(TAU, ANY_NUMBER, 0.1, VALUE_) \
+    X(WAVE, ANY_NUMBER, 1.0, VALUE_) X(SKIN, NOT_NEGATIVE, 0.1, VALUE_) X(GRADIENT, ONE_OF + 3, 0.0, VALUE_) X(MEAN, ONE_OF + 2, 0.0, VALUE_) \
+    X(VISCOSITY, ONE_OF + 3, 1.0, VALUE_) X(CRITERION, ONE_OF + 3, 2.0, VALUE_) X(FLAGS, OF_FLAGS, 0.0, VALUE_) X(CAPACITY, NO_LESS_THAN_0, 0.0, VALUE_) \
+    X(DISTANCE, POSITIVE, 0.0, LENGTH) X(WITHIN, NOT_NEGATIVE, 0.0, LENGTH) X(STEP, ANY_NUMBER, 0.1, LENGTH)
+/* clang-format on */
+#define NUMBER_NAME(name, range, good, kind) name,
+enum number { NUMBERS_OF(NUMBER_NAME) NUMBERS };
+static const struct {
+    const char *name;
+    int range, kind;
+    double good;
+} numbers[NUMBERS] = {
+#define NUMBER_ENTRY(name, range, good, kind) {#name, range, kind, good},
+    NUMBERS_OF(NUMBER_ENTRY)};
+#define N(number) ((uint32_t)1 << (number))
+
+typedef struct world {
+    void *a[ARRAYS];
+    double number[NUMBERS];
+    int k, dim, bins, left, right;
+    sph_index first, last, n, m; /* n: sources, m: of the other positions */
+    size_t stride, other_stride, array_stride, work_size;
+    double box[3];
+    uint64_t same; /* one value for all */
+} world;
+
+static sph_real *real_of(const world *w, int a) { return (sph_real *)w->a[a]; }
+static sph_index *index_of(const world *w, int a) { return (sph_index *)w->a[a]; }
+static sph_scalars scalars_of(const world *w, int a) { return sph_scalars_strided(real_of(w, a), w->same & BIT(a) ? 0 : 1); }
+static sph_vectors vectors_of(const world *w, int a)
+{
+    sph_vectors v;
+    v.x = scalars_of(w, a);
+    v.y = scalars_of(w, a + 1);
+    v.z = w->dim > 2 ? scalars_of(w, a + 2) : sph_scalars_array(0); /* a third component in 2D is there if its array is */
+    return v;
+}
+static sph_vector_out vector_out_of(const world *w, int a)
+{
+    sph_vector_out v;
+    v.x = real_of(w, a);
+    v.y = real_of(w, a + 1);
+    v.z = real_of(w, a + 2);
+    return v;
+}
+static sph_diagonal diagonal_of(const world *w, int a)
+{
+    sph_diagonal d;
+    d.x = scalars_of(w, a);
+    d.y = scalars_of(w, a + 1);
+    d.z = scalars_of(w, a + 2);
+    return d;
+}
+static sph_points points_of(const world *w)
+{
+    return sph_points_periodic(sph_points_strided(w->n, real_of(w, PX), real_of(w, PY), real_of(w, PZ), w->stride), SPH_R(w->box[0]), SPH_R(w->box[1]),
+                               SPH_R(w->box[2]));
+}
+static sph_points others_of(const world *w) { return sph_points_strided(w->m, real_of(w, QX), real_of(w, QY), real_of(w, QZ), w->other_stride); }
+static sph_list list_of(const world *w)
+{
+    sph_list l;
+    l.start = index_of(w, START);
+    l.index = index_of(w, INDEX);
+    return l;
+}
+static sph_gas gas_of(const world *w)
+{
+    sph_gas g;
+    g.m = scalars_of(w, M);
+    g.rho = scalars_of(w, RHO);
+    g.omega = scalars_of(w, OMEGA);
+    return g;
+}
+static sph_fluid fluid_of(const world *w)
+{
+    sph_fluid f;
+    f.m = scalars_of(w, M);
+    f.rho = scalars_of(w, RHO);
+    f.p = scalars_of(w, P);
+    f.c = scalars_of(w, C);
+    f.v = vectors_of(w, VX);
+    f.viscosity = (int)w->number[VISCOSITY];
+    f.alpha = SPH_R(w->number[PARAMETER_A]);
+    f.beta = SPH_R(w->number[PARAMETER_B]);
+    f.eta = SPH_R(w->number[PARAMETER_C]);
+    return f;
+}
+static sph_derivative_out derivative_out_of(const world *w)
+{
+    sph_derivative_out o;
+    o.gx = real_of(w, O0);
+    o.gy = real_of(w, O1);
+    o.gz = real_of(w, O2);
+    o.hxx = real_of(w, HXX);
+    o.hxy = real_of(w, HXY);
+    o.hyy = real_of(w, HYY);
+    o.hxz = real_of(w, HXZ);
+    o.hyz = real_of(w, HYZ);
+    o.hzz = real_of(w, HZZ);
+    o.laplacian = real_of(w, S0);
+    o.conditioning = real_of(w, S1);
+    o.stride = 1;
+    o.status = (unsigned char *)w->a[STATUS];
+    return o;
+}
+static sph_row_out row_out_of(const world *w)
+{
+    sph_row_out o;
+    o.row = real_of(w, R0);
+    o.diagonal = real_of(w, S0);
+    o.factor = real_of(w, S2);
+    o.conditioning = real_of(w, S1);
+    o.status = (unsigned char *)w->a[STATUS];
+    return o;
+}
+static sph_jet jet_of(const world *w)
+{
+    sph_jet d = sph_jet_laplacian(3);
+    d.hessian.xx = SPH_R(w->number[OPERATOR]);
+    return d;
+}
+static sph_elliptic_options options_of(const world *w)
+{
+    sph_elliptic_options o = sph_elliptic_defaults();
+    o.gradient = (int)w->number[GRADIENT];
+    o.mean = (int)w->number[MEAN];
+    o.conditioning_min = SPH_R(w->number[CONDITIONING]);
+    return o;
+}
+static sph_vec along_x(double x)
+{
+    sph_vec v;
+    v.x = SPH_R(x);
+    v.y = v.z = SPH_R(0);
+    return v;
+}
+
+/* ---------------------------------------------------------------- the functions, all called through the same arguments */
+
+/* clang-format off */
+#define RANGE (sph_kernel)w->k, w->dim, w->first, w->last, points_of(w), list_of(w), scalars_of(w, H)
+#define RANGE_1D (sph_kernel)w->k, w->first, w->last, points_of(w), list_of(w), scalars_of(w, H)
+#define LIST w->dim, w->first, w->last, points_of(w), list_of(w)
+#define A(a) scalars_of(w, a)
+#define R(a) real_of(w, a)
+#define I(a) index_of(w, a)
+#define X(number_) SPH_R(w->number[number_])
+#define STATE (unsigned char *)w->a[STATUS]
+#define CALL(name, ...) static sph_index call_##name(const world *w) { return (sph_index)sph_##name(__VA_ARGS__); }
+
+CALL(shepard_sum, RANGE, A(V), R(S0))
+CALL(interpolate_shepard, RANGE, A(V), A(F), R(S0), STATE)
+CALL(density_summation, RANGE, A(M), R(S0))
+CALL(density_adaptive, (sph_kernel)w->k, LIST, A(REACH), A(M), X(ETA), X(TOLERANCE), R(GUESS), R(S0), R(S3), STATE)
+CALL(gradient_difference, RANGE, A(V), A(F), R(O0), R(O1), R(O2))
+CALL(gradient_cspm, RANGE, A(V), A(F), R(O0), R(O1), R(O2), R(S1), STATE)
+CALL(gradient_rows_cspm, RANGE, A(V), R(R0), R(R1), R(R2), R(S1), STATE)
+CALL(laplacian_brookshaw, RANGE, A(V), A(F), R(S0))
+CALL(laplacian_rows_brookshaw, RANGE, A(V), R(R0))
+CALL(laplacian_kernel, RANGE, A(V), A(F), R(S0))
+CALL(laplacian_rows_kernel, RANGE, A(V), R(R0))
+CALL(derivatives_cspm, RANGE, A(V), A(F), X(LEAST), derivative_out_of(w))
+CALL(derivatives_icspm, RANGE, A(V), A(F), X(LEAST), 0, derivative_out_of(w))
+CALL(derivatives_wls, RANGE, A(V), A(F), X(LEAST), derivative_out_of(w))
+CALL(derivative_rows_cspm, RANGE, A(V), jet_of(w), row_out_of(w))
+CALL(derivative_rows_icspm, RANGE, A(V), jet_of(w), row_out_of(w))
+CALL(derivative_rows_wls, RANGE, A(V), jet_of(w), row_out_of(w))
+CALL(second_derivative_bim, RANGE_1D, A(V), A(F), w->left, w->right, R(S0), STATE)
+CALL(second_derivative_rows_bim, RANGE_1D, A(V), w->left, w->right, R(R0), STATE)
+CALL(elliptic_brookshaw, RANGE, A(V), A(MX), options_of(w), A(F), A(U), R(S0), STATE)
+CALL(elliptic_brookshaw_corrected, RANGE, A(V), A(MX), options_of(w), A(F), A(U), R(S0), STATE)
+CALL(elliptic_schwaiger, RANGE, A(V), A(MX), options_of(w), A(F), A(U), R(S0), STATE)
+CALL(elliptic_msph, RANGE, A(V), A(MX), options_of(w), A(F), A(U), R(S0), STATE)
+CALL(elliptic_rows_brookshaw, RANGE, A(V), A(MX), options_of(w), row_out_of(w))
+CALL(elliptic_rows_brookshaw_corrected, RANGE, A(V), A(MX), options_of(w), row_out_of(w))
+CALL(elliptic_rows_schwaiger, RANGE, A(V), A(MX), options_of(w), row_out_of(w))
+CALL(elliptic_rows_msph, RANGE, A(V), A(MX), options_of(w), row_out_of(w))
+CALL(elliptic_rows_anisotropic, RANGE, A(V), diagonal_of(w, MX), row_out_of(w))
+CALL(elliptic_rows_msph_diagonal, RANGE, A(V), diagonal_of(w, MX), options_of(w), row_out_of(w))
+CALL(elliptic_rows_boundary, RANGE, A(V), A(MX), options_of(w), diagonal_of(w, BX), A(F), A(U), row_out_of(w))
+CALL(rows_apply, w->first, w->last, w->n, list_of(w), R(ROW), R(DIAGONAL), A(F), R(S0))
+CALL(rows_monotone, w->first, w->last, w->n, list_of(w), R(ROW), R(DIAGONAL), STATE)
+CALL(rows_time_step, w->first, w->last, w->n, list_of(w), R(ROW), R(S0))
+CALL(rows_growth, w->dim, w->first < 0 ? w->first : w->last - 1, points_of(w), list_of(w), R(ROW), X(TAU), along_x(w->number[WAVE]), R(S0), R(S1))
+CALL(csr_size, w->first, w->last, list_of(w))
+CALL(csr_assemble, w->first, w->last, w->n, list_of(w), R(ROW), R(DIAGONAL), 0, I(I0), I(I1), R(R0), (int64_t)w->number[CAPACITY], (int64_t *)w->a[REPORT])
+CALL(fluid_rates_monaghan, RANGE, fluid_of(w), vector_out_of(w, O0), R(S0), R(S1))
+CALL(fluid_rates_colagrossi, RANGE, fluid_of(w), vector_out_of(w, O0), R(S0), R(S1))
+CALL(fluid_rates_hu_adams, RANGE, fluid_of(w), vector_out_of(w, O0), R(S0), R(S1))
+CALL(density_number, RANGE, A(M), R(S0))
+CALL(viscous_mu_morris, RANGE, A(M), A(RHO), vectors_of(w, VX), A(U), X(PARAMETER_C), vector_out_of(w, O0))
+CALL(viscous_mu_monaghan_cleary, RANGE, A(M), A(RHO), vectors_of(w, VX), A(U), X(PARAMETER_C), vector_out_of(w, O0))
+CALL(velocity_xsph, RANGE, A(M), A(RHO), vectors_of(w, VX), X(PARAMETER_C), vector_out_of(w, O0))
+CALL(wall_adami, RANGE, A(V), A(U), A(P), vectors_of(w, VX), vectors_of(w, BX), along_x(w->number[GRAVITY]), vectors_of(w, MX), R(S0), vector_out_of(w, O0), STATE)
+CALL(collision_count, LIST, X(DISTANCE), A(INVERSE_M), vectors_of(w, VX), I(I0))
+CALL(collision_change_weighted, LIST, X(DISTANCE), A(INVERSE_M), X(RESTITUTION), vectors_of(w, VX), I(COUNT), vector_out_of(w, O0))
+CALL(collision_change_literal, LIST, X(DISTANCE), A(INVERSE_M), X(RESTITUTION), vectors_of(w, VX), vector_out_of(w, O0))
+CALL(collision_acceleration_literal, LIST, X(DISTANCE), A(INVERSE_M), X(RESTITUTION), vectors_of(w, VX), X(CONTACT), vector_out_of(w, O0))
+CALL(nearest_distance, w->dim, w->first, w->last, others_of(w), points_of(w), list_of(w), R(S0), STATE)
+CALL(hexatic_order, w->first, w->last, points_of(w), list_of(w), R(S0), STATE)
+CALL(radial_distribution, LIST, X(DISTANCE), X(DENSITY), w->bins, R(S0))
+CALL(count_coincident, LIST, X(WITHIN))
+CALL(separate_coincident, LIST, X(WITHIN), X(STEP), vector_out_of(w, O0))
+CALL(conserved_sums, w->dim, w->first, w->last, points_of(w), A(M), vectors_of(w, VX), (sph_conserved *)w->a[S0])
+CALL(divergence_difference, RANGE, gas_of(w), vectors_of(w, BX), R(S0))
+CALL(divergence_symmetric, RANGE, gas_of(w), vectors_of(w, BX), R(S0))
+CALL(gradient_symmetric, RANGE, gas_of(w), A(F), vector_out_of(w, O0))
+CALL(cleaning_rates, RANGE, gas_of(w), vectors_of(w, BX), A(F), A(U), X(CH), X(SIGMA), vector_out_of(w, O0), R(S0), R(S1))
+CALL(cleaning_rates_symmetric, RANGE, gas_of(w), vectors_of(w, BX), A(F), A(U), X(CH), X(SIGMA), vector_out_of(w, O0), R(S0), R(S1))
+CALL(cleaning_rates_nonconservative, RANGE, gas_of(w), vectors_of(w, BX), A(F), A(U), X(CH), X(SIGMA), vector_out_of(w, O0), R(S0), R(S1))
+CALL(gravity_direct, (sph_kernel)w->k, w->first, w->last, points_of(w), A(H), A(M), X(GRAVITY), vector_out_of(w, O0), R(S0))
+CALL(gravity_zeta, RANGE_1D, A(M), A(RHO), R(S0))
+CALL(gravity_correction, RANGE_1D, gas_of(w), A(F), X(GRAVITY), vector_out_of(w, O0))
+CALL(grid_workspace, w->dim, w->n)
+CALL(grid_build, w->dim, points_of(w), X(DISTANCE), w->a[WORK], w->work_size, (sph_grid *)w->a[GRID])
+CALL(grid_lists, w->dim, (const sph_grid *)w->a[GRID], points_of(w), (int)w->number[CRITERION], A(REACH), A(REACH), (int)w->number[FLAGS], I(I0), I(I1),
+     (int64_t)w->number[CAPACITY], (int64_t *)w->a[REPORT])
+CALL(grid_renumber, (sph_grid *)w->a[GRID])
+CALL(permute, w->n, I(ORDER), R(F), w->array_stride, R(S0))
+CALL(permute_inverse, w->n, I(ORDER), I(I0))
+CALL(rebuild_due, w->dim, points_of(w), others_of(w), X(SKIN))
+/* clang-format on */
+static sph_index call_collide_sequential(const world *w)
+{
+    sph_collision_report *const report = (sph_collision_report *)w->a[REPORT];
+    const sph_index answer = sph_collide_sequential(LIST, X(DISTANCE), A(INVERSE_M), X(RESTITUTION), R(VX), R(VY), R(VZ), w->array_stride, report);
+    if (answer >= 0 && report) CHECK(isfinite(report->energy));
+    return answer;
+}
+static sph_index call_grid_order(const world *w) { return sph_grid_order((const sph_grid *)w->a[GRID]) ? 1 : 0; }
+static sph_index call_curl_difference(const world *w) /* three components in any dimension */
+{
+    sph_vector_out o;
+    o.x = R(O0);
+    o.y = R(S0);
+    o.z = R(S1);
+    return sph_curl_difference(RANGE, gas_of(w), vectors_of(w, BX), o);
+}
+static sph_index call_elliptic_diagnose(const world *w)
+{
+    sph_elliptic_report r;
+    r.sign_least = R(S0);
+    r.sign_most = R(S1);
+    r.xi = R(S2);
+    r.continuity = R(S3);
+    r.n = R(S4);
+    r.n_bound = R(S5);
+    r.eigenvalue_least = R(S6);
+    r.condition = R(S7);
+    r.status = STATE;
+    return sph_elliptic_diagnose(RANGE, A(V), options_of(w), r);
+}
+static sph_index call_mhd_rates(const world *w)
+{
+    sph_mhd s;
+    sph_mhd_out o;
+    s.gas = gas_of(w);
+    s.P = A(P);
+    s.u = A(U);
+    s.cs = A(C);
+    s.alpha = A(ALPHA);
+    s.v = vectors_of(w, VX);
+    s.B = vectors_of(w, BX);
+    s.psi = A(F);
+    s.ch = X(CH);
+    s.sigma = X(SIGMA);
+    s.beta = X(PARAMETER_A);
+    s.alpha_u = X(PARAMETER_B);
+    s.alpha_B = X(PARAMETER_C);
+    s.tensile = X(PARAMETER_D);
+    o.acceleration = vector_out_of(w, O0);
+    o.rate_B = vector_out_of(w, O3);
+    o.rate_u = R(S0);
+    o.rate_psi = R(S1);
+    o.div_B = R(S2);
+    o.div_v = R(S3);
+    o.v_sig = R(S4);
+    return sph_mhd_rates(RANGE, s, o);
+}
+
+/* What a function has besides arrays and numbers. COUNTS: its answer is no number of failures. OPAQUE: its outputs are not one number a target (or pair). RAW: numbers are moved,
+   not looked at. HEAVY: masses must be positive. KEEPS: only the first scalar output is 0 where there is no answer. SIZE: it answers a size. */
+enum {
+    DIM = 1,
+    KERNEL = 2,
+    TARGETS = 4,
+    COUNTED = 8,
+    ENDS = 16,
+    BINS = 32,
+    STRIDE = 64,
+    COUNTS = 128,
+    OPAQUE = 256,
+    RAW = 512,
+    ONE_ROW = 1024,
+    SIZE = 2048,
+    HEAVY = 4096,
+    KEEPS = 8192
+};
+
+typedef struct function {
+    const char *name;
+    sph_index (*call)(const world *);
+    int has, dims;                               /* dims: bits 1, 2, 4 */
+    uint64_t reads, may_read, writes, may_write; /* arrays that it must, and may be given */
+    uint32_t numbers;
+} function;
+
+/* arrays by what they hold */
+#define WEIGHTS (BIT(V) | BIT(M)) /* of any sign unless HEAVY */
+#define MUST_BE_POSITIVE (BIT(RHO) | BIT(OMEGA))
+#define NOT_BELOW_0 (BIT(INVERSE_M) | XYZ(MX))
+#define NEED_NOT_BE_0 (BIT(GUESS) | BIT(S1) | BIT(S2)) /* where there is no answer: h, conditioning, factor */
+
+/* clang-format off */
+#define LISTED (DIM | TARGETS | COUNTED)
+#define SMOOTHED (LISTED | KERNEL)
+#define ROWS_OF (BIT(START) | BIT(INDEX))
+#define LIST_OF (XYZ(PX) | ROWS_OF)
+#define SWEEP (LIST_OF | BIT(H))
+#define VOLUMES (SWEEP | BIT(V))
+#define MASSES (SWEEP | BIT(M))
+#define GAS (MASSES | BIT(RHO) | BIT(OMEGA))
+#define FLUID (MASSES | BIT(RHO) | BIT(P) | BIT(C) | XYZ(VX))
+#define COLLIDERS (LIST_OF | BIT(INVERSE_M) | XYZ(VX))
+#define DERIVATIVES (XYZ(O0) | HESSIAN | BIT(S0) | BIT(S1) | BIT(STATUS))
+#define ROW_EXTRAS (BIT(S0) | BIT(S1) | BIT(S2) | BIT(STATUS))
+#define CHOICE (N(GRADIENT) | N(MEAN) | N(CONDITIONING))
+#define VISCOUS (N(VISCOSITY) | N(PARAMETER_A) | N(PARAMETER_B) | N(PARAMETER_C))
+#define ALL 7
+#define FUNCTION(name, ...) {"sph_" #name, call_##name, __VA_ARGS__}
+
+static const function functions[] = { /* has, dims, reads, may read, writes, may write, numbers */
+    FUNCTION(shepard_sum, SMOOTHED, ALL, VOLUMES, 0, BIT(S0), 0, 0),
+    FUNCTION(interpolate_shepard, SMOOTHED, ALL, VOLUMES | BIT(F), 0, BIT(S0), BIT(STATUS), 0),
+    FUNCTION(density_summation, SMOOTHED, ALL, MASSES, 0, BIT(S0), 0, 0),
+    FUNCTION(density_adaptive, SMOOTHED, ALL, LIST_OF | BIT(REACH) | BIT(M), 0, BIT(GUESS) | BIT(S0), BIT(S3) | BIT(STATUS), N(ETA) | N(TOLERANCE)),
+    FUNCTION(gradient_difference, SMOOTHED, ALL, VOLUMES | BIT(F), 0, XYZ(O0), 0, 0),
+    FUNCTION(gradient_cspm, SMOOTHED, ALL, VOLUMES | BIT(F), 0, XYZ(O0), BIT(S1) | BIT(STATUS), 0),
+    FUNCTION(gradient_rows_cspm, SMOOTHED, ALL, VOLUMES, 0, XYZ(R0), BIT(S1) | BIT(STATUS), 0),
+    FUNCTION(laplacian_brookshaw, SMOOTHED, ALL, VOLUMES | BIT(F), 0, BIT(S0), 0, 0),
+    FUNCTION(laplacian_rows_brookshaw, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), 0, 0),
+    FUNCTION(laplacian_kernel, SMOOTHED, ALL, VOLUMES | BIT(F), 0, BIT(S0), 0, 0),
+    FUNCTION(laplacian_rows_kernel, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), 0, 0),
+    FUNCTION(derivatives_cspm, SMOOTHED, ALL, VOLUMES | BIT(F), 0, 0, DERIVATIVES, N(LEAST)),
+    FUNCTION(derivatives_icspm, SMOOTHED, ALL, VOLUMES | BIT(F), 0, 0, DERIVATIVES, N(LEAST)),
+    FUNCTION(derivatives_wls, SMOOTHED, ALL, VOLUMES | BIT(F), 0, 0, DERIVATIVES, N(LEAST)),
+    FUNCTION(derivative_rows_cspm, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, N(OPERATOR)),
+    FUNCTION(derivative_rows_icspm, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, N(OPERATOR)),
+    FUNCTION(derivative_rows_wls, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, N(OPERATOR)),
+    FUNCTION(second_derivative_bim, KERNEL | TARGETS | COUNTED | ENDS, 1, VOLUMES | BIT(F), 0, BIT(S0), BIT(STATUS), 0),
+    FUNCTION(second_derivative_rows_bim, KERNEL | TARGETS | COUNTED | ENDS, 1, VOLUMES, 0, BIT(R0), BIT(STATUS), 0),
+    FUNCTION(elliptic_brookshaw, SMOOTHED, ALL, VOLUMES | BIT(MX) | BIT(F), BIT(U), BIT(S0), BIT(STATUS), CHOICE),
+    FUNCTION(elliptic_brookshaw_corrected, SMOOTHED, ALL, VOLUMES | BIT(MX) | BIT(F), BIT(U), BIT(S0), BIT(STATUS), CHOICE),
+    FUNCTION(elliptic_schwaiger, SMOOTHED, ALL, VOLUMES | BIT(MX) | BIT(F), BIT(U), BIT(S0), BIT(STATUS), CHOICE),
+    FUNCTION(elliptic_msph, SMOOTHED, ALL, VOLUMES | BIT(MX) | BIT(F), BIT(U), BIT(S0), BIT(STATUS), CHOICE),
+    FUNCTION(elliptic_rows_brookshaw, SMOOTHED, ALL, VOLUMES | BIT(MX), 0, BIT(R0), ROW_EXTRAS, CHOICE),
+    FUNCTION(elliptic_rows_brookshaw_corrected, SMOOTHED, ALL, VOLUMES | BIT(MX), 0, BIT(R0), ROW_EXTRAS, CHOICE),
+    FUNCTION(elliptic_rows_schwaiger, SMOOTHED, ALL, VOLUMES | BIT(MX), 0, BIT(R0), ROW_EXTRAS, CHOICE),
+    FUNCTION(elliptic_rows_msph, SMOOTHED, ALL, VOLUMES | BIT(MX), 0, BIT(R0), ROW_EXTRAS, CHOICE),
+    FUNCTION(elliptic_rows_anisotropic, SMOOTHED, ALL, VOLUMES | XYZ(MX), 0, BIT(R0), ROW_EXTRAS, 0),
+    FUNCTION(elliptic_rows_msph_diagonal, SMOOTHED, ALL, VOLUMES | XYZ(MX), 0, BIT(R0), ROW_EXTRAS, CHOICE),
+    FUNCTION(elliptic_rows_boundary, SMOOTHED, ALL, VOLUMES | BIT(MX) | XYZ(BX) | BIT(F) | BIT(U), 0, BIT(R0) | BIT(S0), BIT(S1) | BIT(S2) | BIT(STATUS), CHOICE),
+    FUNCTION(elliptic_diagnose, SMOOTHED | KEEPS, ALL, VOLUMES, 0, 0, XYZ(S0) | XYZ(S3) | BIT(S6) | BIT(S7) | BIT(STATUS), N(GRADIENT) | N(CONDITIONING)),
+    FUNCTION(rows_apply, TARGETS | COUNTED, ALL, ROWS_OF | BIT(ROW) | BIT(F), BIT(DIAGONAL), BIT(S0), 0, 0),
+    FUNCTION(rows_monotone, TARGETS | COUNTED | COUNTS, ALL, ROWS_OF | BIT(ROW) | BIT(DIAGONAL), 0, 0, BIT(STATUS), 0),
+    FUNCTION(rows_time_step, TARGETS | COUNTED | OPAQUE, ALL, ROWS_OF | BIT(ROW), 0, BIT(S0), 0, 0),
+    FUNCTION(rows_growth, LISTED | OPAQUE | ONE_ROW, ALL, LIST_OF | BIT(ROW), 0, BIT(S0) | BIT(S1), 0, N(TAU) | N(WAVE)),
+    FUNCTION(csr_size, TARGETS | SIZE, ALL, BIT(START), 0, 0, 0, 0),
+    FUNCTION(csr_assemble, TARGETS | COUNTED | OPAQUE, ALL, ROWS_OF | BIT(ROW) | BIT(DIAGONAL), 0, BIT(I0) | BIT(I1) | BIT(R0), BIT(REPORT), 0),
+    FUNCTION(fluid_rates_monaghan, SMOOTHED | HEAVY, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1), VISCOUS),
+    FUNCTION(fluid_rates_colagrossi, SMOOTHED | HEAVY, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1), VISCOUS),
+    FUNCTION(fluid_rates_hu_adams, SMOOTHED | HEAVY, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1), VISCOUS),
+    FUNCTION(density_number, SMOOTHED, ALL, MASSES, 0, BIT(S0), 0, 0),
+    FUNCTION(viscous_mu_morris, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(U) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
+    FUNCTION(viscous_mu_monaghan_cleary, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(U) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
+    FUNCTION(velocity_xsph, SMOOTHED, ALL, MASSES | BIT(RHO) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
+    FUNCTION(wall_adami, SMOOTHED | KEEPS, ALL, VOLUMES | BIT(U) | BIT(P) | XYZ(VX) | XYZ(BX), BIT(MX), BIT(S0) | XYZ(O0), BIT(STATUS), N(GRAVITY)),
+    FUNCTION(collide_sequential, LISTED | STRIDE | OPAQUE, ALL, COLLIDERS, 0, XYZ(VX), BIT(REPORT), N(DISTANCE) | N(RESTITUTION)),
+    FUNCTION(collision_count, LISTED | COUNTS, ALL, COLLIDERS, 0, BIT(I0), 0, N(DISTANCE)),
+    FUNCTION(collision_change_weighted, LISTED, ALL, COLLIDERS | BIT(COUNT), 0, XYZ(O0), 0, N(DISTANCE) | N(RESTITUTION)),
+    FUNCTION(collision_change_literal, LISTED, ALL, COLLIDERS, 0, XYZ(O0), 0, N(DISTANCE) | N(RESTITUTION)),
+    FUNCTION(collision_acceleration_literal, LISTED, ALL, COLLIDERS, 0, XYZ(O0), 0, N(DISTANCE) | N(RESTITUTION) | N(CONTACT)),
+    FUNCTION(nearest_distance, LISTED, ALL, POSITIONS | ROWS_OF, 0, BIT(S0), BIT(STATUS), 0),
+    FUNCTION(hexatic_order, TARGETS | COUNTED, 2, LIST_OF, 0, BIT(S0), BIT(STATUS), 0),
+    FUNCTION(radial_distribution, LISTED | BINS | OPAQUE, ALL, LIST_OF, 0, BIT(S0), 0, N(DISTANCE) | N(DENSITY)),
+    FUNCTION(count_coincident, LISTED | COUNTS, ALL, LIST_OF, 0, 0, 0, N(WITHIN)),
+    FUNCTION(separate_coincident, LISTED | COUNTS, ALL, LIST_OF, 0, XYZ(O0), 0, N(WITHIN) | N(STEP)),
+    FUNCTION(conserved_sums, LISTED | OPAQUE, ALL, XYZ(PX) | BIT(M) | XYZ(VX), 0, BIT(S0), 0, 0),
+    FUNCTION(mhd_rates, SMOOTHED, ALL, GAS | BIT(P) | BIT(U) | BIT(C) | BIT(ALPHA) | XYZ(VX) | XYZ(BX), BIT(F), XYZ(O0) | XYZ(O3), XYZ(S0) | BIT(S3) | BIT(S4),
+             N(CH) | N(SIGMA) | N(PARAMETER_A) | N(PARAMETER_B) | N(PARAMETER_C) | N(PARAMETER_D)),
+    FUNCTION(cleaning_rates, SMOOTHED, ALL, GAS | XYZ(BX) | BIT(F), BIT(U), XYZ(O0) | BIT(S0), BIT(S1), N(CH) | N(SIGMA)),
+    FUNCTION(cleaning_rates_symmetric, SMOOTHED, ALL, GAS | XYZ(BX) | BIT(F), BIT(U), XYZ(O0) | BIT(S0), BIT(S1), N(CH) | N(SIGMA)),
+    FUNCTION(cleaning_rates_nonconservative, SMOOTHED, ALL, GAS | XYZ(BX) | BIT(F), BIT(U), XYZ(O0) | BIT(S0), BIT(S1), N(CH) | N(SIGMA)),
+    FUNCTION(divergence_difference, SMOOTHED, ALL, GAS | XYZ(BX), 0, BIT(S0), 0, 0),
+    FUNCTION(divergence_symmetric, SMOOTHED, ALL, GAS | XYZ(BX), 0, BIT(S0), 0, 0),
+    FUNCTION(gradient_symmetric, SMOOTHED, ALL, GAS | BIT(F), 0, XYZ(O0), 0, 0),
+    FUNCTION(curl_difference, SMOOTHED, ALL, GAS | XYZ(BX), 0, BIT(O0) | BIT(S0) | BIT(S1), 0, 0),
+    FUNCTION(gravity_direct, KERNEL | TARGETS | COUNTED, 4, XYZ(PX) | BIT(H) | BIT(M), 0, XYZ(O0), BIT(S0), N(GRAVITY)),
+    FUNCTION(gravity_zeta, KERNEL | TARGETS | COUNTED, 4, MASSES | BIT(RHO), 0, BIT(S0), 0, 0),
+    FUNCTION(gravity_correction, KERNEL | TARGETS | COUNTED, 4, GAS | BIT(F), 0, XYZ(O0), 0, N(GRAVITY)),
+    FUNCTION(grid_workspace, DIM | COUNTED | SIZE, ALL, 0, 0, 0, 0, 0),
+    FUNCTION(grid_build, DIM | COUNTED | OPAQUE, ALL, XYZ(PX), 0, BIT(WORK) | BIT(GRID), 0, N(DISTANCE)),
+    FUNCTION(grid_lists, DIM | COUNTED | OPAQUE, ALL, XYZ(PX) | BIT(REACH) | BIT(GRID), 0, BIT(I0) | BIT(REPORT), BIT(I1), N(CRITERION) | N(FLAGS) | N(CAPACITY)),
+    FUNCTION(grid_order, SIZE, ALL, BIT(GRID), 0, 0, 0, 0),
+    FUNCTION(grid_renumber, OPAQUE, ALL, 0, 0, BIT(GRID) | BIT(WORK), 0, 0),
+    FUNCTION(permute, COUNTED | STRIDE | RAW, ALL, BIT(ORDER) | BIT(F), 0, BIT(S0), 0, 0),
+    FUNCTION(permute_inverse, COUNTED | OPAQUE, ALL, BIT(ORDER), 0, BIT(I0), 0, 0),
+    FUNCTION(rebuild_due, DIM | COUNTED | COUNTS, ALL, POSITIONS, 0, 0, 0, N(SKIN)),
+};
+/* clang-format on */
+enum { FUNCTIONS = sizeof functions / sizeof *functions };
+
+/* ---------------------------------------------------------------- memory: good inputs, marked outputs, guards */
+
+enum { GUARD = 64, GUARD_MARK = 0xFF, MARK = 0xA5 }; /* a number read from a guard is a NaN, an index -1 */
+
+typedef struct ground {
+    world good;
+    sph_index pairs;
+    size_t offset[ARRAYS], size[ARRAYS], total;
+    unsigned char *live, *before, *good_bytes;
+} ground;
+static ground grounds[4]; /* by dim */
+
+static int is_there(int dim, int a) { return arrays[a].axis < dim; }
+static uint64_t there(int dim, uint64_t set)
+{
+    int a;
+    for (a = 0; a < ARRAYS; a++)
+        if (!is_there(dim, a)) set &= ~BIT(a);
+    return set;
+}
+
+static void build_grid(const world *w)
+{
+    if (sph_grid_build(w->dim, points_of(w), SPH_R(w->number[DISTANCE]), w->a[WORK], w->work_size, (sph_grid *)w->a[GRID]) != 0) abort();
+}
+
+static ground ground_new(int dim, int side)
+{
+    cloud c = cloud_lattice(dim, side, 1.6, 0.12, 9);
+    const double support = 2.0 * 1.05 * (double)c.h;
+    const size_t n = (size_t)c.n, room[] = {n, 0, n + 1, n * n, sph_grid_workspace(dim, c.n), 256};
+    static const size_t item[] = {sizeof(sph_real), sizeof(sph_index), 1, 1};
+    ground g;
+    world *const w = &g.good;
+    pcg32 random;
+    sph_index i, p;
+    int a;
+    cloud_set(&c, field_smooth);
+    cloud_neighbors(&c, 1.1 * support);
+    memset(&g, 0, sizeof g);
+    g.pairs = (sph_index)c.pairs;
+    for (a = 0; a < ARRAYS; a++) {
+        g.offset[a] = g.total + GUARD;
+        g.size[a] = (arrays[a].room == PAIR ? (size_t)c.pairs : room[arrays[a].room]) * item[arrays[a].holds];
+        g.total += GUARD + (g.size[a] + 63) / 64 * 64;
+    }
+    g.total += GUARD;
+    g.live = (unsigned char *)cloud_memory(g.total, 1);
+    g.before = (unsigned char *)cloud_memory(g.total, 1);
+    g.good_bytes = (unsigned char *)cloud_memory(g.total, 1);
+    memset(g.live, GUARD_MARK, g.total);
+    for (a = 0; a < ARRAYS; a++) {
+        w->a[a] = g.live + g.offset[a];
+        memset(w->a[a], MARK, g.size[a]);
+    }
+    for (a = 0; a < NUMBERS; a++) w->number[a] = numbers[a].good;
+    w->number[DISTANCE] = 1.1 * c.dx;
+    w->number[WITHIN] = 0.01 * c.dx;
+    w->number[CAPACITY] = (double)(n * n);
+    w->k = SPH_CUBIC_SPLINE;
+    w->dim = dim;
+    w->bins = 7;
+    w->right = (int)c.n - 1;
+    w->last = w->n = w->m = c.n;
+    w->stride = w->other_stride = w->array_stride = 1;
+    w->work_size = room[WORK_ROOM];
+
+    pcg32_seed(&random, 5, 5);
+    for (a = QX; a <= DIAGONAL; a++)
+        for (i = 0; i < c.n && a != ROW; i++) real_of(w, a)[i] = SPH_R(0.5 + pcg32_uniform(&random)); /* what is not said below */
+    for (i = 0; i < c.n; i++) {
+        const sph_real *const x[3] = {c.x, c.y, c.z};
+        for (a = 0; a < 3; a++) {
+            real_of(w, PX + a)[i] = x[a][i];
+            real_of(w, QX + a)[i] = x[a][i] + SPH_R(0.01 * c.dx);
+            real_of(w, VX + a)[i] = SPH_R(cloud_symmetric(&random));
+        }
+        real_of(w, H)[i] = real_of(w, GUESS)[i] = c.h * SPH_R(1.0 + 0.02 * (i % 3));
+        real_of(w, REACH)[i] = SPH_R(2.0) * real_of(w, H)[i];
+        real_of(w, V)[i] = real_of(w, M)[i] = c.V[i];
+        real_of(w, F)[i] = c.f[i];
+        index_of(w, COUNT)[i] = 1 + i % 3;
+    }
+    memcpy(w->a[START], c.start, (n + 1) * sizeof *c.start);
+    memcpy(w->a[INDEX], c.index, (size_t)c.pairs * sizeof *c.index);
+    for (i = 0; i < c.n; i++) { /* rows of a Laplacian */
+        sph_real sum = SPH_R(0);
+        for (p = c.start[i]; p < c.start[i + 1]; p++) sum += real_of(w, ROW)[p] = SPH_R(0.5 + pcg32_uniform(&random));
+        real_of(w, DIAGONAL)[i] = -sum;
+    }
+    build_grid(w);
+    memcpy(w->a[ORDER], sph_grid_order((const sph_grid *)w->a[GRID]), n * sizeof(sph_index));
+    memcpy(g.good_bytes, g.live, g.total);
+    cloud_free(&c);
+    return g;
+}
+static void ground_free(ground *g)
+{
+    free(g->live);
+    free(g->before);
+    free(g->good_bytes);
+}
+/* what sanitizers see: arrays with nothing between them */
+static void ground_guards(const ground *g, int on)
+{
+    int a;
+    for (a = 0; a < ARRAYS; a++) {
+        unsigned char *const end = g->live + g->offset[a] + g->size[a], *const next = g->live + (a + 1 < ARRAYS ? g->offset[a + 1] : g->total);
+        (void)end, (void)next;
+        if (on) ASAN_POISON_MEMORY_REGION(end, (size_t)(next - end));
+        else ASAN_UNPOISON_MEMORY_REGION(end, (size_t)(next - end));
+    }
+}
+
+/* ---------------------------------------------------------------- faults: the columns of the tables */
+
+/* Each spoils w, whose arrays it may write to, in its way number v = 0, 1, ...: END past the last, NOT_THIS where that way is none for the function, else GO. */
+enum { END, NOT_THIS, GO };
+static char what[96];  /* the way, in words */
+static int64_t needed; /* the size that would do */
+static const ground *here;
+
+static int nth(uint64_t set, int v) /* the member number v of a set, or -1 */
+{
+    int a;
+    for (a = 0; a < 64; a++)
+        if (set & BIT(a) && v-- == 0) return a;
+    return -1;
+}
+static uint64_t inputs_of(const function *f, const world *w) { return there(w->dim, f->reads | f->may_read | (f->writes & (BIT(GUESS) | XYZ(VX)))); }
+static uint64_t of_each(uint64_t set)
+{
+    int a;
+    for (a = 0; a < ARRAYS; a++)
+        if (arrays[a].holds != REAL || arrays[a].room != EACH) set &= ~BIT(a);
+    return set;
+}
+static uint64_t positions_of(const function *f, const world *w) { return inputs_of(f, w) & POSITIONS; }
+static uint64_t lengths_of(const function *f, const world *w) { return inputs_of(f, w) & (BIT(H) | BIT(REACH) | BIT(GUESS)); }
+static uint64_t values_of(const function *f, const world *w)
+{
+    return f->has & RAW ? 0 : (of_each(inputs_of(f, w)) | (inputs_of(f, w) & BIT(ROW))) & ~(POSITIONS | BIT(H) | BIT(REACH) | BIT(GUESS));
+}
+
+/* Three places of an array of one number a particle, or a pair: in the last row, or the first. A function of one row looks at the last only. */
+static int place(const function *f, const world *w, int a, int which, sph_index *at)
+{
+    const sph_index last = w->n - 1, neighbour = index_of(w, INDEX)[index_of(w, START)[last]];
+    if (which == 2 && f->has & ONE_ROW) return 0;
+    if (a == ROW) *at = which == 0 ? here->pairs - 1 : which == 1 ? index_of(w, START)[last] : 0;
+    else *at = which == 0 ? last : which == 1 ? neighbour : 0;
+    return 1;
+}
+static int set_one(const function *f, world *w, uint64_t set, int v, double value)
+{
+    const int a = nth(set, v / 4);
+    sph_index at;
+    if (a < 0) return END;
+    snprintf(what, sizeof what, "%s %g", arrays[a].name, value);
+    if (v % 4 == 3) { /* one for all */
+        if (BIT(a) & (POSITIONS | BIT(GUESS) | BIT(ROW) | BIT(DIAGONAL)) || BIT(a) & f->writes) return NOT_THIS;
+        w->same = BIT(a);
+        real_of(w, a)[0] = SPH_R(value);
+        return GO;
+    }
+    if (!place(f, w, a, v % 4, &at)) return NOT_THIS;
+    real_of(w, a)[at] = SPH_R(value);
+    return GO;
+}
+static int set_either(const function *f, world *w, uint64_t set, int v, double one, double other) { return set_one(f, w, set, v / 2, v % 2 ? other : one); }
+
+static int spoil_null(const function *f, world *w, int v)
+{
+    const int a = nth(there(w->dim, f->reads | f->writes) & ~(f->call == call_grid_renumber ? BIT(WORK) : 0), v); /* the grid knows where it is */
+    if (a < 0) return END;
+    snprintf(what, sizeof what, "%s", arrays[a].name);
+    w->a[a] = 0;
+    return GO;
+}
+static int set_count(const function *f, world *w, int v, int count)
+{
+    if (v > 2) return END;
+    snprintf(what, sizeof what, v == 0 ? "n" : v == 1 ? "n of the others" : "bins");
+    if (v == 0) w->n = count;
+    else if (v == 1) w->m = count;
+    else w->bins = count;
+    return (v == 0 && f->has & COUNTED) || (v == 1 && f->reads & BIT(QX)) || (v == 2 && f->has & BINS) ? GO : NOT_THIS;
+}
+static int spoil_count_0(const function *f, world *w, int v) { return set_count(f, w, v, 0); }
+static int spoil_count_negative(const function *f, world *w, int v) { return set_count(f, w, v, -1); }
+static int spoil_stride(const function *f, world *w, int v)
+{
+    if (v > 2) return END;
+    if (v == 0) w->stride = 0;
+    else if (v == 1) w->other_stride = 0;
+    else w->array_stride = 0;
+    return (v == 0 && f->reads & BIT(PX)) || (v == 1 && f->reads & BIT(QX)) || (v == 2 && f->has & STRIDE) ? GO : NOT_THIS;
+}
+static int spoil_no_target(const function *f, world *w, int v)
+{
+    if (v > 2) return END;
+    w->first = w->last = v == 0 ? 0 : v == 1 ? w->n / 2 : w->n;
+    return f->has & TARGETS && !(f->has & ONE_ROW) ? GO : NOT_THIS;
+}
+static int spoil_first(const function *f, world *w, int v)
+{
+    if (v > 2) return END;
+    if (v == 0) w->first = -1;
+    else if (v == 1) w->left = -1;
+    else w->right = -1;
+    return f->has & (v == 0 ? TARGETS : ENDS) ? GO : NOT_THIS;
+}
+static int spoil_order(const function *f, world *w, int v)
+{
+    if (v > 0) return END;
+    w->first = 2;
+    w->last = 1;
+    return f->has & TARGETS && !(f->has & ONE_ROW) ? GO : NOT_THIS;
+}
+static int spoil_last(const function *f, world *w, int v)
+{
+    if (v > 3) return END;
+    if (v == 0) w->last = w->n + 1;
+    else if (v == 1) w->left = (int)w->n;
+    else if (v == 2) w->right = (int)w->n;
+    else w->n++; /* a target that is no source of the grid */
+    return (v == 0 && f->has & TARGETS && f->has & COUNTED) || ((v == 1 || v == 2) && f->has & ENDS) || (v == 3 && f->reads & BIT(GRID) && f->has & COUNTED)
+               ? GO
+               : NOT_THIS;
+}
+static int spoil_dim(const function *f, world *w, int v)
+{
+    static const int wrong[] = {0, 4, -1};
+    if (v > 2) return END;
+    w->dim = wrong[v];
+    return f->has & DIM ? GO : NOT_THIS;
+}
+static int spoil_kernel(const function *f, world *w, int v)
+{
+    if (v > 1) return END;
+    w->k = v ? (int)SPH_KERNEL_COUNT : -1;
+    return f->has & KERNEL ? GO : NOT_THIS;
+}
+static int spoil_numbers(const function *f, world *w, int v, int kind)
+{
+    const double reals[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, -1.0, 0.0, 1.0},
+                 flags[] = {-1.0, 16.0, SPH_LIST_FOREIGN | SPH_LIST_SELF, SPH_LIST_FOREIGN | SPH_LIST_HALF};
+    const int i = v / 6, u = v % 6;
+    int range;
+    if (i >= NUMBERS) return END;
+    range = numbers[i].range;
+    if (!(f->numbers & N(i)) || numbers[i].kind != kind) return NOT_THIS;
+    if (range >= ONE_OF || range == NO_LESS_THAN_0) {
+        if (u > (range >= ONE_OF)) return NOT_THIS;
+        w->number[i] = u ? range - ONE_OF + 1 : -1.0;
+    } else if (range == OF_FLAGS) {
+        if (u > 3) return NOT_THIS;
+        w->number[i] = flags[u];
+    } else {
+        if (u >= (range == ANY_NUMBER ? 3 : range == NOT_NEGATIVE ? 4 : range == POSITIVE ? 5 : 6) || (range == BELOW_ONE && u == 4)) return NOT_THIS;
+        w->number[i] = reals[u];
+    }
+    snprintf(what, sizeof what, "%s %g", numbers[i].name, w->number[i]);
+    return GO;
+}
+static int spoil_parameter(const function *f, world *w, int v) { return spoil_numbers(f, w, v, VALUE_); }
+static int spoil_length(const function *f, world *w, int v) { return spoil_numbers(f, w, v, LENGTH); }
+static int spoil_box(const function *f, world *w, int v)
+{
+    const double wrong[] = {-1.0, (double)NAN, (double)INFINITY};
+    if (v >= 3 * w->dim) return END;
+    w->box[v / 3] = wrong[v % 3];
+    return f->reads & BIT(PX) ? GO : NOT_THIS;
+}
+
+static int spoil_x_nan(const function *f, world *w, int v) { return set_one(f, w, positions_of(f, w), v, (double)NAN); }
+static int spoil_x_inf(const function *f, world *w, int v) { return set_either(f, w, positions_of(f, w), v, (double)INFINITY, -(double)INFINITY); }
+static int spoil_h_low(const function *f, world *w, int v) { return set_either(f, w, lengths_of(f, w), v, 0.0, -0.1); }
+static int spoil_h_nan(const function *f, world *w, int v) { return set_one(f, w, lengths_of(f, w), v, (double)NAN); }
+static int spoil_h_inf(const function *f, world *w, int v) { return set_one(f, w, lengths_of(f, w), v, (double)INFINITY); }
+static int spoil_value_nan(const function *f, world *w, int v) { return set_one(f, w, values_of(f, w), v, (double)NAN); }
+static int spoil_value_inf(const function *f, world *w, int v) { return set_either(f, w, values_of(f, w), v, (double)INFINITY, -(double)INFINITY); }
+static int spoil_weight(const function *f, world *w, int v) { return set_either(f, w, f->reads & WEIGHTS, v, 0.0, -1.0); }
+static int spoil_sign(const function *f, world *w, int v)
+{
+    const uint64_t set = there(w->dim, f->reads & (MUST_BE_POSITIVE | NOT_BELOW_0));
+    const int a = nth(set, v / 8);
+    return set_either(f, w, set, v, -1.0, a >= 0 && MUST_BE_POSITIVE & BIT(a) ? 0.0 : -0.5);
+}
+static int spoil_self(const function *f, world *w, int v)
+{
+    if (v > 0) return END;
+    index_of(w, INDEX)[index_of(w, START)[w->n - 1]] = w->n - 1;
+    return f->reads & BIT(INDEX) ? GO : NOT_THIS;
+}
+static int spoil_entry(const function *f, world *w, int v)
+{
+    const int a = f->reads & BIT(ORDER) ? ORDER : INDEX;
+    const sph_index wrong[] = {-1, w->n, INT32_MAX, INT32_MIN};
+    if (v > 7) return END;
+    if (v >= 4 && f->has & ONE_ROW) return NOT_THIS;
+    index_of(w, a)[v >= 4 ? 0 : a == ORDER ? w->n - 1 : here->pairs - 1] = wrong[v % 4];
+    return f->reads & (BIT(INDEX) | BIT(ORDER)) ? GO : NOT_THIS;
+}
+static int spoil_start(const function *f, world *w, int v)
+{
+    sph_index *const start = index_of(w, START), n = w->n;
+    if (v > 3) return END;
+    if (v == 0) start[n] = start[n - 1] - 1;
+    else if (v == 1) start[n - 1] = start[n] + 1;
+    else if (v == 2) start[0] = -1;
+    else start[1] = start[2] + 1;
+    return f->reads & BIT(START) && !(v > 1 && f->has & ONE_ROW) ? GO : NOT_THIS;
+}
+/* how far the sums of a function reach, and so how large a box must be */
+static double reach_of(const function *f, const world *w)
+{
+    if (f->reads & BIT(H)) return 2.0 * (double)real_of(w, H)[2]; /* the largest */
+    if (f->reads & BIT(REACH)) return (double)real_of(w, REACH)[2];
+    if (f->numbers & N(DISTANCE)) return w->number[DISTANCE];
+    return f->numbers & N(WITHIN) ? w->number[WITHIN] : 0.0;
+}
+static int looks_at_box(const function *f) { return f->reads & BIT(PX) && f->call != call_gravity_direct && f->call != call_conserved_sums; }
+static int spoil_small_box(const function *f, world *w, int v)
+{
+    const double reach = reach_of(f, w);
+    int c;
+    if (v >= w->dim) return END;
+    for (c = 0; c < w->dim; c++) w->box[c] = 8.0;
+    w->box[v] = 1.8 * reach;
+    if (!looks_at_box(f) || !(reach > 0.0)) return NOT_THIS;
+    if (f->reads & BIT(GRID)) { /* the grid's own box, good for its reach but not for these radii */
+        w->number[DISTANCE] = 0.5 * reach;
+        build_grid(w);
+    }
+    return GO;
+}
+static int spoil_image(const function *f, world *w, int v)
+{
+    const int a = nth(positions_of(f, w), v);
+    int c;
+    if (a < 0) return END;
+    for (c = 0; c < w->dim; c++) w->box[c] = 8.0;
+    if (f->reads & BIT(GRID)) build_grid(w); /* of its own box */
+    real_of(w, a)[w->n - 1] -= SPH_R(8.0 * 2097152.0);
+    snprintf(what, sizeof what, "%s", arrays[a].name);
+    return looks_at_box(f) ? GO : NOT_THIS;
+}
+
+static int spoil_nothing(const function *f, world *w, int v)
+{
+    int c;
+    if (v > 2) return END;
+    if (v == 1) w->same = of_each(inputs_of(f, w)) & ~(POSITIONS | BIT(GUESS) | BIT(DIAGONAL) | f->writes);
+    snprintf(what, sizeof what, v == 0 ? "separate" : v == 1 ? "one value for all" : "a box");
+    for (c = 0; v == 2 && c < w->dim; c++) w->box[c] = 8.0;
+    return (v == 1 && f->has & RAW) || (v == 2 && (!looks_at_box(f) || f->has & ENDS)) ? NOT_THIS : GO;
+}
+static int spoil_part(const function *f, world *w, int v) /* what is outside is nobody's business */
+{
+    if (v > 0) return END;
+    w->first = 1;
+    w->last = w->n - 1;
+    index_of(w, INDEX)[0] = index_of(w, INDEX)[here->pairs - 1] = -7;
+    real_of(w, ROW)[0] = real_of(w, ROW)[here->pairs - 1] = SPH_R(NAN);
+    real_of(w, GUESS)[0] = real_of(w, GUESS)[w->n - 1] = real_of(w, DIAGONAL)[0] = SPH_R(NAN);
+    return f->has & TARGETS ? GO : NOT_THIS;
+}
+static int spoil_optional(const function *f, world *w, int v) /* each is left out, and all */
+{
+    const uint64_t set = there(w->dim, f->may_read | f->may_write);
+    int a = nth(set, v);
+    if (a >= 0) {
+        snprintf(what, sizeof what, "no %s", arrays[a].name);
+        w->a[a] = 0;
+        return GO;
+    }
+    if (v == 0 || nth(set, v - 1) < 0) return END;
+    for (a = 0; a < ARRAYS; a++)
+        if (set & BIT(a)) w->a[a] = 0;
+    return GO;
+}
+static int spoil_twice(const function *f, world *w, int v)
+{
+    const int a = f->reads & BIT(ORDER) ? ORDER : INDEX;
+    if (v > 0) return END;
+    index_of(w, a)[1] = index_of(w, a)[0];
+    index_of(w, a)[(a == ORDER ? w->n : here->pairs) - 1] = index_of(w, a)[(a == ORDER ? w->n : here->pairs) - 2];
+    return f->reads & (BIT(INDEX) | BIT(ORDER)) ? GO : NOT_THIS;
+}
+static void reverse(sph_index *a, sph_index n)
+{
+    sph_index i;
+    for (i = 0; i < n / 2; i++) {
+        const sph_index t = a[i];
+        a[i] = a[n - 1 - i];
+        a[n - 1 - i] = t;
+    }
+}
+static int spoil_unsorted(const function *f, world *w, int v)
+{
+    const sph_index *const start = index_of(w, START);
+    sph_index i;
+    if (v > 0) return END;
+    for (i = 0; i < w->n; i++) reverse(index_of(w, INDEX) + start[i], start[i + 1] - start[i]);
+    reverse(index_of(w, ORDER), w->n);
+    return f->reads & (BIT(INDEX) | BIT(ORDER)) ? GO : NOT_THIS;
+}
+static int spoil_lonely(const function *f, world *w, int v) /* empty rows, with an index and without */
+{
+    if (v > 1) return END;
+    memset(w->a[START], 0, ((size_t)w->n + 1) * sizeof(sph_index));
+    if (v) w->a[INDEX] = 0;
+    return f->reads & BIT(INDEX) ? GO : NOT_THIS;
+}
+/* positions are what they are now: the search goes by a grid of them */
+static int moved(const function *f, const world *w)
+{
+    if (!(f->reads & BIT(PX))) return NOT_THIS;
+    if (f->reads & BIT(GRID)) build_grid(w);
+    return GO;
+}
+static int spoil_coincident(const function *f, world *w, int v)
+{
+    const sph_index i = w->n - 1, j = index_of(w, INDEX)[index_of(w, START)[i]];
+    int c;
+    if (v > 0) return END;
+    for (c = 0; c < w->dim; c++) real_of(w, PX + c)[i] = real_of(w, PX + c)[j];
+    return moved(f, w);
+}
+static const double LIMIT = SPH_SINGLE ? (double)FLT_MAX : DBL_MAX, DENORMAL = SPH_SINGLE ? (double)FLT_MIN / 8.0 : DBL_MIN / 8.0;
+static int spoil_all_coincident(const function *f, world *w, int v)
+{
+    sph_index i;
+    int c;
+    if (v > 1) return END;
+    for (c = 0; c < w->dim; c++)
+        for (i = 0; i < w->n; i++) real_of(w, PX + c)[i] = v ? SPH_R(0.75 * LIMIT) : real_of(w, PX + c)[0];
+    if (v) w->number[STEP] = LIMIT;
+    return moved(f, w);
+}
+static int spoil_one_cell(const function *f, world *w, int v) /* each a neighbour of all */
+{
+    sph_index i, j, p = 0;
+    if (v > 0) return END;
+    for (i = 0; i < w->n; i++) {
+        index_of(w, START)[i] = p;
+        for (j = 0; j < w->n; j++)
+            if (i != j) index_of(w, INDEX)[p++] = j;
+        real_of(w, H)[i] *= SPH_R(16);
+        real_of(w, REACH)[i] *= SPH_R(16);
+    }
+    index_of(w, START)[w->n] = p;
+    w->number[DISTANCE] *= 16.0;
+    w->number[WITHIN] *= 2000.0;
+    if (f->reads & (BIT(ROW) | BIT(ORDER))) return NOT_THIS;
+    return moved(f, w);
+}
+static int scale(const function *f, world *w, double positions, double lengths)
+{
+    sph_index i;
+    int c;
+    for (i = 0; i < w->n; i++) {
+        for (c = PX; c <= QZ; c++) real_of(w, c)[i] *= SPH_R(positions);
+        real_of(w, H)[i] *= SPH_R(lengths);
+        real_of(w, REACH)[i] *= SPH_R(lengths);
+        real_of(w, GUESS)[i] *= SPH_R(lengths);
+    }
+    for (c = 0; c < NUMBERS; c++)
+        if (numbers[c].kind == LENGTH || c == SKIN) w->number[c] *= lengths;
+    if (SPH_SINGLE && f->reads & BIT(GRID) && f->reads & BIT(PX)) return GO; /* there is no grid of such a reach */
+    return moved(f, w);
+}
+static int spoil_at_1e30(const function *f, world *w, int v)
+{
+    sph_index i;
+    int c;
+    if (v > 0) return END;
+    for (i = 0; i < w->n; i++)
+        for (c = PX; c <= QZ; c++) real_of(w, c)[i] += SPH_R(1e30);
+    return moved(f, w);
+}
+static int spoil_1e30(const function *f, world *w, int v) { return v > 0 ? END : scale(f, w, 1e30, 1e30); }
+static int spoil_1e_30(const function *f, world *w, int v) { return v > 0 ? END : scale(f, w, 1e-30, 1e-30); }
+static int spoil_denormal_x(const function *f, world *w, int v)
+{
+    if (v > 1) return END;
+    if (v == 1 && (f->reads & BIT(GRID) || f->writes & BIT(GRID))) return NOT_THIS;
+    return scale(f, w, DENORMAL, v ? DENORMAL : 1.0);
+}
+static int set_values(const function *f, world *w, double size)
+{
+    const uint64_t set = values_of(f, w), positive = f->reads & (MUST_BE_POSITIVE | NOT_BELOW_0 | (f->has & HEAVY ? BIT(M) : 0));
+    sph_index i;
+    int a;
+    for (a = 0; a < ARRAYS; a++)
+        for (i = 0; set & BIT(a) && i < (a == ROW ? here->pairs : w->n); i++)
+            real_of(w, a)[i] = SPH_R((i % 2 ? size : 0.5 * size) * (i % 3 == 0 && !(positive & BIT(a)) ? -1.0 : 1.0));
+    return set ? GO : NOT_THIS;
+}
+static int spoil_denormal_values(const function *f, world *w, int v) { return v > 0 ? END : set_values(f, w, DENORMAL); }
+static int spoil_huge_values(const function *f, world *w, int v) { return v > 0 ? END : set_values(f, w, LIMIT); }
+
+static int spoil_capacity(const function *f, world *w, int v) /* every size up to what is needed */
+{
+    const int work = f->call == call_grid_build, column = (f->writes & BIT(R0) && f->has & OPAQUE) != 0;
+    int64_t pairs = 0;
+    needed = work ? (int64_t)w->work_size : column ? here->pairs + w->n : 0;
+    if (f->numbers & N(CAPACITY)) {
+        if (sph_grid_lists(w->dim, (const sph_grid *)w->a[GRID], points_of(w), (int)w->number[CRITERION], scalars_of(w, REACH), scalars_of(w, REACH), 0,
+                           index_of(w, I0), 0, 0, &pairs) != 0)
+            abort();
+        memset(w->a[I0], MARK, here->size[I0]);
+        needed = pairs;
+    }
+    snprintf(what, sizeof what, "%d of %ld", v, (long)needed);
+    if (v >= needed) return END;
+    w->work_size = (size_t)v;
+    w->number[CAPACITY] = v;
+    return GO;
+}
+static int spoil_alias(const function *f, world *w, int v) /* each output on each input of its shape */
+{
+    uint64_t ins = of_each(inputs_of(f, w)) & ~f->writes, outs = of_each(there(w->dim, f->writes | f->may_write)) & ~(BIT(FIRST_OUTPUT) - 1);
+    int in, out, count = 0;
+    if (f->has & OPAQUE) return END;
+    while (nth(ins, count) >= 0) count++;
+    in = count ? nth(ins, v % count) : -1;
+    out = count ? nth(outs, v / count) : -1;
+    if (in < 0 || out < 0) return END;
+    snprintf(what, sizeof what, "%s on %s", arrays[out].name, arrays[in].name);
+    w->a[out] = w->a[in];
+    return GO;
+}
+
+/* clang-format off */
+static const struct column {
+    const char *name;
+    int (*spoil)(const function *, world *, int);
+} columns[] = {
+    {"null", spoil_null}, {"count 0", spoil_count_0}, {"count < 0", spoil_count_negative}, {"stride 0", spoil_stride}, {"no target", spoil_no_target},
+    {"first < 0", spoil_first}, {"first > last", spoil_order}, {"last > n", spoil_last}, {"dim", spoil_dim}, {"kernel", spoil_kernel}, {"parameter", spoil_parameter},
+    {"length", spoil_length}, {"box", spoil_box},
+    {"x NaN", spoil_x_nan}, {"x inf", spoil_x_inf}, {"h <= 0", spoil_h_low}, {"h NaN", spoil_h_nan}, {"h inf", spoil_h_inf}, {"value NaN", spoil_value_nan},
+    {"value inf", spoil_value_inf}, {"weight <= 0", spoil_weight}, {"sign", spoil_sign}, {"self", spoil_self}, {"entry", spoil_entry}, {"start", spoil_start},
+    {"small box", spoil_small_box}, {"far image", spoil_image},
+    {"valid", spoil_nothing}, {"part", spoil_part}, {"optional", spoil_optional}, {"twice", spoil_twice}, {"unsorted", spoil_unsorted}, {"lonely", spoil_lonely},
+    {"coincident", spoil_coincident}, {"all coincident", spoil_all_coincident}, {"one cell", spoil_one_cell}, {"at 1e30", spoil_at_1e30}, {"1e30", spoil_1e30},
+    {"1e-30", spoil_1e_30}, {"denormal x", spoil_denormal_x}, {"denormal values", spoil_denormal_values}, {"huge values", spoil_huge_values},
+    {"capacity", spoil_capacity}, {"alias", spoil_alias},
+};
+/* clang-format on */
+enum { COLUMNS = sizeof columns / sizeof *columns };
+
+/* ---------------------------------------------------------------- one cell */
+
+static const struct {
+    const char *name;
+    int answer;
+} errors[] = {{"NULL", SPH_ERROR_NULL},    {"DIM", SPH_ERROR_DIM},   {"KERNEL", SPH_ERROR_KERNEL},     {"COUNT", SPH_ERROR_COUNT},
+              {"RANGE", SPH_ERROR_RANGE},  {"H", SPH_ERROR_H},       {"POSITION", SPH_ERROR_POSITION}, {"VALUE", SPH_ERROR_VALUE},
+              {"LIST", SPH_ERROR_LIST},    {"SELF", SPH_ERROR_SELF}, {"CAPACITY", SPH_ERROR_CAPACITY}, {"BOX", SPH_ERROR_BOX},
+              {"RADIUS", SPH_ERROR_RADIUS}};
+enum { ERRORS = sizeof errors / sizeof *errors };
+
+static const char *now_function = "", *now_column = "", *now_answer = "";
+static int now_dim;
+static void complain(const char *text, long got)
+{
+    fprintf(stderr, "test_contract.c: failed: %s, %s (%s) in %dD: %s; answered %ld, expected %s\n", now_function, now_column, what, now_dim, text, got,
+            now_answer);
+}
+static void died(int sig)
+{
+    fprintf(stderr, "test_contract.c: signal %d: %s, %s (%s) in %dD\n", sig, now_function, now_column, what, now_dim);
+    fprintf(stderr, "test_contract: %d passed, %d failed\n", check_passed, check_failed + 1);
+    _Exit(3);
+}
+
+/* what a call may change of an array: from ... to */
+static void free_region(const function *f, const world *w, int a, size_t *from, size_t *to)
+{
+    const sph_index *const start = index_of(&here->good, START);
+    const size_t item = arrays[a].holds == REAL ? sizeof(sph_real) : arrays[a].holds == INDEX_ ? sizeof(sph_index) : 1;
+    *from = 0;
+    *to = here->size[a];
+    if ((a == I1 || a == R0) && f->has & OPAQUE) *to = (size_t)w->number[CAPACITY] * item;
+    else if (f->has & OPAQUE || arrays[a].room == ROWS) return;
+    else if (arrays[a].room == EACH && !(f->has & RAW)) *from = (size_t)w->first * item, *to = (size_t)w->last * item;
+    else if (arrays[a].room == ROOM) *from = (size_t)start[w->first] * item, *to = (size_t)start[w->last] * item;
+}
+
+/* Outputs: finite, written, 0 where there is no answer; status: as many failures as answered. */
+static const char *judge_outputs(const function *f, const world *w, sph_index answer, int aliased)
+{
+    const uint64_t outputs = there(w->dim, f->writes | f->may_write);
+    const unsigned char *const status = f->has & COUNTS || !(outputs & BIT(STATUS)) ? 0 : (const unsigned char *)w->a[STATUS];
+    const uint64_t must_be_0 = outputs & (f->has & KEEPS ? BIT(S0) : ~NEED_NOT_BE_0);
+    sph_real marked;
+    sph_index i, p, failures = 0;
+    int a;
+    memset(&marked, MARK, sizeof marked);
+    for (a = 0; a < ARRAYS; a++) {
+        const sph_real *const at = real_of(w, a);
+        size_t from, to, b;
+        if (!(outputs & BIT(a)) || !at || arrays[a].holds != REAL) continue;
+        free_region(f, w, a, &from, &to);
+        for (b = from / sizeof *at; b < to / sizeof *at; b++) {
+            if (!isfinite(at[b])) return "an output is not finite";
+            if (!(f->has & OPAQUE) && !aliased && memcmp(&at[b], &marked, sizeof marked) == 0) return "an output is not written";
+        }
+    }
+    if (status && !(f->has & OPAQUE)) {
+        const sph_index *const start = index_of(w, START);
+        for (i = w->first; i < w->last; i++) {
+            if (status[i] > SPH_LIST_TOO_SHORT) return "no such status";
+            failures += status[i] != SPH_OK;
+            if (aliased || (status[i] != SPH_TOO_FEW && status[i] != SPH_SINGULAR && status[i] != SPH_NOT_AVAILABLE && status[i] != SPH_NOT_FINITE)) continue;
+            for (a = 0; a < ARRAYS; a++) {
+                const sph_real *const at = real_of(w, a);
+                if (!(must_be_0 & BIT(a)) || !at || arrays[a].holds != REAL) continue;
+                if (arrays[a].room == EACH && fabs((double)at[i]) > 0.0) return "an output is not 0 where there is no answer";
+                for (p = start[i]; arrays[a].room == ROOM && p < start[i + 1]; p++)
+                    if (fabs((double)at[p]) > 0.0) return "a row is not 0 where there is no answer";
+            }
+        }
+        if (failures != answer) return "status and answer differ";
+    }
+    return 0;
+}
+
+static const char *judge(const function *f, const world *w, const char *expected, sph_index answer)
+{
+    const uint64_t outputs = f->writes | f->may_write;
+    const int aliased = strcmp(now_column, "alias") == 0, none = strcmp(expected, "none") == 0, ok = strcmp(expected, "ok") == 0,
+              some = strcmp(expected, "some") == 0, finite = strcmp(expected, "finite") == 0, zero = strcmp(expected, "0") == 0;
+    int a, e;
+    for (e = 0; e < ERRORS && strcmp(errors[e].name, expected) != 0; e++) {}
+    if (e == ERRORS && !none && !ok && !some && !finite && !zero) return "no such answer";
+    if (e < ERRORS && answer != errors[e].answer) return "another answer";
+    if ((none || zero) && answer != 0) return "another answer";
+    if (e == ERRORS && answer < 0) return "an error";
+    if (ok && answer > 0 && !(f->has & (COUNTS | SIZE))) return "some failed";
+    if (some && answer == 0) return "nothing failed";
+    if (e == ERRORS && !(f->has & SIZE) && answer > here->good.n) return "more failures than particles";
+    if ((e == ERRORS && !none) || (e < ERRORS && errors[e].answer == SPH_ERROR_CAPACITY && f->numbers & N(CAPACITY))) { /* take over what may have changed */
+        const char *const wrong = e < ERRORS ? 0 : judge_outputs(f, w, answer, aliased);
+        if (wrong) return wrong;
+        for (a = 0; a < ARRAYS; a++) {
+            size_t from, to;
+            if (!(outputs & BIT(a)) || !w->a[a]) continue;
+            free_region(f, w, a, &from, &to);
+            memcpy(here->before + ((unsigned char *)w->a[a] - here->live) + from, (unsigned char *)w->a[a] + from, to - from);
+        }
+        if (e < ERRORS && *(const int64_t *)w->a[REPORT] != needed) return "not the size that is needed";
+    }
+    if (memcmp(here->before, here->live, here->total) != 0) return e < ERRORS || none ? "something was written" : "something else was written";
+    return 0;
+}
+
+/* Every way of a fault, in every dimension of the function. Returns how many there were. */
+static int run_cell(const function *f, const struct column *c, const char *expected)
+{
+    int dim, v, ways = 0;
+    now_function = f->name;
+    now_column = c->name;
+    now_answer = expected;
+    for (dim = 1; dim <= 3; dim++) {
+        if (!(f->dims & 1 << (dim - 1))) continue;
+        here = &grounds[dim];
+        now_dim = dim;
+        for (v = 0;; v++) {
+            world w = here->good;
+            sph_index answer;
+            int go;
+            const char *wrong;
+            what[0] = '\0';
+            memcpy(here->live, here->good_bytes, here->total);
+            go = c->spoil(f, &w, v);
+            if (go == END) break;
+            if (go == NOT_THIS) continue;
+            ways++;
+            if (strcmp(expected, "-") == 0) continue;
+            memcpy(here->before, here->live, here->total);
+            ground_guards(here, 1);
+            answer = f->call(&w);
+            ground_guards(here, 0);
+            wrong = judge(f, &w, expected, answer);
+            if (!check_count(!wrong)) complain(wrong, (long)answer);
+        }
+    }
+    return ways;
+}
+
+/* ---------------------------------------------------------------- the tables */
+
+enum { LINE = 1024, CELLS = 24 };
+static unsigned char seen[FUNCTIONS][COLUMNS];
+
+static void problem(const char *text, const char *name)
+{
+    check_count(0);
+    fprintf(stderr, "test_contract.c: failed: %s: %s\n", text, name);
+}
+/* cells of a line, without blanks and code quotes */
+static int split(char *line, char *cell[CELLS])
+{
+    int n = 0;
+    char *next = strchr(line, '|');
+    while (next && n < CELLS) {
+        char *const from = next + 1 + strspn(next + 1, " `");
+        char *end = next = strchr(next + 1, '|');
+        if (!next) break;
+        *next = '\0';
+        while (end > from && (end[-1] == ' ' || end[-1] == '`')) end--;
+        *end = '\0';
+        cell[n++] = from;
+        *next = '\0';
+    }
+    return n;
+}
+static int column_of(const char *name)
+{
+    int c;
+    for (c = 0; c < COLUMNS && strcmp(columns[c].name, name) != 0; c++) {}
+    return c;
+}
+static int function_of(const char *name)
+{
+    int i;
+    for (i = 0; i < FUNCTIONS && strcmp(functions[i].name, name) != 0; i++) {}
+    return i;
+}
+static void test_tables(const char *path)
+{
+    FILE *const file = fopen(path, "r");
+    char line[LINE], *cell[CELLS];
+    int head[CELLS], width = 0, contents = 0, i, f, ways;
+    if (!file) {
+        problem("cannot read", path);
+        return;
+    }
+    while (fgets(line, sizeof line, file)) {
+        if (line[0] == '#') contents = strstr(line, "Contents") != 0;
+        if (line[0] != '|') {
+            width = 0;
+            continue;
+        }
+        if (line[2] == '-') continue; /* the rule under the head */
+        i = split(line, cell);
+        if (width == 0) {
+            width = strcmp(cell[0], "function") == 0 ? i : -1;
+            for (i = 1; i < width; i++)
+                if ((head[i] = column_of(cell[i])) == COLUMNS) problem("a column without a fault", cell[i]);
+            continue;
+        }
+        if (width < 0) continue; /* another kind of table */
+        f = function_of(cell[0]);
+        if (i != width) problem("a row that is not as long as its head", cell[0]);
+        else if (f == FUNCTIONS) problem("a row without a function", cell[0]);
+        else
+            for (i = 1; i < width; i++) {
+                char *other = strchr(cell[i], '/'); /* in float */
+                if (head[i] == COLUMNS) continue;
+                if (other) *other++ = '\0';
+                if (seen[f][head[i]]++) problem("a cell twice", cell[0]);
+                if (contents && !SPH_CHECK) continue;
+                ways = run_cell(&functions[f], &columns[head[i]], SPH_SINGLE && other ? other : cell[i]);
+                if ((ways > 0) != (strcmp(cell[i], "-") != 0)) {
+                    check_count(0);
+                    fprintf(stderr, "test_contract.c: failed: %s, %s: '%s', but the fault has %d ways\n", functions[f].name, columns[head[i]].name, cell[i],
+                            ways);
+                }
+            }
+    }
+    fclose(file);
+    for (f = 0; f < FUNCTIONS; f++)
+        for (i = 0; i < COLUMNS; i++)
+            if (!check_count(seen[f][i] == 1)) fprintf(stderr, "test_contract.c: failed: no cell for %s, %s\n", functions[f].name, columns[i].name);
+}
+
+/* Every public function of a header that takes arrays (points, lists, grids, orders), or says how large they must be, is in `functions`: SPH_FN at the start of a line. */
+static void test_complete(const char *path)
+{
+    static const char *const takes[] = {"sph_points ", "sph_list ", "sph_grid *", "sph_index *", "_workspace("};
+    FILE *const file = fopen(path, "r");
+    char text[4 * LINE], name[LINE], *from, *end;
+    size_t i;
+    int found = 0;
+    if (!file) {
+        problem("cannot read", path);
+        return;
+    }
+    while (fgets(text, LINE, file)) {
+        if (strncmp(text, "SPH_FN ", 7) != 0) continue;
+        while (!strchr(text, ')') && strlen(text) < 3 * LINE && fgets(text + strlen(text), LINE, file)) {}
+        end = strchr(text, '(');
+        if (!end) continue;
+        for (from = end; from > text && from[-1] != ' ' && from[-1] != '*'; from--) {}
+        snprintf(name, sizeof name, "%.*s", (int)(end - from), from);
+        if (strncmp(name, "sph_", 4) != 0 || strncmp(text, "SPH_FN sph_points ", 18) == 0) continue;
+        *strchr(end, ')') = '\0';
+        for (i = 0; i < sizeof takes / sizeof *takes && !strstr(from, takes[i]); i++) {}
+        if (i == sizeof takes / sizeof *takes) continue;
+        found++;
+        if (!check_count(function_of(name) < FUNCTIONS)) fprintf(stderr, "test_contract.c: failed: %s of %s is not in the contract\n", name, path);
+    }
+    fclose(file);
+    if (strcmp(path, "sph_kernels.h") != 0) CHECK(found > 0);
+}
+
+int main(void)
+{
+    static const int side[4] = {0, 24, 5, 3};
+    int dim;
+    signal(SIGSEGV, died);
+    signal(SIGFPE, died);
+    signal(SIGABRT, died);
+#if defined(SIGALRM)
+    signal(SIGALRM, died);
+#endif
+    WATCH(240); /* a function that never ends */
+    for (dim = 1; dim <= 3; dim++) grounds[dim] = ground_new(dim, side[dim]);
+    test_complete("sph_kernels.h");
+    test_complete("sph_ops.h");
+    test_complete("sph.h");
+    test_tables("tests/CONTRACT.md");
+    for (dim = 1; dim <= 3; dim++) ground_free(&grounds[dim]);
+    return check_report(SPH_CHECK ? "test_contract" : "test_contract_unchecked");
+}
