@@ -771,8 +771,7 @@ SPH_FN sph_real sph_moment_weight_gradient(sph_kernel k, int dim, sph_real r, sp
    smallest pivot in [0, 1]. */
 SPH_FN int sph_solve_gradient(int dim, sph_sym K, sph_sym *inverse, sph_real *conditioning)
 {
-    sph_sym m;
-    sph_real a, b, c, det, least;
+    sph_real a, b, c, p, q, l, n, s, t;
     if (dim < 3) K.zz = SPH_R(1), K.xz = K.yz = SPH_R(0);
     if (dim < 2) K.yy = SPH_R(1), K.xy = SPH_R(0);
     if (!(K.xx > SPH_R(0)) || !(K.yy > SPH_R(0)) || !(K.zz > SPH_R(0))) return SPH_SINGULAR;
@@ -782,22 +781,23 @@ SPH_FN int sph_solve_gradient(int dim, sph_sym K, sph_sym *inverse, sph_real *co
     K.xy *= a * b;
     K.xz *= a * c;
     K.yz *= b * c;
-    least = SPH_R(1) - K.xy * K.xy; /* pivots: 1, least, det / least */
-    m.xx = SPH_R(1) - K.yz * K.yz;
-    m.xy = K.xz * K.yz - K.xy;
-    m.xz = K.xy * K.yz - K.xz;
-    det = m.xx + K.xy * m.xy + K.xz * m.xz;
-    if (!(least > SPHI_PIVOT_MIN) || !(det > SPHI_PIVOT_MIN * least)) return SPH_SINGULAR;
-    m.yy = SPH_R(1) - K.xz * K.xz;
-    m.yz = K.xy * K.xz - K.yz;
-    m.zz = least;
-    inverse->xx = m.xx * a * a / det;
-    inverse->xy = m.xy * a * b / det;
-    inverse->xz = m.xz * a * c / det;
-    inverse->yy = m.yy * b * b / det;
-    inverse->yz = m.yz * b * c / det;
-    inverse->zz = m.zz * c * c / det;
-    if (conditioning) *conditioning = det / least < least ? det / least : least;
+    /* By K = L D L^T, D = (1, p, q): cofactors over the determinant would lose twice as many digits where K is nearly singular. */
+    p = SPH_R(1) - K.xy * K.xy;
+    if (!(p > SPHI_PIVOT_MIN)) return SPH_SINGULAR;
+    s = SPH_R(1) / p;
+    t = K.yz - K.xy * K.xz;
+    l = t * s;
+    q = SPH_R(1) - K.xz * K.xz - t * l;
+    if (!(q > SPHI_PIVOT_MIN)) return SPH_SINGULAR;
+    t = SPH_R(1) / q;
+    n = K.xy * l - K.xz; /* L^-1 has the rows 1, 0, 0; -xy, 1, 0; n, -l, 1 */
+    inverse->xx = (SPH_R(1) + K.xy * K.xy * s + n * n * t) * a * a;
+    inverse->xy = -(K.xy * s + n * l * t) * a * b;
+    inverse->xz = n * t * a * c;
+    inverse->yy = (s + l * l * t) * b * b;
+    inverse->yz = -l * t * b * c;
+    inverse->zz = t * c * c;
+    if (conditioning) *conditioning = q < p ? q : p;
     return SPH_OK;
 }
 
