@@ -39,6 +39,10 @@ for source in examples/*.c; do
     check "$name: a picture of at most 40 KB" test "$(wc -c < "examples/gallery/$name.png")" -le 40960
 done
 
+for name in $(grep -o 'sph_[a-z0-9_]*' examples/README.md | sort -u); do
+    check "examples/README.md names $name" grep -q -w -e "$name" sph_kernels.h sph_ops.h sph.h
+done
+
 # no heap and no stdio where there is no host: what embedded_loop asks of the system is arithmetic
 if command -v nm > /dev/null 2>&1; then
     check "embedded_loop, freestanding" $CC -std=c99 -ffreestanding -O2 -I. -c -o "$scratch/embedded_loop.o" examples/embedded_loop.c
