@@ -3929,7 +3929,8 @@ SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_index firs
         for (p = list.start[i]; p < list.start[i + 1]; p++) {
             const sph_index j = list.index[p];
             const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
-            sum += sphi_at(gas.m, j) * sph_dot(dim, sph_subtract(dim, A_i, sphi_vector_at(dim, A, j)), x_ij) * sph_kernel_f(k, dim, sph_length(dim, x_ij), h_i);
+            const sph_vec A_ij = sph_subtract(dim, A_i, sphi_vector_at(dim, A, j)); /* by itself: tcc 0.9.27 loses a float product with a call of a call of a struct */
+            sum += sphi_at(gas.m, j) * sph_dot(dim, A_ij, x_ij) * sph_kernel_f(k, dim, sph_length(dim, x_ij), h_i);
         }
         failed += sphi_store_finite(out, i, -sum / (sphi_at(gas.omega, i) * sphi_at(gas.rho, i)));
     }
