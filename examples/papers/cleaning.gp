@@ -245,21 +245,22 @@ if (there("cleaning_collapse_fig5")) {
     set datafile separator ","
     history = dir."cleaning_collapse_fig5.csv"
     clouds = system(sprintf("tail -n +2 '%s' | cut -d, -f1 | sort -u -n", history))
-    array outcome[2] = ["control", "cleaned"]
+    array outcome[3] = ["control", "cleaned", "cleaned_end"]
     do for [cloud in clouds] {
         columns(k) = sprintf("cleaning_collapse_fig4_%s_%s", cloud, outcome[k])
         if (there(columns(1)) && there(columns(2))) {
             do for [q = 1:2] {
                 set output dir.sprintf("cleaning_collapse_%s_%s.png", q == 1 ? "fig4" : "jet", cloud)
-                set terminal pngcairo size 1300,1200 font "sans,12"
-                set multiplot layout 2,2 title (q == 1 ? "Figure 4: column density along y, log_{10} g/cm^2, " : "Mean velocity along the axis, km/s, ").cloud." particles in the sphere"
+                panels = there(columns(3)) ? 3 : 2
+                set terminal pngcairo size (650 * panels),1200 font "sans,12"
+                set multiplot layout 2,panels title (q == 1 ? "Figure 4: column density along y, log_{10} g/cm^2, " : "Mean velocity along the axis, km/s, ").cloud." particles in the sphere"
                 unset key
                 set size ratio 1
                 if (q == 1) { set palette defined (0 "#000000", 1 "#3b0f70", 2 "#b73779", 3 "#fc8961", 4 "#fcfdbf") } else { set palette defined (-1 "#0072b2", 0 "#ffffff", 1 "#d55e00") }
                 do for [w = 0:1] {
-                    do for [k = 1:2] {
+                    do for [k = 1:panels] {
                         file = dir.columns(k).".csv"
-                        set title sprintf("%s, t = %.4f t_{ff}", outcome[k], system(sprintf("sed -n 2p '%s' | cut -d, -f2", file)) + 0)
+                        set title sprintf("%s, t = %.4f t_{ff}", k == 1 ? "control" : "cleaned", system(sprintf("sed -n 2p '%s' | cut -d, -f2", file)) + 0)
                         set xlabel "x [10^{16} cm]"
                         set ylabel "z [10^{16} cm]"
                         half = w == 0 ? 0.25 : 5
