@@ -984,7 +984,14 @@ static int spoil_at_1e30(const function *f, world *w, int v)
         for (c = PX; c <= QZ; c++) real_of(w, c)[i] += SPH_R(1e30);
     return moved(f, w);
 }
-static int spoil_1e30(const function *f, world *w, int v) { return v > 0 ? END : scale(f, w, 1e30, 1e30); }
+static int spoil_1e30(const function *f, world *w, int v) /* and farther apart than there are numbers */
+{
+    sph_index i;
+    int c;
+    for (i = 0; v == 1 && i < w->n; i++)
+        for (c = PX; c <= QZ; c++) real_of(w, c)[i] = SPH_R((i % 2 ? 0.7 : -0.7) * LIMIT / 1e30);
+    return v > 1 ? END : scale(f, w, 1e30, 1e30);
+}
 static int spoil_1e_30(const function *f, world *w, int v) { return v > 0 ? END : scale(f, w, 1e-30, 1e-30); }
 static int spoil_denormal_x(const function *f, world *w, int v)
 {
