@@ -962,7 +962,7 @@ static void test_radii(void)
 static void test_box_errors(void)
 {
     enum { N = 20 };
-    static const sph_real wrong[] = {SPH_R(-1), SPH_R(NAN), SPH_R(INFINITY), SPH_R(-INFINITY), SPH_R(0.5)};
+    const sph_real wrong[] = {SPH_R(-1), SPH_R(NAN), SPH_R(INFINITY), SPH_R(-INFINITY), SPH_R(0.5)};
     int dim, axis;
     size_t w;
     pcg32 random;
