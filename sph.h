@@ -74,11 +74,13 @@
 #if SPH_AVX512 || SPH_AVX2
 #  include <immintrin.h>
 #endif
-/* Functions too large to be inlined at every call. */
+/* Functions too large to be inlined at every call. Without optimisation nothing is inlined, but gcc keeps what is static, not inline and never called. */
 #if defined(__CUDACC__)
 #  define SPHI_LARGE static __host__ __device__ __noinline__
-#elif defined(__GNUC__) || defined(__clang__)
+#elif (defined(__GNUC__) || defined(__clang__)) && defined(__OPTIMIZE__)
 #  define SPHI_LARGE static __attribute__((unused, noinline))
+#elif defined(__GNUC__) || defined(__clang__)
+#  define SPHI_LARGE static inline __attribute__((unused))
 #else
 #  define SPHI_LARGE static
 #endif
