@@ -47,7 +47,10 @@ static void fill(flow *f, int n)
                 const int inside = row >= 0 && row < n && column >= 0 && column < n;
                 const double x = (column + 0.5) * f->dref, y = (row + 0.5) * f->dref, m = f->state[0].rho0 * f->dref * f->dref;
                 if (!ghosts && inside) flow_add(f, x, y, 0, m);
-                if (ghosts && !inside) f->vx[flow_add_ghost(f, x, y, 0, m)] = row >= n;
+                if (ghosts && !inside) {
+                    const int i = flow_add_ghost(f, x, y, 0, m); /* which may move the arrays */
+                    f->vx[i] = row >= n;
+                }
             }
 }
 
