@@ -28,7 +28,7 @@ TESTS_OPTIONAL = gsl
 TESTS = $(filter-out $(TESTS_DOUBLE) $(TESTS_OPTIONAL),$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))
 TESTS_FLOAT = $(TESTS)
 TEST_PROGRAMS = $(TESTS:%=$(BUILD)/tests/%) $(TESTS_FLOAT:%=$(BUILD)/tests/%-float) $(TESTS_DOUBLE:%=$(BUILD)/tests/%)
-TEST_SCRIPTS = tests/index.sh tests/readme.sh tests/compile/strict.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/single.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
+TEST_SCRIPTS = tests/index.sh tests/readme.sh tests/compile/matrix.sh tests/compile/names.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/single.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
 
 help:
 	@echo "make reproduce        run the papers' benchmarks, published beside measured values, and print a scoreboard"
@@ -37,6 +37,7 @@ help:
 	@echo "make test             the tests; the last line is 'N passed, N failed'"
 	@echo "make test-sanitize    the tests under the address and undefined-behaviour sanitizers"
 	@echo "make check-hosts      C++, Fortran, Python, WebAssembly, OpenCL, CUDA: the hosts whose tools are installed"
+	@echo "make check-matrix     the headers with every compiler that is installed: standards, levels, precisions, warnings as errors"
 	@echo "make check-embedded   the self-check on microcontrollers and other processors, in emulators; code size and memory"
 	@echo "make bench            time the search and the operators, as ratios to the machine's limits"
 	@echo "make docs             the headers' comments as pages (needs doxygen)"
@@ -126,6 +127,8 @@ docs:
 check-hosts:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/hosts/run.sh
 
+check-matrix:
+	@BUILD="$(BUILD)" JOBS="$(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS)))" sh tests/compile/matrix.sh full
 check-embedded:
 	@BUILD="$(BUILD)" sh tests/embedded/embedded.sh
 

@@ -129,16 +129,17 @@ enum {
     TANK = 3 * COLUMN,
     WALL = 2,
     HEIGHT = 2 * COLUMN + 1,
-    MOST = WATER + WALL * (TANK + 2 * WALL) + 2 * WALL * HEIGHT
+    MOST = WATER + WALL * (TANK + 2 * WALL) + 2 * WALL * HEIGHT,
+    ENTRIES = 17 * MOST,
+    WORK = (MOST + 18) * (2 * (int)sizeof(sph_real) + 3 * (int)sizeof(sph_index)) /* sph_grid_workspace, as a constant */
 };
-enum { NEIGHBOURS = 17, WORK = (MOST + 18) * (2 * sizeof(sph_real) + 3 * sizeof(sph_index)) };
 #define KERNEL SPH_WENDLAND_C2
 #define SPACING (SPH_R(1) / SPH_R(COLUMN))
 
 static sph_real x[MOST], y[MOST], vx[MOST], vy[MOST], rho[MOST], p[MOST], ax[MOST], ay[MOST], field[MOST];
 #define divergence field /* one array for both */
-static sph_index start[MOST + 1], list_index[MOST * NEIGHBOURS];
-static sph_real work[WORK / sizeof(sph_real) + 1];
+static sph_index start[MOST + 1], list_index[ENTRIES];
+static sph_real work[WORK / (int)sizeof(sph_real) + 1];
 static int n;
 static const sph_real length = SPH_R(1.3) * SPACING; /* smoothing length */
 
@@ -150,7 +151,7 @@ static int search(sph_points points)
     sph_grid grid;
     int64_t pairs = 0;
     return sph_grid_workspace(2, n) <= sizeof work && sph_grid_build(2, points, radius, work, sizeof work, &grid) == 0 &&
-           sph_grid_lists(2, &grid, points, SPH_GATHER, R, R, SPH_LIST_SORTED, start, list_index, MOST * NEIGHBOURS, &pairs) == 0;
+           sph_grid_lists(2, &grid, points, SPH_GATHER, R, R, SPH_LIST_SORTED, start, list_index, ENTRIES, &pairs) == 0;
 }
 
 /* a number in [0, 1), for positions off the lattice: Knuth's multiplicative hash */
