@@ -158,4 +158,4 @@ dist:
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures gallery test test-sanitize check-hosts check-embedded version install uninstall dist check-packages docs bench clean
+.PHONY: help reproduce reproduce-full figures gallery test test-sanitize check-matrix check-hosts check-embedded version install uninstall dist check-packages docs bench clean
