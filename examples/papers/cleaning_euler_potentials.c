@@ -203,11 +203,11 @@ int main(int argc, char **argv)
     const option_spec specs[] = {
         {"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
         {"figures", "folder of the figures' data", OPTION_TEXT, &figures, 0, 0},
-        {"full", "48 layers, too", OPTION_FLAG, &full, 0, 0},
+        {"full", "36 layers, too", OPTION_FLAG, &full, 0, 0},
         {"quiet", "no line of progress", OPTION_FLAG, &quiet, 0, 0},
     };
     enum { SIZES = 4 };
-    static const int layers[SIZES] = {16, 24, 32, 48};
+    static const int layers[SIZES] = {16, 24, 32, 36};
     static report r;
     match o[WAYS][SAMPLES + 1];
     double half[SIZES];
