@@ -625,6 +625,7 @@ typedef struct collapse_file {
     FILE *f;
     int reads;
     uint64_t hash;
+    long length; /* of the whole file that is read: no part of it asks for more memory */
 } collapse_file;
 static inline int collapse_transfer(collapse_file *file, void *p, size_t size)
 {
@@ -646,7 +647,7 @@ static inline int collapse_transfer_all(collapse_file *file, collapse *g, void *
     if (!collapse_transfer(file, &model, sizeof model) || memcmp(&model, &g->model, sizeof model) != 0)
         return !collapse_trouble(g, "it belongs to a run with other parameters");
     collapse_trouble(g, "it is cut short or damaged");
-    if (!collapse_transfer(file, &size, sizeof size) || size > SIZE_MAX / 2) return 0;
+    if (!collapse_transfer(file, &size, sizeof size) || (file->reads && size > (uint64_t)file->length)) return 0;
     if (!collapse_transfer(file, &g->s, sizeof g->s) || g->s.n < 1 || g->s.n > g->room) return 0;
     for (k = 0; k < ARRAYS; k++)
         if (!collapse_transfer(file, g->a[k], (size_t)g->s.n * sizeof(double))) return 0;
@@ -666,7 +667,7 @@ static inline int collapse_transfer_all(collapse_file *file, collapse *g, void *
 static inline int collapse_save(collapse *g, const char *dir, const char *name, void *more, size_t more_size)
 {
     part_file to;
-    collapse_file file = {NULL, 0, 14695981039346656037u};
+    collapse_file file = {NULL, 0, 14695981039346656037u, 0};
     if (!part_file_open(&to, dir, name, "restart")) return !collapse_trouble(g, "cannot write %.60s/%.60s.restart: %s", dir, name, strerror(errno));
     file.f = to.to;
     if (!collapse_transfer_all(&file, g, &more, &more_size)) {
@@ -679,12 +680,14 @@ static inline int collapse_save(collapse *g, const char *dir, const char *name, 
 static inline int collapse_load(collapse *g, const char *dir, const char *name, void **more, size_t *more_size)
 {
     char path[PART_FILE_PATH];
-    collapse_file file = {NULL, 1, 14695981039346656037u};
+    collapse_file file = {NULL, 1, 14695981039346656037u, 0};
     int good;
     *more = NULL;
     *more_size = 0;
     if (snprintf(path, sizeof path, "%s/%s.restart", dir, name) >= (int)sizeof path || !(file.f = fopen(path, "rb"))) return 0;
-    good = collapse_transfer_all(&file, g, more, more_size);
+    good = fseek(file.f, 0, SEEK_END) == 0 && (file.length = ftell(file.f)) >= 0 && fseek(file.f, 0, SEEK_SET) == 0;
+    if (!good) collapse_trouble(g, "it cannot be read");
+    good = good && collapse_transfer_all(&file, g, more, more_size);
     fclose(file.f);
     return good ? 1 : -1;
 }
