@@ -125,7 +125,7 @@ docs:
 	else mkdir -p $(BUILD) && (cat Doxyfile; echo "OUTPUT_DIRECTORY = $(BUILD)/docs") | doxygen - && echo "$(BUILD)/docs/html/index.html"; fi
 
 check-hosts:
-	@CC="$(CC)" BUILD="$(BUILD)" sh tests/hosts/run.sh
+	@CC="$(CC)" BUILD="$(BUILD)" sh tests/hosts/hosts.sh
 
 check-matrix:
 	@BUILD="$(BUILD)" JOBS="$(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS)))" sh tests/compile/matrix.sh full
