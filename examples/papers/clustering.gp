@@ -255,7 +255,7 @@ if (there("clustering_cavity")) {
     set ylabel "v"
     plot for [k = 1:2] dir."clustering_cavity.csv" using (strcol(1) eq cavity[k] && strcol(2) eq "v" ? $3 : NaN):4 every ::1 with lines linewidth 2 dashtype k linecolor rgb color[k] title (k == 1 ? "32 x 32" : "32 x 32, cleaned"), \
         "" using (strcol(1) eq "ghia" && strcol(2) eq "v" ? $3 : NaN):4 every ::1 with points pointtype 6 pointsize 1.3 linecolor rgb color[3] title "Ghia, Ghia & Shin 1982" noenhanced
-    set title "Particles by speed at t = 15, cleaned"
+    set title "Particles by speed at t = 12, cleaned"
     unset key
     unset xlabel
     unset ylabel

@@ -5,7 +5,7 @@
  *     cc -O2 -o clustering_cavity examples/papers/clustering_cavity.c -lm
  *     clustering_cavity -out DIR -figures DIR [-full]       (-h for help)
  *
- * Unit square, lid at y = 1 moving at speed 1, nu = 1/100, from rest to t = 15; rho0 = 1, c = 10, Wendland C2 of two dimensions, h = 1.5 dx, square lattice of N x N (32; -full: 64 and 128, too), particles in the
+ * Unit square, lid at y = 1 moving at speed 1, nu = 1/100, from rest to t = 12; rho0 = 1, c = 10, Wendland C2 of two dimensions, h = 1.5 dx, square lattice of N x N (32; -full: 64 and 128, too), particles in the
  * middle of cells. Viscosity of Morris, walls of Adami's ghosts (those above the lid move with it, corners included), (5.23), (5.24). No artificial viscosity, no shifting, no filter.
  * p0 = 0: no void opens in the vortex at this Reynolds number (the void is measured). A background pressure does harm instead: what it does is shown with -full.
  * Cleaning: ch = c, sigma = 0.3; the same steps for all, dt = 0.25 h / (1 + sqrt(c^2 + ch^2)).
@@ -74,7 +74,7 @@ static cavity simulate(const clustering_options *c, int columns, int cleans, dou
 {
     enum { SAMPLES = 150 };
     const flow_domain all = {0, 1, 0, 1};
-    const double dx = 1.0 / columns, speed_of_sound = 10, end = 15;
+    const double dx = 1.0 / columns, speed_of_sound = 10, end = 12;
     double first_energy;
     cavity o;
     viscous w;
