@@ -17,6 +17,8 @@
  *   All strides count sph_real. Sources are the particles 0 ... n - 1, targets are the first ... last - 1 of them; ghost, boundary and halo particles are
  *   sources that are not targets, probes (points where a field is wanted) are targets with the volume 0.
  *   Lists must hold every source with r < support * h_i (more do no harm) and not the particle itself. h is the target's: h_i.
+ *   Far from the origin positions share their leading digits, and pair vectors lose them: errors grow from eps to eps |x| / spacing (float at 1000 spacings: 6e-5). Only differences of positions are
+ *   ever used, so a host in float passes them relative to a near point: of each patch or cell of its own, of a box its middle (a periodic box needs no wrapping).
  *   V is the volume of a particle (m / rho; an area in 2D, a length in 1D). Outputs must not overlap inputs.
  *   Nothing here allocates memory; nothing is remembered between calls.
  *
