@@ -7,13 +7,14 @@
  *     CHECK_RELATIVE(a, b, tolerance)    |a - b| <= tolerance * |b|
  *     return check_report("test_name");  from main
  *
- * A NaN fails.  One translation unit per test program: the counts are static.
+ * With -DCHECK_STOP the first that fails ends the program. A NaN fails.  One translation unit per test program: the counts are static.
  */
 #ifndef CHECK_H
 #define CHECK_H
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 static int check_passed, check_failed;
 
@@ -23,6 +24,9 @@ static inline int check_count(int holds)
         ++check_passed;
     else
         ++check_failed;
+#ifdef CHECK_STOP
+    if (!holds) exit(1);
+#endif
     return holds;
 }
 
