@@ -337,42 +337,6 @@ static void test_acceleration(void)
     gas_free(&g);
 }
 
-static void test_bad_input(void)
-{
-    gas g = patch(7, 0);
-    const sph_points x = cloud_points(&g.c);
-    const sph_list list = cloud_list(&g.c);
-    const sph_scalars w = sph_scalars_array(g.w);
-    sph_vector_out dv;
-    sph_real before = g.v[0][4];
-    dv.x = g.dv[0];
-    dv.y = g.dv[1];
-    dv.z = g.dv[2];
-#define ALL(dim, first, last, w, distance, restitution, answer) \
-    CHECK(sph_collide_sequential(dim, first, last, x, list, distance, w, restitution, g.v[0], g.v[1], g.v[2], 1, 0) == (answer)); \
-    CHECK(sph_collision_change_weighted(dim, first, last, x, list, distance, w, restitution, gas_v(&g), g.count, dv) == (answer));
-    ALL(0, 0, g.c.n, w, g.distance, SPH_R(1), SPH_ERROR_DIM)
-    ALL(2, 0, g.c.n + 1, w, g.distance, SPH_R(1), SPH_ERROR_RANGE)
-    ALL(2, 0, g.c.n, w, SPH_R(0), SPH_R(1), SPH_ERROR_H)
-    ALL(2, 0, g.c.n, w, SPH_R(NAN), SPH_R(1), SPH_ERROR_H)
-    ALL(2, 0, g.c.n, w, g.distance, SPH_R(-1), SPH_ERROR_VALUE)
-    ALL(2, 0, g.c.n, sph_scalars_array(0), g.distance, SPH_R(1), SPH_ERROR_NULL)
-    if (SPH_CHECK) {
-        g.w[2] = SPH_R(-1);
-        ALL(2, 0, g.c.n, w, g.distance, SPH_R(1), SPH_ERROR_VALUE)
-        g.w[2] = SPH_R(1);
-        g.v[1][5] = SPH_R(NAN);
-        ALL(2, 0, g.c.n, w, g.distance, SPH_R(1), SPH_ERROR_VALUE)
-        g.v[1][5] = SPH_R(1);
-    }
-    CHECK(sph_collide_sequential(2, 0, g.c.n, x, list, g.distance, w, SPH_R(1), g.v[0], 0, 0, 1, 0) == SPH_ERROR_NULL);
-    CHECK(sph_collide_sequential(2, 0, g.c.n, x, list, g.distance, w, SPH_R(1), g.v[0], g.v[1], 0, 0, 0) == SPH_ERROR_COUNT);
-    CHECK(sph_collision_change_weighted(2, 0, g.c.n, x, list, g.distance, w, SPH_R(1), gas_v(&g), 0, dv) == SPH_ERROR_NULL);
-    CHECK(sph_collision_count(2, 0, g.c.n, x, list, g.distance, w, gas_v(&g), 0) == SPH_ERROR_NULL);
-    CHECK(g.v[0][4] == before);
-    gas_free(&g);
-}
-
 int main(void)
 {
     test_pair();
@@ -381,6 +345,5 @@ int main(void)
     test_lists();
     test_coincident();
     test_acceleration();
-    test_bad_input();
     return check_report("test_collisions");
 }

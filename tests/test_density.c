@@ -436,114 +436,6 @@ static void test_masses(void)
     gas_free(&g);
 }
 
-/* ---- bad input: the answer, and nothing written ---- */
-
-static gas bad;
-static sph_real kept[3][64];
-static unsigned char kept_status[64];
-static void arm(void)
-{
-    sph_index i;
-    for (i = 0; i < bad.n; i++) {
-        bad.rho[i] = SPH_R(123 + i);
-        bad.omega[i] = SPH_R(321 + i);
-        bad.status[i] = MARK;
-    }
-    memcpy(kept[0], bad.h, (size_t)bad.n * sizeof(sph_real));
-    memcpy(kept[1], bad.rho, (size_t)bad.n * sizeof(sph_real));
-    memcpy(kept[2], bad.omega, (size_t)bad.n * sizeof(sph_real));
-    memcpy(kept_status, bad.status, (size_t)bad.n);
-}
-static int untouched(void)
-{
-    return memcmp(kept[0], bad.h, (size_t)bad.n * sizeof(sph_real)) == 0 && memcmp(kept[1], bad.rho, (size_t)bad.n * sizeof(sph_real)) == 0 &&
-           memcmp(kept[2], bad.omega, (size_t)bad.n * sizeof(sph_real)) == 0 && memcmp(kept_status, bad.status, (size_t)bad.n) == 0;
-}
-#define ANSWERS(expected, k, dim, first, last, points, list, reach, m, eta, tolerance, h, rho) \
-    do { \
-        arm(); \
-        CHECK(sph_density_adaptive(k, dim, first, last, points, list, reach, m, eta, tolerance, h, rho, bad.omega, bad.status) == (expected)); \
-        CHECK(untouched()); \
-    } while (0)
-
-static void test_bad_input(void)
-{
-    const sph_kernel k = SPH_WENDLAND_C2;
-    const sph_real eta = SPH_R(1.3), tol = SPH_R(1e-3), infinite = SPH_R(HUGE_VAL), nan = SPH_R(HUGE_VAL) - SPH_R(HUGE_VAL),
-                   wrong[4] = {SPH_R(0), SPH_R(-1), infinite, nan};
-    sph_points x;
-    sph_list l, none;
-    sph_scalars reach, m, null;
-    sph_index i, saved;
-    int c;
-    bad = lattice(2, 8, 0.1, 41);
-    for (i = 0; i < bad.n; i++) {
-        bad.h[i] = SPH_R(0.15);
-        bad.reach[i] = SPH_R(0.45);
-    }
-    gas_lists(&bad);
-    x = gas_points(&bad);
-    l = gas_list(&bad);
-    none.start = none.index = 0;
-    reach = sph_scalars_array(bad.reach);
-    m = sph_scalars_array(bad.m);
-    null = sph_scalars_array(0);
-    ANSWERS(SPH_ERROR_DIM, k, 0, 0, x.n, x, l, reach, m, eta, tol, bad.h, bad.rho);
-    ANSWERS(SPH_ERROR_DIM, k, 4, 0, x.n, x, l, reach, m, eta, tol, bad.h, bad.rho);
-    ANSWERS(SPH_ERROR_KERNEL, SPH_KERNEL_COUNT, 2, 0, x.n, x, l, reach, m, eta, tol, bad.h, bad.rho);
-    ANSWERS(SPH_ERROR_NULL, k, 2, 0, x.n, sph_points_separate(x.n, 0, x.y, x.z), l, reach, m, eta, tol, bad.h, bad.rho);
-    ANSWERS(SPH_ERROR_NULL, k, 2, 0, x.n, x, none, reach, m, eta, tol, bad.h, bad.rho);
-    ANSWERS(SPH_ERROR_NULL, k, 2, 0, x.n, x, l, null, m, eta, tol, bad.h, bad.rho);
-    ANSWERS(SPH_ERROR_NULL, k, 2, 0, x.n, x, l, reach, null, eta, tol, bad.h, bad.rho);
-    ANSWERS(SPH_ERROR_NULL, k, 2, 0, x.n, x, l, reach, m, eta, tol, 0, bad.rho);
-    ANSWERS(SPH_ERROR_NULL, k, 2, 0, x.n, x, l, reach, m, eta, tol, bad.h, 0);
-    ANSWERS(SPH_ERROR_COUNT, k, 2, 0, 0, sph_points_separate(0, x.x, x.y, x.z), l, reach, m, eta, tol, bad.h, bad.rho);
-    ANSWERS(SPH_ERROR_RANGE, k, 2, -1, x.n, x, l, reach, m, eta, tol, bad.h, bad.rho);
-    ANSWERS(SPH_ERROR_RANGE, k, 2, 3, 2, x, l, reach, m, eta, tol, bad.h, bad.rho);
-    ANSWERS(SPH_ERROR_RANGE, k, 2, 0, x.n + 1, x, l, reach, m, eta, tol, bad.h, bad.rho);
-    for (c = 0; c < 4; c++) {
-        const sph_real h = bad.h[5], r = bad.reach[5];
-        ANSWERS(SPH_ERROR_VALUE, k, 2, 0, x.n, x, l, reach, m, wrong[c], tol, bad.h, bad.rho);
-        if (c > 0) ANSWERS(SPH_ERROR_VALUE, k, 2, 0, x.n, x, l, reach, m, eta, wrong[c], bad.h, bad.rho);
-        bad.h[5] = wrong[c];
-        ANSWERS(SPH_ERROR_H, k, 2, 0, x.n, x, l, reach, m, eta, tol, bad.h, bad.rho);
-        bad.h[5] = h;
-        bad.reach[5] = wrong[c];
-        ANSWERS(SPH_ERROR_H, k, 2, 0, x.n, x, l, reach, m, eta, tol, bad.h, bad.rho);
-        bad.reach[5] = r;
-    }
-    ANSWERS(SPH_ERROR_VALUE, k, 2, 0, x.n, x, l, reach, m, eta, SPH_R(1), bad.h, bad.rho);
-    bad.h[5] = nan; /* not of this range: nobody's business, another thread may be writing it */
-    CHECK(sph_density_adaptive(k, 2, 0, 5, x, l, reach, m, eta, tol, bad.h, bad.rho, bad.omega, bad.status) == 0);
-    CHECK(bad.status[5] == MARK && bad.status[4] == SPH_OK);
-    bad.h[5] = SPH_R(0.15);
-    for (c = 2; c < 4; c++) {
-        const sph_real kept_x = bad.x[1][7], kept_m = bad.m[7];
-        bad.x[1][7] = wrong[c];
-        ANSWERS(SPH_ERROR_POSITION, k, 2, 0, x.n, x, l, reach, m, eta, tol, bad.h, bad.rho);
-        bad.x[1][7] = kept_x;
-        bad.m[7] = wrong[c];
-        ANSWERS(SPH_ERROR_VALUE, k, 2, 0, x.n, x, l, reach, m, eta, tol, bad.h, bad.rho);
-        bad.m[7] = kept_m;
-    }
-    saved = bad.index[3];
-    bad.index[3] = x.n;
-    ANSWERS(SPH_ERROR_LIST, k, 2, 0, x.n, x, l, reach, m, eta, tol, bad.h, bad.rho);
-    bad.index[3] = 0;
-    ANSWERS(SPH_ERROR_SELF, k, 2, 0, x.n, x, l, reach, m, eta, tol, bad.h, bad.rho);
-    bad.index[3] = saved;
-    ANSWERS(SPH_ERROR_BOX, k, 2, 0, x.n, sph_points_periodic(x, SPH_R(1), SPH_R(0.8), 0), l, reach, m, eta, tol, bad.h, bad.rho);
-    ANSWERS(SPH_ERROR_BOX, k, 2, 0, x.n, sph_points_periodic(x, SPH_R(-1), SPH_R(1), 0), l, reach, m, eta, tol, bad.h, bad.rho);
-    /* the sum alone */
-    arm();
-    CHECK(sph_density_summation(k, 2, 0, x.n, x, l, sph_scalars_array(bad.h), m, 0) == SPH_ERROR_NULL);
-    CHECK(sph_density_summation(k, 2, 0, x.n, x, l, sph_scalars_array(bad.h), null, bad.rho) == SPH_ERROR_NULL);
-    CHECK(sph_density_summation(k, 4, 0, x.n, x, l, sph_scalars_array(bad.h), m, bad.rho) == SPH_ERROR_DIM);
-    CHECK(untouched());
-    CHECK(strcmp(sph_status_text(SPH_LIST_TOO_SHORT), sph_status_text(SPH_LIST_TOO_SHORT + 1)) != 0);
-    gas_free(&bad);
-}
-
 int main(void)
 {
     const double r = BY_PRECISION(0.0, 1e-5);
@@ -566,6 +458,6 @@ int main(void)
     test_two();
     test_too_short();
     test_masses();
-    test_bad_input();
+    CHECK(strcmp(sph_status_text(SPH_LIST_TOO_SHORT), sph_status_text(SPH_LIST_TOO_SHORT + 1)) != 0);
     return check_report("test_density");
 }

@@ -1004,102 +1004,6 @@ static void test_assembly(void)
     setup_free(&s);
 }
 
-/* ---- bad input: an error, and nothing written ---- */
-
-static void test_bad_input(void)
-{
-    setup s = disordered(2, 1);
-    const sph_index n = s.c.n;
-    const sph_list list = cloud_list(&s.c);
-    const sph_scalars V = cloud_V(&s.c), m = sph_scalars_array(s.m), f = cloud_f(&s.c), none = sph_scalars_array(0), h = setup_h(&s);
-    const sph_row_out out = setup_rows(&s);
-    sph_elliptic_options o = with(0);
-    sph_diagonal D;
-    sph_elliptic_report r;
-    sph_real dt = SPH_R(-3), value = SPH_R(NAN);
-    sph_vec wave = {SPH_R(1), SPH_R(1), SPH_R(0)};
-    sph_index i, p;
-    int touched = 0;
-    memset(&r, 0, sizeof r);
-    cloud_set(&s.c, field_smooth);
-    D.x = D.y = D.z = m;
-    for (i = 0; i < n; i++) s.out[i] = s.diagonal[i] = SPH_R(-3);
-    for (p = 0; p < s.c.pairs; p++) s.row[p] = SPH_R(-3);
-#define ALL(dim, first, last, h, V, m, answer) \
-    CHECK(any_msph(dim, first, last, &s, h, V, m, o, f, none, s.out) == (answer)); \
-    CHECK(any_rows(dim, first, last, &s, h, V, m, o, out) == (answer)); \
-    CHECK(rows_boundary(dim, first, last, &s, h, V, m, o, D, m, m, out) == (answer));
-    ALL(0, 0, n, h, V, m, SPH_ERROR_DIM)
-    ALL(2, -1, n, h, V, m, SPH_ERROR_RANGE)
-    ALL(2, 0, n + 1, h, V, m, SPH_ERROR_RANGE)
-    ALL(2, 0, n, none, V, m, SPH_ERROR_NULL)
-    ALL(2, 0, n, h, none, m, SPH_ERROR_NULL)
-    ALL(2, 0, n, h, V, none, SPH_ERROR_NULL)
-    o.gradient = 4;
-    ALL(2, 0, n, h, V, m, SPH_ERROR_VALUE)
-    o = with(0);
-    o.mean = -1;
-    ALL(2, 0, n, h, V, m, SPH_ERROR_VALUE)
-    o.mean = SPH_MOBILITY_UPWIND; /* without a potential */
-    ALL(2, 0, n, h, V, m, SPH_ERROR_NULL)
-    o = with(0);
-    if (SPH_CHECK) {
-        s.m[7] = SPH_R(-1e-3);
-        ALL(2, 0, n, h, V, m, SPH_ERROR_VALUE)
-        CHECK(rows_anisotropic(2, 0, n, &s, D, out) == SPH_ERROR_VALUE);
-        s.m[7] = SPH_R(NAN);
-        ALL(2, 0, n, h, V, m, SPH_ERROR_VALUE)
-        CHECK(rows_diagonal(2, 0, n, &s, D, o, out) == SPH_ERROR_VALUE);
-        s.m[7] = SPH_R(1);
-        s.h[3] = SPH_R(0);
-        ALL(2, 0, n, h, V, m, SPH_ERROR_H)
-        CHECK(diagnose(0, n, &s, o, r) == SPH_ERROR_H);
-        s.h[3] = s.h[4];
-        s.c.x[3] = SPH_R(INFINITY);
-        ALL(2, 0, n, h, V, m, SPH_ERROR_POSITION)
-        s.c.x[3] = SPH_R(0.5);
-        CHECK(any_msph(2, 0, n, &s, h, V, m, o, f, sph_scalars_same(&value), s.out) == SPH_ERROR_VALUE);
-        CHECK(any_msph(2, 0, n, &s, h, V, m, o, sph_scalars_same(&value), none, s.out) == SPH_ERROR_VALUE);
-    }
-    CHECK(any_msph(2, 0, n, &s, h, V, m, o, f, none, 0) == SPH_ERROR_NULL);
-    CHECK(any_msph(2, 0, n, &s, h, V, m, o, none, none, s.out) == SPH_ERROR_NULL);
-    {
-        sph_row_out bad = out;
-        bad.row = 0;
-        CHECK(any_rows(2, 0, n, &s, h, V, m, o, bad) == SPH_ERROR_NULL);
-        CHECK(rows_anisotropic(2, 0, n, &s, D, bad) == SPH_ERROR_NULL);
-        bad = out;
-        bad.diagonal = 0;
-        CHECK(rows_boundary(2, 0, n, &s, h, V, m, o, D, m, m, bad) == SPH_ERROR_NULL);
-    }
-    CHECK(sph_rows_apply(0, n, n, list, 0, 0, f, s.out) == SPH_ERROR_NULL);
-    CHECK(sph_rows_apply(0, n + 1, n, list, s.row, 0, f, s.out) == SPH_ERROR_RANGE);
-    CHECK(sph_rows_apply(0, n, n, list, s.row, 0, f, 0) == SPH_ERROR_NULL);
-    CHECK(sph_rows_time_step(0, n, 0, list, s.row, &dt) == SPH_ERROR_COUNT);
-    CHECK(sph_rows_time_step(0, n, n, list, s.row, 0) == SPH_ERROR_NULL);
-    CHECK(sph_rows_monotone(0, n, n, list, s.row, 0, 0) == SPH_ERROR_NULL);
-    CHECK(sph_rows_growth(4, 0, s.x, list, s.row, SPH_R(1), wave, &dt, &dt) == SPH_ERROR_DIM);
-    CHECK(sph_rows_growth(2, n, s.x, list, s.row, SPH_R(1), wave, &dt, &dt) == SPH_ERROR_RANGE);
-    if (SPH_CHECK) {
-        sph_index *const index = s.c.index;
-        const sph_index kept = index[5];
-        index[5] = n;
-        CHECK(sph_rows_apply(0, n, n, list, s.row, 0, f, s.out) == SPH_ERROR_LIST);
-        CHECK(sph_rows_time_step(0, n, n, list, s.row, &dt) == SPH_ERROR_LIST);
-        index[5] = kept;
-        s.row[5] = SPH_R(NAN);
-        CHECK(sph_rows_apply(0, n, n, list, s.row, 0, f, s.out) == SPH_ERROR_VALUE);
-        s.row[5] = SPH_R(-3);
-    }
-    CHECK(sph_csr_size(0, 5, list) == s.c.start[5] + 5);
-    CHECK(sph_csr_size(5, 0, list) == 0);
-    CHECK(dt == SPH_R(-3));
-    for (i = 0; i < n; i++) touched |= s.out[i] != SPH_R(-3) || s.diagonal[i] != SPH_R(-3);
-    for (p = 0; p < s.c.pairs; p++) touched |= s.row[p] != SPH_R(-3);
-    CHECK(!touched);
-    setup_free(&s);
-}
-
 int main(void)
 {
     test_figures();
@@ -1117,6 +1021,5 @@ int main(void)
     test_eigenvalues();
     test_promises();
     test_assembly();
-    test_bad_input();
     return check_report("test_elliptic");
 }
