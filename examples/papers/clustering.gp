@@ -242,14 +242,14 @@ if (there("clustering_cavity")) {
     set output dir."clustering_cavity.png"
     set terminal pngcairo size 1700,600 font "sans,12"
     set multiplot layout 1,3
-    set key top left
+    set key bottom right
     set title "Lid-driven cavity, Re = 100: u on x = 1/2"
     set xlabel "u"
     set ylabel "y"
     array cavity[2] = ["plain 32", "cleaned 32"]
     plot for [k = 1:2] dir."clustering_cavity.csv" using (strcol(1) eq cavity[k] && strcol(2) eq "u" ? $4 : NaN):3 every ::1 with lines linewidth 2 dashtype k linecolor rgb color[k] title (k == 1 ? "32 x 32" : "32 x 32, cleaned"), \
         "" using (strcol(1) eq "ghia" && strcol(2) eq "u" ? $4 : NaN):3 every ::1 with points pointtype 6 pointsize 1.3 linecolor rgb color[3] title "Ghia, Ghia & Shin 1982" noenhanced
-    set key top right
+    set key bottom left
     set title "v on y = 1/2"
     set xlabel "x"
     set ylabel "v"
