@@ -1379,10 +1379,10 @@ SPH_FN int sphi_check_axis(sph_real length, sph_real largest, const SPH_GLOBAL s
     sph_index i;
     int outside = 0;
     if (!sphi_finite(length) || length < SPH_R(0)) return SPH_ERROR_BOX;
-    if (!SPH_CHECK || !(length > SPH_R(0))) return 0;
+    if (!(length > SPH_R(0))) return 0;
     if (!sphi_finite(SPH_R(1) / length)) return SPH_ERROR_BOX;                                         /* a denormal number */
     if (!(largest <= SPH_R(0.5) * length * (SPH_R(1) + SPH_R(4) * SPH_EPSILON))) return SPH_ERROR_BOX; /* a host may have computed h from half the box */
-    for (i = 0; i < n; i++) outside |= !(SPHI_ABS(x[(size_t)i * stride]) <= furthest);
+    for (i = 0; i < n && SPH_CHECK; i++) outside |= !(SPHI_ABS(x[(size_t)i * stride]) <= furthest);
     return outside ? SPH_ERROR_BOX : 0;
 }
 SPH_FN int sphi_check_box(int dim, sph_points x, sph_real largest)
