@@ -618,6 +618,8 @@ static void ground_guards(const ground *g, int on)
 
 /* ---------------------------------------------------------------- faults: the columns of the tables */
 
+static const double LIMIT = SPH_SINGLE ? (double)FLT_MAX : DBL_MAX, DENORMAL = SPH_SINGLE ? (double)FLT_MIN / 8.0 : DBL_MIN / 8.0;
+
 /* Each spoils w, whose arrays it may write to, in its way number v = 0, 1, ...: END past the last, NOT_THIS where that way is none for the function, else GO. */
 enum { END, NOT_THIS, GO };
 static char what[96];  /* the way, in words */
@@ -741,9 +743,9 @@ static int spoil_dim(const function *f, world *w, int v)
 }
 static int spoil_kernel(const function *f, world *w, int v)
 {
-    if (v > 1) return END;
-    w->k = v ? (int)SPH_KERNEL_COUNT : -1;
-    return f->has & KERNEL ? GO : NOT_THIS;
+    if (v > 2) return END;
+    w->k = v == 0 ? -1 : v == 1 ? (int)SPH_KERNEL_COUNT : (int)SPH_GAUSSIAN;
+    return f->has & KERNEL && (v < 2 || f->call == call_gravity_direct || f->call == call_gravity_zeta) ? GO : NOT_THIS;
 }
 static int spoil_numbers(const function *f, world *w, int v, int kind)
 {
@@ -771,9 +773,10 @@ static int spoil_parameter(const function *f, world *w, int v) { return spoil_nu
 static int spoil_length(const function *f, world *w, int v) { return spoil_numbers(f, w, v, LENGTH); }
 static int spoil_box(const function *f, world *w, int v)
 {
-    const double wrong[] = {-1.0, (double)NAN, (double)INFINITY};
-    if (v >= 3 * w->dim) return END;
-    w->box[v / 3] = wrong[v % 3];
+    const double wrong[] = {-1.0, (double)NAN, (double)INFINITY, DENORMAL};
+    if (v >= 4 * w->dim) return END;
+    w->box[v / 4] = wrong[v % 4];
+    snprintf(what, sizeof what, "%g", wrong[v % 4]);
     return f->reads & BIT(PX) ? GO : NOT_THIS;
 }
 
@@ -870,18 +873,18 @@ static int spoil_part(const function *f, world *w, int v) /* what is outside is 
     real_of(w, GUESS)[0] = real_of(w, GUESS)[w->n - 1] = real_of(w, DIAGONAL)[0] = SPH_R(NAN);
     return f->has & TARGETS ? GO : NOT_THIS;
 }
-static int spoil_optional(const function *f, world *w, int v) /* each is left out, and all */
+static int spoil_optional(const function *f, world *w, int v) /* each is left out; and all, with the components that the dimension has not */
 {
-    const uint64_t set = there(w->dim, f->may_read | f->may_write);
+    const uint64_t all = f->reads | f->may_read | f->writes | f->may_write, beyond = all & ~there(w->dim, all), set = there(w->dim, f->may_read | f->may_write);
     int a = nth(set, v);
     if (a >= 0) {
         snprintf(what, sizeof what, "no %s", arrays[a].name);
         w->a[a] = 0;
         return GO;
     }
-    if (v == 0 || nth(set, v - 1) < 0) return END;
+    if ((v > 0 && nth(set, v - 1) < 0) || !(set | beyond)) return END;
     for (a = 0; a < ARRAYS; a++)
-        if (set & BIT(a)) w->a[a] = 0;
+        if ((set | beyond) & BIT(a)) w->a[a] = 0;
     return GO;
 }
 static int spoil_twice(const function *f, world *w, int v)
@@ -932,7 +935,6 @@ static int spoil_coincident(const function *f, world *w, int v)
     for (c = 0; c < w->dim; c++) real_of(w, PX + c)[i] = real_of(w, PX + c)[j];
     return moved(f, w);
 }
-static const double LIMIT = SPH_SINGLE ? (double)FLT_MAX : DBL_MAX, DENORMAL = SPH_SINGLE ? (double)FLT_MIN / 8.0 : DBL_MIN / 8.0;
 static int spoil_all_coincident(const function *f, world *w, int v)
 {
     sph_index i;

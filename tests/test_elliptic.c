@@ -497,6 +497,12 @@ static void test_mobility(void)
                 }
     CHECK(pairs == s.c.pairs);
     CHECK_CLOSE(worst, 0.0, 100.0 * EPSILON);
+    o.mean = SPH_MOBILITY_UPWIND; /* by a potential, of numbers */
+    CHECK(rows(B, &s, o) == SPH_ERROR_NULL);
+    o.potential = cloud_f(&s.c);
+    CHECK(rows(B, &s, o) == 0);
+    s.c.f[3] = SPH_R(NAN);
+    CHECK(rows(B, &s, o) == SPH_ERROR_VALUE);
     setup_free(&s);
 }
 
