@@ -22,10 +22,10 @@ enum { TREE_LEAF = 8, TREE_DEPTH = 26 };
 
 typedef struct tree_node {
     sph_index first, last;
-    double low[3], high[3]; /* bounds of the particles */
-    double reach;           /* the longest of their radii: of the search, or of the softening */
-    double m, x[3], size;   /* mass, its centre, the largest distance of a particle from there */
-    double q[6];            /* xx, xy, yy, xz, yz, zz of sum m (3 d d - d^2), d from the centre */
+    double middle[3], half[3]; /* bounds of the particles: middle and half of the sides */
+    double reach;              /* the longest of their radii: of the search, or of the softening */
+    double m, x[3], size;      /* mass, its centre, the largest distance of a particle from there */
+    double q[6];               /* xx, xy, yy, xz, yz, zz of sum m (3 d d - d^2), d from the centre */
 } tree_node;
 
 typedef struct tree {
@@ -80,13 +80,16 @@ static inline void tree_split(tree *t, const double *const *p, int k, sph_index 
     node->first = first;
     node->last = last;
     for (c = 0; c < 3; c++) {
+        double low = p[c][t->order[first]], high = low;
         sph_index i;
-        node->low[c] = node->high[c] = p[c][t->order[first]];
         for (i = first + 1; i < last; i++) {
-            node->low[c] = fmin(node->low[c], p[c][t->order[i]]);
-            node->high[c] = fmax(node->high[c], p[c][t->order[i]]);
+            const double x = p[c][t->order[i]];
+            low = x < low ? x : low;
+            high = x > high ? x : high;
         }
-        if (node->high[c] - node->low[c] > node->high[longest] - node->low[longest]) longest = c;
+        node->middle[c] = 0.5 * (low + high);
+        node->half[c] = 0.5 * (high - low);
+        if (node->half[c] > node->half[longest]) longest = c;
     }
     if (depth == t->depth) return;
     tree_halve(t->order, p[longest], first, first + (last - first) / 2, last);
@@ -169,7 +172,7 @@ static inline void tree_moments(tree *t, const double *x, const double *y, const
                 tree_add_quadrupole(node, half[s].m, d);
                 node->size = fmax(node->size, half[s].size + sqrt(apart));
             }
-            for (c = 0; c < 3; c++) corner += pow(fmax(node->high[c] - node->x[c], node->x[c] - node->low[c]), 2);
+            for (c = 0; c < 3; c++) corner += pow(node->half[c] + fabs(node->x[c] - node->middle[c]), 2);
             node->size = fmin(node->size, sqrt(corner)); /* both are bounds */
         } else {
             for (i = node->first; i < node->last; i++) {
@@ -183,22 +186,23 @@ static inline void tree_moments(tree *t, const double *x, const double *y, const
     }
 }
 
-/* A lower bound of the distance between particles of two nodes; box: periodic length of all axes, 0: open */
-static inline double tree_gap(const tree_node *a, const tree_node *b, double box)
+/* without a branch, so that loops vectorise */
+static inline double tree_larger(double a, double b) { return 0.5 * (a + b + fabs(a - b)); }
+static inline double tree_positive(double a) { return 0.5 * (a + fabs(a)); }
+
+/* The square of a lower bound of the distance between a node and a box of this middle and these half sides (a node, or a place), short of it by more than rounding. box: periodic length of all axes, of
+   which `inverse` is the inverse; both 0: open */
+static inline double tree_gap2(const tree_node *a, const double *middle, const double *half, double box, double inverse)
 {
     double d2 = 0;
     int c;
     for (c = 0; c < 3; c++) {
-        const double apart = 0.5 * fabs(a->low[c] + a->high[c] - b->low[c] - b->high[c]),
-                     nearest = box > 0 ? fabs(apart - box * floor(apart / box + 0.5)) : apart;
-        const double gap = nearest - 0.5 * (a->high[c] - a->low[c] + b->high[c] - b->low[c]);
-        if (gap > 0) d2 += gap * gap;
+        const double d = a->middle[c] - middle[c], gap = tree_positive(fabs(d - box * (double)(int)(d * inverse + copysign(0.5, d))) - a->half[c] - half[c]);
+        d2 += gap * gap;
     }
-    return sqrt(d2) * (1 - 1e-14);
+    return d2 * (1 - 1e-12);
 }
-
-/* without a branch, so that loops vectorise */
-static inline double tree_larger(double a, double b) { return 0.5 * (a + b + fabs(a - b)); }
+static const double tree_point[3] = {0, 0, 0}; /* the half sides of a place */
 
 /* ---- neighbours ---- */
 
@@ -229,17 +233,19 @@ static inline void tree_neighbours(const tree *t, const double *x, const double 
         while (depth > 0) {
             const int k = stack[--depth];
             const tree_node *const node = &t->node[k];
-            if (tree_gap(group, node, box) >= fmax(group->reach, node->reach)) continue;
+            if (tree_gap2(group, node->middle, node->half, box, inverse) >= pow(tree_larger(group->reach, node->reach), 2)) continue;
             if (k < t->leaves - 1) {
                 stack[depth++] = 2 * k + 2;
                 stack[depth++] = 2 * k + 1;
             } else
-                for (j = node->first; j < node->last; j++, found++) {
-                    cx[found] = x[j];
-                    cy[found] = y[j];
-                    cz[found] = z[j];
+                for (j = node->first; j < node->last; j++) {
+                    const double p[3] = {x[j], y[j], z[j]}, wide = tree_larger(group->reach, radius[j]);
+                    cx[found] = p[0];
+                    cy[found] = p[1];
+                    cz[found] = p[2];
                     cr[found] = radius[j] * radius[j];
                     which[found] = j;
+                    found += tree_gap2(group, p, tree_point, box, inverse) < wide * wide;
                 }
         }
         needed = rows->pairs + (int64_t)found * (group->last - group->first) + 1;
@@ -297,12 +303,8 @@ static inline void tree_see(const tree *t, const tree_node *group, double theta,
     while (depth > 0) {
         const int k = stack[--depth];
         const tree_node *const node = &t->node[k];
-        double d2 = 0;
-        for (c = 0; c < 3; c++) {
-            const double d = fmax(0, fmax(group->low[c] - node->x[c], node->x[c] - group->high[c]));
-            d2 += d * d;
-        }
-        if (node->size * node->size < theta * theta * d2 && tree_gap(group, node, 0) > fmax(group->reach, node->reach)) {
+        if (node->size * node->size < theta * theta * tree_gap2(group, node->x, tree_point, 0, 0) &&
+            tree_gap2(group, node->middle, node->half, 0, 0) > pow(tree_larger(group->reach, node->reach), 2)) {
             s->node[0][s->nodes] = node->m;
             for (c = 0; c < 3; c++) s->node[1 + c][s->nodes] = node->x[c];
             for (c = 0; c < 6; c++) s->node[4 + c][s->nodes] = node->q[c];
