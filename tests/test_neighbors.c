@@ -871,8 +871,6 @@ static void test_workspace(void)
                 memset(&g.g, PATTERN, sizeof g.g);
                 g.work = work;
                 now.name = "workspace";
-                EXPECT(sph_grid_build(dim, x, radius, guarded_memory(&work), 0, &g.g) == SPH_ERROR_CAPACITY);
-                EXPECT(sph_grid_build(dim, x, radius, guarded_memory(&work), needed / 2, &g.g) == SPH_ERROR_CAPACITY);
                 EXPECT(sph_grid_build(dim, x, radius, guarded_memory(&work), needed - 1, &g.g) == SPH_ERROR_CAPACITY);
                 if (kind == 0 && s == 0) EXPECT(guarded_unwritten(&work));
                 for (size = needed; size <= needed + 9 && size <= work.bytes; size++) {
@@ -925,8 +923,13 @@ static void test_radii(void)
                     for (which = 0; which < 2; which++) {
                         sph_real *const radius = which ? &S[i] : &R[i]; /* of a source, of a target */
                         const int read = criterion > SPH_SCATTER || criterion == (which ? SPH_SCATTER : SPH_GATHER);
+                        problem without = p;
                         size_t w;
                         if (!read) continue;
+                        if (which) without.source_radius.p = 0;
+                        else without.target_radius.p = 0;
+                        EXPECT(call(&without, &g, criterion, flags, s, list, N * N, &pairs) == SPH_ERROR_NULL);
+                        EXPECT(call(&without, &g, criterion, flags, s, 0, 0, &pairs) == SPH_ERROR_NULL);
                         *radius = next_up(SPH_R(32) * reach);
                         EXPECT(call(&p, &g, criterion, flags, s, list, N * N, &pairs) == SPH_ERROR_RADIUS);
                         EXPECT(call(&p, &g, criterion, flags, s, 0, 0, &pairs) == SPH_ERROR_RADIUS);
@@ -937,6 +940,10 @@ static void test_radii(void)
                         }
                         *radius = half;
                     }
+                p.dim = dim % 3 + 1; /* not the grid's */
+                EXPECT(call(&p, &g, criterion, flags, s, list, N * N, &pairs) == SPH_ERROR_DIM);
+                EXPECT(call(&p, &g, criterion, flags, s, 0, 0, &pairs) == SPH_ERROR_DIM);
+                p.dim = dim;
                 EXPECT(pairs == -5 && guarded_unwritten(&start) && guarded_unwritten(&index));
                 for (i = 0; i < sizeof wrong / sizeof *wrong; i++) {
                     guarded work = guarded_new(sph_grid_workspace(dim, N));
@@ -959,33 +966,21 @@ static void test_radii(void)
             }
 }
 
-static void test_box_errors(void)
+static void test_box_limits(void)
 {
     enum { N = 20 };
-    const sph_real wrong[] = {SPH_R(-1), SPH_R(NAN), SPH_R(INFINITY), SPH_R(-INFINITY), SPH_R(0.5)};
     int dim, axis;
-    size_t w;
     pcg32 random;
     pcg32_seed(&random, 6, 1);
     for (dim = 1; dim <= 3; dim++) {
         cloud c = make(RANDOM, dim, N, 0, &random);
         guarded work = guarded_new(sph_grid_workspace(dim, N));
-        for (axis = 0; axis < 3; axis++) {
-            const sph_real reach = SPH_R(0.3);
-            sph_real box[3] = {SPH_R(0), SPH_R(0), SPH_R(0)};
+        for (axis = dim; axis < 3; axis++) { /* an axis that the dimension does not have is not looked at */
+            guarded other = guarded_new(work.bytes);
             sph_grid g;
-            for (w = 0; w < sizeof wrong / sizeof *wrong; w++) {
-                box[axis] = wrong[w];
-                if (axis < dim) {
-                    CHECK(sph_grid_build(dim, sph_points_periodic(points(&c), box[0], box[1], box[2]), reach, guarded_memory(&work), work.bytes, &g) ==
-                          SPH_ERROR_BOX);
-                    CHECK(guarded_unwritten(&work));
-                } else { /* an axis that the dimension does not have is not looked at */
-                    guarded other = guarded_new(work.bytes);
-                    CHECK(sph_grid_build(dim, sph_points_periodic(points(&c), box[0], box[1], box[2]), reach, guarded_memory(&other), other.bytes, &g) == 0);
-                    free(other.base);
-                }
-            }
+            CHECK(sph_grid_build(dim, sph_points_periodic(points(&c), SPH_R(0), SPH_R(axis == 1 ? -1 : 0), SPH_R(axis == 2 ? -1 : 0)), SPH_R(0.3),
+                                 guarded_memory(&other), other.bytes, &g) == 0);
+            free(other.base);
         }
         for (axis = 0; axis < dim; axis++) { /* half the box, and no more */
             const sph_real length = SPH_R(0.9), half = SPH_R(0.45);
@@ -1430,7 +1425,7 @@ int main(int count, char **word)
     test_tight();
     test_workspace();
     test_radii();
-    test_box_errors();
+    test_box_limits();
     test_order();
     test_renumber();
     test_locality();
