@@ -279,7 +279,7 @@ if (there("cleaning_collapse_fig5")) {
     array figure[2] = ["fig5", "fig6"]
     array what[2] = ["Figure 5: mean of h |div B| / |B|", "Figure 6: linear momentum made, |P - P_0| [10^5 cm/s solar masses]"]
     array strokes[6] = [1, 1, 2, 2, 3, 3]
-    array runs[6] = ["control", "cleaned", "control, alpha_B = 0", "cleaned, alpha_B = 0", "control, alpha_B = 0.1", "cleaned, alpha_B = 0.1"]
+    array runs[6] = ["control", "cleaned", "control, alpha_B = 0", "cleaned, alpha_B = 0", "control, alpha_B = 0.05", "cleaned, alpha_B = 0.05"]
     has(cloud, k) = system(sprintf("grep -c '^%s,\"%s\",' '%s'", cloud, runs[k], history)) + 0 > 0
     do for [q = 1:2] {
         set output dir.sprintf("cleaning_collapse_%s.png", figure[q])
