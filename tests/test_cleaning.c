@@ -603,7 +603,7 @@ static void test_signal_speed(void)
     }
     s.c.start[s.c.n] = (sph_index)(index - s.c.index);
     CHECK(rates(&s, m, field(&s, H)) == 0);
-    for (i = 0; i < s.c.n; i++) CHECK_RELATIVE(s.a[VSIG][i], near_only[i], 2.0 * EPSILON);
+    for (i = 0; i < s.c.n; i++) CHECK_RELATIVE((double)s.a[VSIG][i], (double)near_only[i], 2.0 * EPSILON);
     for (i = 0; i <= s.c.n; i++) s.c.start[i] = 0;
     CHECK(rates(&s, m, field(&s, H)) == 0);
     for (i = 0; i < s.c.n; i++) {
@@ -611,7 +611,7 @@ static void test_signal_speed(void)
         B.x = s.a[BX][i];
         B.y = s.a[BY][i];
         B.z = s.a[BZ][i];
-        CHECK_RELATIVE(s.a[VSIG][i], sph_mhd_fast_speed(s.a[CS][i], B, s.a[RHO][i], SPH_R(0)), 2.0 * EPSILON);
+        CHECK_RELATIVE((double)s.a[VSIG][i], (double)sph_mhd_fast_speed(s.a[CS][i], B, s.a[RHO][i], SPH_R(0)), 2.0 * EPSILON);
     }
     free(near_only);
     state_free(&s);
