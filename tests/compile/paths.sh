@@ -44,11 +44,12 @@ for cc in gcc clang; do
         fi
         # shellcheck disable=SC2086
         check "OpenMP compiles" $cc -std=c99 -O1 $warn -I. $flags -fopenmp -DSPH_OPENMP=1 tests/test_neighbors.c -o "$scratch/openmp" -lm
-        for threads in 1 2 3; do
+        for threads in 1 3; do
             check "$cc, $threads threads" sh -c "OMP_NUM_THREADS=$threads '$scratch/openmp' checksums > '$scratch/threads.sums'"
             check "$cc, $threads threads: the lists of none" cmp "$scratch/threads.sums" "$scratch/$best.sums"
         done
-        [ $single = 1 ] || check "$cc, 3 threads: all pairs" env OMP_NUM_THREADS=3 "$scratch/openmp" quick
+        # the lists are already known to be those of the build without threads: once is enough
+        [ $single-$cc != 0-gcc ] || check "$cc, 3 threads: all pairs" env OMP_NUM_THREADS=3 "$scratch/openmp" quick
     done
     for single in 0 1; do
         sums $cc-64-$single -DSPH_SINGLE=$single -DSPH_INDEX=int64_t -march=native

@@ -26,8 +26,10 @@
             'fluid|sph_fluid_rates_colagrossi(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, fluid(h, V, f), vector(a, b, c), out.gx, out.gy)'; do
             name=sweep_${sweep%%|*}_$dim
             arguments='sph_points x, sph_list l, sph_scalars h, sph_scalars V, sph_scalars f, sph_real *a, sph_real *b, sph_real *c, unsigned char *s, sph_derivative_out out'
+            case $name in sweep_tile*) echo '#if 1' ;; *) echo '#ifndef TILES_ALONE' ;; esac
             echo "sph_index $name($arguments);"
             echo "sph_index $name($arguments) { (void)f, (void)a, (void)b, (void)c, (void)s, (void)out; return $(printf '%s' "${sweep#*|}" | sed "s/D,/$dim,/"); }"
+            echo '#endif'
         done
     done
 } > "$scratch/sweeps.c"
@@ -58,7 +60,7 @@ for cc in gcc clang; do
     grep -v -e _1 "$scratch/counts" > "$scratch/counts_nd" # |x| needs no square root in 1D
     check "$cc: packed square roots" obeys "$scratch/counts_nd" '$4 > 0'
     [ $cc = gcc ] || continue
-    check "gcc -O3" gcc -std=c99 -O3 -I. -S "$scratch/sweeps.c" -o "$scratch/sweeps.s"
+    check "gcc -O3" gcc -std=c99 -O3 -DTILES_ALONE -I. -S "$scratch/sweeps.c" -o "$scratch/sweeps.s"
     count "$scratch/sweeps.s" | grep _tile > "$scratch/counts"
     check "gcc -O3: packed square roots of the tiles" obeys "$scratch/counts" '$4 > 0'
 done
