@@ -1,0 +1,453 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * sweeps.c - fuzz target: every list-tier function of sph_ops.h on views of any kind: strides, lists, ranges, kernels and dimensions that are none, null pointers, coincident particles, numbers that are none or
+ * near the end of the range. Each must refuse and write nothing, or answer with finite numbers for its targets and for nobody else, and never read or write beyond an array. (What a list cannot tell is how many
+ * entries index has; start never names more here.)
+ */
+#include "fuzz.h"
+
+#include "../../sph_ops.h"
+
+enum { MOST = 12, OUTPUTS = 12 };
+
+typedef struct arguments {
+    int k, dim, what;
+    sph_index first, last;
+    sph_points x;
+    sph_list list;
+    sph_scalars h, s[16]; /* fields of the particles */
+    sph_real number[6];
+    sph_real *out[OUTPUTS];
+    unsigned char *status;
+    sph_index *count;
+    sph_index answer;
+} arguments;
+
+#define SWEEP (sph_kernel)a->k, a->dim, a->first, a->last, a->x, a->list, a->h
+#define OUT(i) a->out[i]
+
+static sph_vectors vectors(const arguments *a, int from)
+{
+    sph_vectors v;
+    v.x = a->s[from];
+    v.y = a->s[from + 1];
+    v.z = a->s[from + 2];
+    return v;
+}
+static sph_vector_out vector_out(const arguments *a, int from)
+{
+    sph_vector_out v;
+    v.x = OUT(from);
+    v.y = OUT(from + 1);
+    v.z = OUT(from + 2);
+    return v;
+}
+static sph_diagonal diagonal(const arguments *a, int from)
+{
+    sph_diagonal d;
+    d.x = a->s[from];
+    d.y = a->s[from + 1];
+    d.z = a->s[from + 2];
+    return d;
+}
+static sph_gas gas(const arguments *a)
+{
+    sph_gas g;
+    g.m = a->s[0];
+    g.rho = a->s[1];
+    g.omega = a->s[2];
+    return g;
+}
+static sph_derivative_out derivative_out(const arguments *a)
+{
+    sph_derivative_out o;
+    o.gx = OUT(0), o.gy = OUT(1), o.gz = OUT(2);
+    o.hxx = OUT(3), o.hxy = OUT(4), o.hyy = OUT(5), o.hxz = OUT(6), o.hyz = OUT(7), o.hzz = OUT(8);
+    o.laplacian = OUT(9);
+    o.conditioning = OUT(10);
+    o.stride = 1;
+    o.status = a->status;
+    return o;
+}
+static sph_row_out row_out(const arguments *a)
+{
+    sph_row_out o;
+    o.row = OUT(0), o.diagonal = OUT(1), o.factor = OUT(2), o.conditioning = OUT(3);
+    o.status = a->status;
+    return o;
+}
+static sph_elliptic_options elliptic(const arguments *a)
+{
+    sph_elliptic_options o = sph_elliptic_defaults();
+    o.gradient = a->what % 5;
+    o.mean = a->what / 5 % 4;
+    o.gamma_star = a->what / 20 % 2;
+    o.trace = a->what / 40 % 2;
+    o.conditioning_min = a->number[0];
+    o.potential = a->s[4];
+    return o;
+}
+static sph_jet jet(const arguments *a)
+{
+    sph_jet d = sph_jet_laplacian(a->dim);
+    d.gradient.x = a->number[0];
+    d.hessian.xx = a->number[1];
+    return d;
+}
+static sph_fluid fluid(const arguments *a)
+{
+    sph_fluid f;
+    f.m = a->s[0], f.rho = a->s[1], f.p = a->s[3], f.c = a->s[4];
+    f.v = vectors(a, 5);
+    f.viscosity = a->what % 5;
+    f.alpha = a->number[0], f.beta = a->number[1], f.eta = a->number[2];
+    return f;
+}
+static sph_mhd mhd(const arguments *a)
+{
+    sph_mhd s;
+    s.gas = gas(a);
+    s.P = a->s[3], s.u = a->s[4], s.cs = a->s[1], s.alpha = a->s[0];
+    s.v = vectors(a, 5);
+    s.B = vectors(a, 8);
+    s.psi = a->s[11];
+    s.ch = a->number[0], s.sigma = a->number[1], s.beta = a->number[2], s.alpha_u = a->number[3], s.alpha_B = a->number[4], s.tensile = a->number[5];
+    return s;
+}
+static sph_mhd_out mhd_out(const arguments *a)
+{
+    sph_mhd_out o;
+    o.acceleration = vector_out(a, 0);
+    o.rate_B = vector_out(a, 3);
+    o.rate_u = OUT(6), o.rate_psi = OUT(7), o.div_B = OUT(8), o.div_v = OUT(9), o.v_sig = OUT(10);
+    return o;
+}
+static sph_elliptic_report report(const arguments *a)
+{
+    sph_elliptic_report o;
+    o.sign_least = OUT(0), o.sign_most = OUT(1), o.xi = OUT(2), o.continuity = OUT(3), o.n = OUT(4), o.n_bound = OUT(5), o.eigenvalue_least = OUT(6), o.condition = OUT(7);
+    o.status = a->status;
+    return o;
+}
+static sph_vec gravity(const arguments *a)
+{
+    sph_vec g;
+    g.x = a->number[0], g.y = a->number[1], g.z = a->number[2];
+    return g;
+}
+
+/* One X(call, outputs, pairs, flags) each: the first `pairs` outputs have a number for each pair, the others one for each target (ONE: one at all). VECTOR: of the first three as many as there are dimensions;
+   VECTORS: of the first two times three; HESSIAN: of derivatives likewise; COUNTS: a->count; NO_COUNT: the answer is no number of targets that are not ok. */
+enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16, THREE = 32, NO_COUNT = 64, ONE = 128 };
+/* clang-format off */
+#define SWEEPS(X) \
+    X(sph_shepard_sum(SWEEP, a->s[0], OUT(0)), 1, 0, PLAIN) \
+    X(sph_interpolate_shepard(SWEEP, a->s[0], a->s[3], OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_density_summation(SWEEP, a->s[0], OUT(0)), 1, 0, PLAIN) \
+    X(sph_density_number(SWEEP, a->s[0], OUT(0)), 1, 0, PLAIN) \
+    X(sph_gradient_difference(SWEEP, a->s[0], a->s[3], OUT(0), OUT(1), OUT(2)), 3, 0, VECTOR) \
+    X(sph_gradient_cspm(SWEEP, a->s[0], a->s[3], OUT(0), OUT(1), OUT(2), OUT(3), a->status), 4, 0, VECTOR | STATUS) \
+    X(sph_gradient_rows_cspm(SWEEP, a->s[0], OUT(0), OUT(1), OUT(2), OUT(3), a->status), 4, 3, VECTOR | STATUS) \
+    X(sph_laplacian_brookshaw(SWEEP, a->s[0], a->s[3], OUT(0)), 1, 0, PLAIN) \
+    X(sph_laplacian_kernel(SWEEP, a->s[0], a->s[3], OUT(0)), 1, 0, PLAIN) \
+    X(sph_laplacian_rows_brookshaw(SWEEP, a->s[0], OUT(0)), 1, 1, PLAIN) \
+    X(sph_laplacian_rows_kernel(SWEEP, a->s[0], OUT(0)), 1, 1, PLAIN) \
+    X(sph_derivatives_cspm(SWEEP, a->s[0], a->s[3], a->number[0], derivative_out(a)), 11, 0, HESSIAN | STATUS) \
+    X(sph_derivatives_icspm(SWEEP, a->s[0], a->s[3], a->number[0], a->what & 1, derivative_out(a)), 11, 0, HESSIAN | STATUS) \
+    X(sph_derivatives_wls(SWEEP, a->s[0], a->s[3], a->number[0], derivative_out(a)), 11, 0, HESSIAN | STATUS) \
+    X(sph_derivative_rows_cspm(SWEEP, a->s[0], jet(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_derivative_rows_icspm(SWEEP, a->s[0], jet(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_derivative_rows_wls(SWEEP, a->s[0], jet(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_second_derivative_bim((sph_kernel)a->k, a->first, a->last, a->x, a->list, a->h, a->s[0], a->s[3], 0, (sph_index)(a->what % MOST), OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_second_derivative_rows_bim((sph_kernel)a->k, a->first, a->last, a->x, a->list, a->h, a->s[0], 0, (sph_index)(a->what % MOST), OUT(0), a->status), 1, 1, STATUS) \
+    X(sph_elliptic_brookshaw(SWEEP, a->s[0], a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_elliptic_brookshaw_corrected(SWEEP, a->s[0], a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_elliptic_schwaiger(SWEEP, a->s[0], a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_elliptic_msph(SWEEP, a->s[0], a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_elliptic_rows_brookshaw(SWEEP, a->s[0], a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_elliptic_rows_brookshaw_corrected(SWEEP, a->s[0], a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_elliptic_rows_schwaiger(SWEEP, a->s[0], a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_elliptic_rows_msph(SWEEP, a->s[0], a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_elliptic_rows_msph_diagonal(SWEEP, a->s[0], diagonal(a, 1), elliptic(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_elliptic_rows_anisotropic(SWEEP, a->s[0], diagonal(a, 1), row_out(a)), 4, 1, STATUS) \
+    X(sph_elliptic_rows_boundary(SWEEP, a->s[0], a->s[1], elliptic(a), diagonal(a, 5), a->s[8], a->s[9], row_out(a)), 4, 1, STATUS) \
+    X(sph_elliptic_diagnose(SWEEP, a->s[0], elliptic(a), report(a)), 8, 0, STATUS) \
+    X(sph_rows_apply(a->first, a->last, a->x.n, a->list, a->s[13].p, a->s[14].p, a->s[3], OUT(0)), 1, 0, PLAIN) \
+    X(sph_rows_monotone(a->first, a->last, a->x.n, a->list, a->s[13].p, a->s[14].p, a->status), 0, 0, STATUS | NO_COUNT) \
+    X(sph_rows_time_step(a->first, a->last, a->x.n, a->list, a->s[13].p, OUT(0)), 1, 0, ONE | NO_COUNT) \
+    X(sph_fluid_rates_monaghan(SWEEP, fluid(a), vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
+    X(sph_fluid_rates_colagrossi(SWEEP, fluid(a), vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
+    X(sph_fluid_rates_hu_adams(SWEEP, fluid(a), vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
+    X(sph_viscous_mu_morris(SWEEP, a->s[0], a->s[1], vectors(a, 5), a->s[2], a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_viscous_mu_monaghan_cleary(SWEEP, a->s[0], a->s[1], vectors(a, 5), a->s[2], a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_velocity_xsph(SWEEP, a->s[0], a->s[1], vectors(a, 5), a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_wall_adami(SWEEP, a->s[0], a->s[1], a->s[3], vectors(a, 5), vectors(a, 8), gravity(a), vectors(a, 5), OUT(3), vector_out(a, 0), a->status), 4, 0, VECTOR | STATUS) \
+    X(sph_collision_count(a->dim, a->first, a->last, a->x, a->list, a->number[0], a->s[1], vectors(a, 5), a->count), 0, 0, COUNTS) \
+    X(sph_collision_change_literal(a->dim, a->first, a->last, a->x, a->list, a->number[0], a->s[1], a->number[1], vectors(a, 5), vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_collision_acceleration_literal(a->dim, a->first, a->last, a->x, a->list, a->number[0], a->s[1], a->number[1], vectors(a, 5), a->number[2], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_nearest_distance(a->dim, a->first, a->last, a->x, a->x, a->list, OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_hexatic_order(a->first, a->last, a->x, a->list, OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_count_coincident(a->dim, a->first, a->last, a->x, a->list, a->number[0]), 0, 0, NO_COUNT) \
+    X(sph_divergence_difference(SWEEP, gas(a), vectors(a, 5), OUT(0)), 1, 0, PLAIN) \
+    X(sph_divergence_symmetric(SWEEP, gas(a), vectors(a, 5), OUT(0)), 1, 0, PLAIN) \
+    X(sph_gradient_symmetric(SWEEP, gas(a), a->s[3], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_curl_difference(SWEEP, gas(a), vectors(a, 5), vector_out(a, 0)), 3, 0, THREE) \
+    X(sph_cleaning_rates(SWEEP, gas(a), vectors(a, 8), a->s[11], a->s[4], a->number[0], a->number[1], vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
+    X(sph_cleaning_rates_nonconservative(SWEEP, gas(a), vectors(a, 8), a->s[11], a->s[4], a->number[0], a->number[1], vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
+    X(sph_cleaning_rates_symmetric(SWEEP, gas(a), vectors(a, 8), a->s[11], a->s[4], a->number[0], a->number[1], vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
+    X(sph_mhd_rates(SWEEP, mhd(a), mhd_out(a)), 11, 0, VECTORS) \
+    X(sph_gravity_direct((sph_kernel)a->k, a->first, a->last, a->x, a->h, a->s[0], a->number[0], vector_out(a, 0), OUT(3)), 4, 0, THREE) \
+    X(sph_gravity_zeta((sph_kernel)a->k, a->first, a->last, a->x, a->list, a->h, a->s[0], a->s[1], OUT(0)), 1, 0, PLAIN) \
+    X(sph_gravity_correction((sph_kernel)a->k, a->first, a->last, a->x, a->list, a->h, gas(a), a->s[4], a->number[0], vector_out(a, 0)), 3, 0, THREE)
+/* clang-format on */
+
+static sph_index call(int which, const arguments *a)
+{
+    int number = 0;
+#define CALL(call, outputs, pairs, flags) \
+    if (which == number++) return call;
+    SWEEPS(CALL)
+#undef CALL
+    return 0;
+}
+typedef struct description {
+    const char *name;
+    int outputs, pairs, flags;
+} description;
+#define DESCRIBE(call, outputs, pairs, flags) {#call, outputs, pairs, flags},
+static const description descriptions[] = {SWEEPS(DESCRIBE)};
+enum { COUNT = sizeof descriptions / sizeof *descriptions };
+
+/* ---- what was written ---- */
+
+static const unsigned char MARK = 0x5c;
+static int is_marked(const void *p, size_t size)
+{
+    const unsigned char *const byte = (const unsigned char *)p;
+    size_t i;
+    for (i = 0; i < size; i++)
+        if (byte[i] != MARK) return 0;
+    return 1;
+}
+
+static const description *now;
+static void require(int holds, int line, const char *text, const arguments *a)
+{
+    if (holds) return;
+    fprintf(stderr, "%s, kernel %d, %dD, targets %ld ... %ld of %ld answered %ld\n", now->name, a->k, a->dim, (long)a->first, (long)a->last, (long)a->x.n, (long)a->answer);
+    fuzz_require(0, __FILE__, line, text);
+}
+#define REQUIRE(condition) require((condition) ? 1 : 0, __LINE__, #condition, a)
+
+/* must output o have been written at all? Those of directions that there are not, or of B and v of fewer components, need not. */
+static int is_written(const arguments *a, int o)
+{
+    const int flags = now->flags, parts = a->s[7].p ? 3 : a->dim;
+    if (!a->out[o]) return 0;
+    if (flags & VECTOR) return o > 2 || o < a->dim;
+    if (flags & HESSIAN) return o < 3 ? o < a->dim : o > 8 || o - 3 < a->dim * (a->dim + 1) / 2;
+    if (flags & VECTORS) return o > 5 || o % 3 < parts;
+    return 1;
+}
+
+static void check_answer(const arguments *a, size_t room)
+{
+    const sph_index answer = a->answer;
+    sph_index i;
+    int o;
+    REQUIRE(answer >= SPH_ERROR_RADIUS);
+    if (!(now->flags & NO_COUNT)) REQUIRE(answer <= (a->last > a->first ? a->last - a->first : 0));
+    for (o = 0; o < OUTPUTS; o++) {
+        const int pairs = o < now->pairs, used = answer >= 0 && o < now->outputs && is_written(a, o);
+        sph_index low = answer < 0 ? 0 : pairs ? a->list.start[a->first] : a->first, high = answer < 0 ? 0 : pairs ? a->list.start[a->last] : a->last;
+        if (now->flags & ONE) low = 0, high = 1;
+        if (!a->out[o]) continue;
+        for (i = 0; i < (sph_index)room; i++) {
+            if (used && i >= low && i < high) REQUIRE(isfinite(a->out[o][i]) && !is_marked(&a->out[o][i], sizeof(sph_real)));
+            else if (answer < 0 || o >= now->outputs || used) REQUIRE(is_marked(&a->out[o][i], sizeof(sph_real)));
+        }
+    }
+    for (i = 0; a->status && i < a->x.n; i++) {
+        const int written = answer >= 0 && (now->flags & STATUS) && i >= a->first && i < a->last;
+        REQUIRE(written ? a->status[i] <= SPH_LIST_TOO_SHORT : a->status[i] == MARK);
+    }
+}
+
+/* ---- functions that answer in ways of their own ---- */
+
+static int all_finite(const sph_real *p, size_t count)
+{
+    size_t i;
+    for (i = 0; i < count; i++)
+        if (!isfinite(p[i])) return 0;
+    return 1;
+}
+static void own_density_adaptive(const arguments *a)
+{
+    const size_t n = a->x.n > 0 ? (size_t)a->x.n : 0;
+    size_t i;
+    sph_index answer;
+    for (i = 0; i < n && a->out[0]; i++) a->out[0][i] = a->h.p ? a->h.p[a->h.stride ? i * a->h.stride : 0] : SPH_R(1);
+    answer = sph_density_adaptive(SWEEP, a->s[0], SPH_R(1.2), SPH_R(1e-3), OUT(0), OUT(1), OUT(2), a->status);
+    for (i = 0; answer >= 0 && i < n; i++) {
+        if ((sph_index)i < a->first || (sph_index)i >= a->last) continue;
+        REQUIRE(isfinite(a->out[0][i]) && a->out[0][i] > SPH_R(0));
+        REQUIRE((!a->out[1] || isfinite(a->out[1][i])) && (!a->out[2] || isfinite(a->out[2][i])));
+    }
+}
+static void own_collide(const arguments *a)
+{
+    const size_t n = a->x.n > 0 ? (size_t)a->x.n : 0;
+    sph_collision_report r;
+    sph_index answer;
+    size_t i;
+    int c, finite = 1;
+    for (c = 0; c < 3; c++)
+        for (i = 0; i < n && a->out[c]; i++) a->out[c][i] = SPH_R((double)(i % 3) - (double)c);
+    answer = sph_collide_sequential(a->dim, a->first, a->last, a->x, a->list, a->number[0], a->s[1], a->number[1], OUT(0), OUT(1), OUT(2), 1, &r);
+    for (c = 0; c < a->dim && c < 3; c++) finite = finite && (!a->out[c] || all_finite(a->out[c], n));
+    if (answer >= 0) REQUIRE((finite && isfinite(r.energy) && r.collisions >= 0) || answer > 0);
+}
+static void own_weighted(const arguments *a)
+{
+    const size_t n = a->x.n > 0 ? (size_t)a->x.n : 0;
+    size_t i;
+    int c;
+    for (i = 0; i < n && a->count; i++) a->count[i] = (sph_index)((int)(i * 7 + (size_t)a->what) % 5 - (a->what > 200));
+    if (sph_collision_change_weighted(a->dim, a->first, a->last, a->x, a->list, a->number[0], a->s[1], a->number[1], vectors(a, 5), a->count, vector_out(a, 0)) < 0) return;
+    for (c = 0; c < a->dim; c++) REQUIRE(all_finite(a->out[c] + a->first, (size_t)(a->last - a->first)));
+}
+static void own_separate(const arguments *a)
+{
+    int c;
+    if (sph_separate_coincident(a->dim, a->first, a->last, a->x, a->list, a->number[0], a->number[1], vector_out(a, 0)) < 0) return;
+    for (c = 0; c < a->dim; c++) REQUIRE(all_finite(a->out[c] + a->first, (size_t)(a->last - a->first)));
+}
+static void own_radial(const arguments *a)
+{
+    const int bins = a->what % 9;
+    sph_real *const g = (sph_real *)fuzz_memory((size_t)bins, sizeof *g);
+    if (sph_radial_distribution(a->dim, a->first, a->last, a->x, a->list, a->number[0], a->number[1], bins, g) >= 0) REQUIRE(all_finite(g, (size_t)bins));
+    free(g);
+}
+static void own_sums(const arguments *a)
+{
+    sph_conserved c;
+    if (sph_conserved_sums(a->dim, a->first, a->last, a->x, a->s[0], vectors(a, 5), &c) < 0) return;
+    REQUIRE(isfinite(c.mass) && isfinite(c.kinetic_energy) && isfinite(c.momentum.x) && isfinite(c.momentum.y) && isfinite(c.momentum.z) && isfinite(c.angular_momentum.x) &&
+            isfinite(c.angular_momentum.y) && isfinite(c.angular_momentum.z));
+}
+static void own_growth(const arguments *a)
+{
+    sph_real re, im;
+    if (sph_rows_growth(a->dim, a->first, a->x, a->list, a->s[13].p, a->number[3], gravity(a), &re, &im) == 0) REQUIRE(isfinite(re) && isfinite(im));
+}
+typedef struct own {
+    void (*run)(const arguments *);
+    description d;
+} own;
+static const own owns[] = {{own_density_adaptive, {"sph_density_adaptive", 0, 0, 0}}, {own_collide, {"sph_collide_sequential", 0, 0, 0}}, {own_weighted, {"sph_collision_change_weighted", 0, 0, 0}},
+                           {own_separate, {"sph_separate_coincident", 0, 0, 0}},      {own_radial, {"sph_radial_distribution", 0, 0, 0}}, {own_sums, {"sph_conserved_sums", 0, 0, 0}},
+                           {own_growth, {"sph_rows_growth", 0, 0, 0}}};
+enum { OWNS = sizeof owns / sizeof *owns };
+
+/* ---- arguments ---- */
+
+static void *kept[64];
+static int kept_count;
+static void *keep(void *p)
+{
+    if (kept_count < 64) kept[kept_count++] = p;
+    return p;
+}
+
+/* numbers of just the size that a view of this stride needs; kind 0: any, 1: tame, 2: tame and positive */
+static sph_scalars scalars(fuzz_input *in, sph_index n, size_t stride, int kind)
+{
+    const size_t count = n > 0 ? ((size_t)n - 1) * stride + 1 : stride ? 0 : 1;
+    sph_real *const p = (sph_real *)keep(fuzz_memory(count, sizeof *p));
+    size_t i;
+    for (i = 0; i < count; i++) {
+        double v = kind ? fuzz_tame(in) : fuzz_number(in);
+        if (kind == 2) v = 0.05 + fabs(v);
+        p[i] = SPH_R(v);
+    }
+    return sph_scalars_strided(p, stride);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    fuzz_input in = {data, size};
+    const int which = fuzz_below(&in, COUNT + OWNS), how = (int)fuzz_byte(&in), hostile = (how & 3) == 0, bad_numbers = (how & 3) == 1, periodic = how >> 2 & 1, nulls = hostile && (how >> 3 & 1);
+    const sph_index n = (sph_index)(hostile ? fuzz_below(&in, MOST + 1) : 1 + fuzz_below(&in, MOST));
+    const int kind = hostile || bad_numbers ? 0 : 1, positive = kind ? 2 : 0;
+    arguments arguments_, *const a = &arguments_;
+    sph_index *start, *index, i;
+    sph_scalars axis[3];
+    size_t stride, room;
+    int f, pairs;
+    now = which < COUNT ? &descriptions[which] : &owns[which - COUNT].d;
+    memset(a, 0, sizeof *a);
+    a->what = (int)fuzz_byte(&in);
+    a->k = hostile ? (int)(int8_t)fuzz_byte(&in) % (SPH_KERNEL_COUNT + 2) : fuzz_below(&in, SPH_KERNEL_COUNT);
+    a->dim = hostile ? fuzz_below(&in, 5) : 1 + fuzz_below(&in, 3);
+    a->first = (sph_index)(hostile ? fuzz_below(&in, MOST + 3) - 1 : 0);
+    a->last = (sph_index)(hostile ? fuzz_below(&in, MOST + 3) - 1 : n);
+    for (f = 0; f < 6; f++) a->number[f] = SPH_R(kind ? fabs(fuzz_tame(&in)) : fuzz_number(&in));
+
+    stride = (size_t)(hostile ? fuzz_below(&in, 4) : 1 + fuzz_below(&in, 2));
+    for (f = 0; f < 3; f++) axis[f] = scalars(&in, n, stride, kind);
+    a->x = sph_points_strided(hostile && (how >> 4 & 3) == 3 ? (sph_index)-1 : n, axis[0].p, axis[1].p, axis[2].p, stride);
+    if (periodic) a->x = sph_points_periodic(a->x, SPH_R(kind ? 7.0 : fuzz_number(&in)), SPH_R(kind ? 0.0 : fuzz_number(&in)), SPH_R(kind ? 9.0 : fuzz_number(&in)));
+    a->h = scalars(&in, n, (size_t)fuzz_below(&in, 3), positive);
+    for (f = 0; f < 12; f++) a->s[f] = scalars(&in, n, (size_t)fuzz_below(&in, 3), f < 3 ? positive : kind);
+    a->s[12] = fuzz_below(&in, 2) ? a->s[3] : sph_scalars_array(NULL); /* the source of an elliptic operator need not be there */
+
+    start = (sph_index *)keep(fuzz_memory((size_t)n + 1, sizeof *start));
+    for (i = 0, pairs = 0; i <= n; i++) {
+        start[i] = (sph_index)pairs;
+        if (i < n) pairs += hostile ? fuzz_below(&in, 6) : fuzz_below(&in, 2 * n);
+    }
+    index = (sph_index *)keep(fuzz_memory((size_t)pairs, sizeof *index));
+    for (i = 0; i < n; i++) {
+        sph_index p;
+        for (p = start[i]; p < start[i + 1]; p++) {
+            index[p] = (sph_index)(hostile ? fuzz_below(&in, MOST + 2) - 1 : fuzz_below(&in, n));
+            if (!hostile && index[p] == i) index[p] = (sph_index)(n > 1 ? (i + 1) % n : 0);
+        }
+    }
+    if (!hostile && n == 1) memset(start, 0, 2 * sizeof *start);
+    if (hostile && (how >> 6 & 1)) start[fuzz_below(&in, n + 1)] = (sph_index)(fuzz_below(&in, pairs + 2) - 1); /* descends, begins before the first, ends early */
+    a->list.start = start;
+    a->list.index = index;
+    a->s[13] = scalars(&in, (sph_index)pairs, 1, kind);
+    a->s[14] = scalars(&in, n, 1, kind);
+
+    room = (size_t)(pairs > n ? pairs : n);
+    for (f = 0; f < OUTPUTS; f++) {
+        a->out[f] = (sph_real *)keep(fuzz_memory(room, sizeof(sph_real)));
+        memset(a->out[f], MARK, room * sizeof(sph_real));
+    }
+    a->status = (unsigned char *)keep(fuzz_memory((size_t)n, 1));
+    memset(a->status, MARK, (size_t)n);
+    a->count = (sph_index *)keep(fuzz_memory((size_t)n, sizeof *a->count));
+    if (nulls) {
+        const int none = (int)fuzz_byte(&in);
+        if (none < 16) a->s[none].p = NULL;
+        else if (none < 16 + OUTPUTS) a->out[none - 16] = NULL;
+        else if (none == 30) a->x.x = NULL;
+        else if (none == 31) a->x.y = NULL;
+        else if (none == 32) a->x.z = NULL;
+        else if (none == 33) a->list.start = NULL;
+        else if (none == 34) a->list.index = NULL;
+        else if (none == 35) a->h.p = NULL;
+        else if (none == 36) a->status = NULL;
+        else if (none == 37) a->count = NULL;
+    }
+    if (which < COUNT) {
+        a->answer = call(which, a);
+        check_answer(a, room);
+    } else owns[which - COUNT].run(a);
+    while (kept_count > 0) free(kept[--kept_count]);
+    return 0;
+}
