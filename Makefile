@@ -39,6 +39,7 @@ help:
 	@echo "make check-hosts      C++, Fortran, Python, WebAssembly, OpenCL, CUDA: the hosts whose tools are installed"
 	@echo "make check-matrix     the headers with every compiler that is installed: standards, levels, precisions, warnings as errors"
 	@echo "make check-embedded   the self-check on microcontrollers and other processors, in emulators; code size and memory"
+	@echo "make fuzz             FUZZ_SECONDS (60) of libFuzzer for each target of tests/fuzz, after a replay of its corpus under sanitizers"
 	@echo "make bench            time the search and the operators, as ratios to the machine's limits"
 	@echo "make docs             the headers' comments as pages (needs doxygen)"
 	@echo "make figures          PNG of the figures from the last run (needs gnuplot)"
@@ -117,6 +118,9 @@ $(BUILD)/tests/%: tests/test_%.c $(wildcard tests/*.h) $(COMMON) $(HEADERS)
 	@mkdir -p $(@D)
 	$(CC) $(WARN) $(CFLAGS) -I. -o $@ $< $(LDLIBS)
 
+fuzz: $(DRIVERS:%=$(BUILD)/examples/%)
+	@CC="$(CC)" BUILD="$(BUILD)" FUZZ_SECONDS="$(FUZZ_SECONDS)" sh tests/fuzz/run.sh
+
 check-packages:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/packages/packages.sh
 
@@ -158,4 +162,4 @@ dist:
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures gallery test test-sanitize check-matrix check-hosts check-embedded version install uninstall dist check-packages docs bench clean
+.PHONY: help reproduce reproduce-full figures gallery test test-sanitize fuzz check-matrix check-hosts check-embedded version install uninstall dist check-packages docs bench clean
