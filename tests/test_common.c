@@ -260,7 +260,7 @@ static int write_report(const char *dir, char *path)
         fprintf(stderr, "test_common: no temporary file\n");
         exit(2);
     }
-    strcpy(path, r.path);
+    strcpy(path, r.file.path);
     report_section(&r, "a section");
     for (int k = 0; k < AWKWARD; ++k)
         report_claim(&r, awkward[k], awkward[(k + 1) % AWKWARD], awkward[(k + 2) % AWKWARD],
@@ -323,7 +323,7 @@ static void test_report(const char *dir)
         {"0.333333333", "2", "misprint", "not-reproduced"},
         {"", "1e-300", "", "info"},
     };
-    char path[REPORT_PATH];
+    char path[PART_FILE_PATH];
     CHECK(write_report(dir, path) == 6);
     CHECK(write_report(dir, path) == 6); /* replaces the first */
 

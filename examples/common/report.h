@@ -16,15 +16,15 @@
  *     not-reproduced  known not to agree; the criterion column says why
  *     info            measured only, nothing to compare with
  *
- * The rows go to <name>.csv.part, renamed by report_close, so that a run cut
- * short never leaves half a table under the final name.
+ * A run cut short never leaves half a table under the final name (part_file.h).
  *
  * report_read reads such a file back, one record at a time.
  */
 #ifndef REPORT_H
 #define REPORT_H
 
-#include <errno.h>
+#include "part_file.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,14 +40,12 @@ typedef enum report_verdict {
     REPORT_VERDICTS /* their number */
 } report_verdict;
 
-enum { REPORT_COLUMNS = 7, REPORT_PATH = 4096, REPORT_NUMBER = 32, REPORT_CRITERION = 96 };
+enum { REPORT_COLUMNS = 7, REPORT_NUMBER = 32, REPORT_CRITERION = 96 };
 
 typedef struct report {
-    FILE *csv;
+    part_file file;
     FILE *screen; /* where the readable table goes: stdout */
     const char *name;
-    char path[REPORT_PATH];
-    char part[REPORT_PATH];
     time_t wall; /* at report_open */
     clock_t cpu; /* at report_open */
     int headed;  /* the column names are on the screen */
@@ -121,8 +119,8 @@ static inline void report_row(report *r, const char *item, const char *setting, 
     if (!reason) reason = "";
 
     for (int k = 0; k < REPORT_COLUMNS; ++k) {
-        report_csv_field(r->csv, field[k], k == 5 ? reason : "");
-        putc(k + 1 < REPORT_COLUMNS ? ',' : '\n', r->csv);
+        report_csv_field(r->file.to, field[k], k == 5 ? reason : "");
+        putc(k + 1 < REPORT_COLUMNS ? ',' : '\n', r->file.to);
     }
     if (!r->headed) report_screen_heading(r);
     report_screen_line(r->screen, verdict == REPORT_DIFFERS ? "!!" : "", field, reason);
@@ -167,15 +165,9 @@ static inline void report_open(report *r, const char *name, const char *out_dir)
     r->wall = time(NULL);
     r->cpu = clock();
 
-    errno = 0;
-    const int length = snprintf(r->part, sizeof r->part, "%s/%s.csv.part", out_dir, name);
-    if (length < 0 || (size_t)length >= sizeof r->part) report_fail(r, "use the directory", out_dir, "its path is too long, use a shorter one");
-    strcpy(r->path, r->part);
-    r->path[length - (int)strlen(".part")] = '\0';
-
-    r->csv = fopen(r->part, "w");
-    if (!r->csv) report_fail(r, "write", r->part, "create the output directory, or name one that exists and can be written");
-    for (int k = 0; k < REPORT_COLUMNS; ++k) fprintf(r->csv, "%s%c", report_column_name(k), k + 1 < REPORT_COLUMNS ? ',' : '\n');
+    if (!part_file_open(&r->file, out_dir, name, "csv"))
+        report_fail(r, "write", r->file.part, "create the output directory, or name one that exists and can be written");
+    for (int k = 0; k < REPORT_COLUMNS; ++k) fprintf(r->file.to, "%s%c", report_column_name(k), k + 1 < REPORT_COLUMNS ? ',' : '\n');
 }
 
 /* A heading, on the screen only. */
@@ -262,16 +254,11 @@ static inline int report_close(report *r)
     report_info(r, "run", "", "wall time [s]", wall);
 
     errno = 0;
-    const int failed = ferror(r->csv);
-    if (fclose(r->csv) != 0 || failed) report_fail(r, "write", r->part, "is the disk full?");
-    /* C leaves open whether rename replaces a file: where it does not, the old
-     * table has to go first. */
-    if (rename(r->part, r->path) != 0 && (remove(r->path), rename(r->part, r->path)) != 0)
-        report_fail(r, "create", r->path, "the rows are in the .part file beside it");
+    if (!part_file_close(&r->file)) report_fail(r, "write", r->file.path, "is the disk full? What there is of it is in the .part file beside it");
 
     fprintf(r->screen, "\n%s:", r->name);
     for (int k = 0; k < REPORT_VERDICTS; ++k) fprintf(r->screen, " %d %s,", r->count[k], report_verdict_name(k));
-    fprintf(r->screen, " %.0f s -> %s\n", wall, r->path);
+    fprintf(r->screen, " %.0f s -> %s\n", wall, r->file.path);
     fflush(r->screen);
     return r->count[REPORT_DIFFERS];
 }

@@ -8,47 +8,15 @@
  *     vtk_series_add(&s, t, n, x, y, NULL, fields, 3);         once per picture
  *     vtk_series_end(&s);
  *
- * Every file is written as NAME.part and then renamed, so a file under its final name is whole; the .pvd is complete after each picture, also if the run is cut short.
+ * A file under its final name is whole (part_file.h); the .pvd is complete after each picture, also if the run is cut short.
  * Functions return 0 and leave the cause in errno if a file could not be written, else 1.
  */
 #ifndef VTK_H
 #define VTK_H
 
-#include <errno.h>
-#include <stdio.h>
+#include "part_file.h"
+
 #include <stdlib.h>
-#include <string.h>
-
-/* ---- a file that gets its name when it is whole ---- */
-
-enum { PART_FILE_PATH = 4096 };
-
-typedef struct part_file {
-    FILE *to; /* write here */
-    char path[PART_FILE_PATH], part[PART_FILE_PATH];
-} part_file;
-
-/* dir/name.ending */
-static inline int part_file_open(part_file *f, const char *dir, const char *name, const char *ending)
-{
-    const int length = snprintf(f->part, sizeof f->part, "%s/%s.%s.part", dir, name, ending);
-    f->to = NULL;
-    errno = ENAMETOOLONG;
-    if (length < 0 || (size_t)length >= sizeof f->part) return 0;
-    strcpy(f->path, f->part);
-    f->path[length - (int)strlen(".part")] = '\0';
-    errno = 0;
-    f->to = fopen(f->part, "w");
-    return f->to != NULL;
-}
-
-static inline int part_file_close(part_file *f)
-{
-    const int broken = ferror(f->to) != 0;
-    if (fclose(f->to) != 0 || broken) return 0;
-    /* C leaves open whether rename replaces a file */
-    return rename(f->part, f->path) == 0 || (remove(f->path), rename(f->part, f->path) == 0);
-}
 
 /* ---- points ---- */
 
