@@ -1814,7 +1814,7 @@ SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_index first, sph_i
         gx[i] = state ? SPH_R(0) : D.x;
         if (dim > 1) gy[i] = state ? SPH_R(0) : D.y;
         if (dim > 2) gz[i] = state ? SPH_R(0) : D.z;
-        if (conditioning) conditioning[i] = pivot;
+        if (conditioning) sphi_store_finite(conditioning, i, pivot);
         if (status) status[i] = (unsigned char)state;
         failed += state != SPH_OK;
     }
@@ -1859,7 +1859,7 @@ SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_index first, 
                 if (dim > 2) wz[p] = SPH_R(0);
             }
         }
-        if (conditioning) conditioning[i] = pivot;
+        if (conditioning) sphi_store_finite(conditioning, i, pivot);
         if (status) status[i] = (unsigned char)state;
         failed += state != SPH_OK;
     }
@@ -2523,7 +2523,7 @@ SPH_FN void sphi_row_answer(sph_row_out out, sph_list list, sph_index i, int wit
         out.diagonal[i] = -sum;
     }
     if (out.factor) out.factor[i] = SPH_R(1);
-    if (out.conditioning) out.conditioning[i] = conditioning;
+    if (out.conditioning) sphi_store_finite(out.conditioning, i, conditioning);
     if (out.status) out.status[i] = (unsigned char)state;
 }
 SPH_FN int sphi_unanswered(int state) { return state == SPH_TOO_FEW || state == SPH_SINGULAR || state == SPH_NOT_AVAILABLE || state == SPH_NOT_FINITE; }
@@ -3752,7 +3752,7 @@ SPH_FN sph_index sph_radial_distribution(int dim, sph_index first, sph_index las
             const sph_real r = sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, list.index[p])));
             if (r < reach) {
                 const int at = (int)(r / reach * (sph_real)bins);
-                g[at < bins ? at : bins - 1] += SPH_R(1);
+                g[at < 0 ? 0 : at < bins ? at : bins - 1] += SPH_R(1);
             }
         }
     }
