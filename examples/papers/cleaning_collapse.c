@@ -584,7 +584,7 @@ int main(int argc, char **argv)
         {"particles", "in the sphere: this number alone", OPTION_INT, &particles, 100, 2000000},
         {"runs", "control, cleaned, or both", OPTION_TEXT, &which, 0, 0},
         {"end", "end of a run, in free-fall times", OPTION_REAL, &end, 1e-3, 10},
-        {"after", "end of a run after its sink has formed, in free-fall times", OPTION_REAL, &after, -1, 10},
+        {"after", "end of a run after its sink has formed, in free-fall times; negative: 5e-4 (control), 0.02 (cleaned)", OPTION_REAL, &after, -1, 10},
         {"alpha-B", "resistivity", OPTION_REAL, &alpha_B, 0, 1},
         {"sigma", "damping of the cleaning", OPTION_REAL, &s.sigma, 0, 10},
         {"mass-to-flux", "ratio over the critical one", OPTION_REAL, &s.mass_to_flux, -DBL_MAX, DBL_MAX},
