@@ -27,6 +27,10 @@ check "a file that is too short" answers 2 "3 numbers" "$bin/elliptic_spe10" -pe
 check "no number" answers 2 "-seed" "$bin/icspm_random" -seed x
 check "out of range" answers 2 "-seed" "$bin/icspm_random" -seed -1
 check "out of range" answers 2 "-small" "$bin/icspm_random" -small 3
+if [ -x "$bin/cleaning_collapse" ]; then
+    check "a field without limits" answers 2 "ratio is positive" "$bin/cleaning_collapse" -mass-to-flux 0 -out "$scratch" -figures "$scratch"
+    check "a sink without a size" answers 2 "must be positive" "$bin/cleaning_collapse" -sink-radius 0 -out "$scratch" -figures "$scratch"
+fi
 
 table=$scratch/icspm_uniform.csv
 check "a run" answers 0 "0 differs" "$bin/icspm_uniform" -out "$scratch" -figures "$scratch"
