@@ -335,7 +335,7 @@ static void run(setting *s, const plan *p, outcome *o)
     o->r.inside = cloud(&g, &model, p->particles, s->mass_to_flux);
     snprintf(o->name, sizeof o->name, "cleaning_collapse_%d_%s", o->r.inside, p->name);
     for (k = 0; o->name[k]; k++)
-        if (strchr(" =.-", o->name[k])) o->name[k] = '_';
+        if (strchr(" ,=.-", o->name[k])) o->name[k] = '_';
     vtk_series_begin(&series, s->figures, o->name);
     if (!s->go_on || !load(s, &g, o)) {
         collapse_momentum(&g, o->r.momentum);
