@@ -245,7 +245,7 @@ if (there("cleaning_collapse_fig5")) {
     set datafile separator ","
     history = dir."cleaning_collapse_fig5.csv"
     clouds = system(sprintf("tail -n +2 '%s' | cut -d, -f1 | sort -u -n", history))
-    array resistivity[3] = ["", "__alpha_B___0_05", "__alpha_B___0"]
+    array resistivity[3] = ["", "_with_alpha_B___0_05", "_with_alpha_B___0"]
     do for [cloud in clouds] { do for [v = 1:3] {
         columns(k) = sprintf("cleaning_collapse_fig4_%s_%s%s%s", cloud, k == 1 ? "control" : "cleaned", resistivity[v], k == 3 ? "_end" : "")
         if (there(columns(1)) && there(columns(2))) {
@@ -278,28 +278,28 @@ if (there("cleaning_collapse_fig5")) {
     } }
     array figure[2] = ["fig5", "fig6"]
     array what[2] = ["Figure 5: mean of h |div B| / |B|", "Figure 6: linear momentum made, |P - P_0| [10^5 cm/s solar masses]"]
-    array strokes[6] = [1, 1, 2, 2, 3, 3]
-    array runs[6] = ["control", "cleaned", "control, alpha_B = 0", "cleaned, alpha_B = 0", "control, alpha_B = 0.05", "cleaned, alpha_B = 0.05"]
+    array stroke[6] = ["#000000", "#d55e00", "#999999", "#e69f00", "#0072b2", "#cc79a7"]
+    array runs[6] = ["control", "cleaned", "control with alpha_B = 0", "cleaned with alpha_B = 0", "control with alpha_B = 0.05", "cleaned with alpha_B = 0.05"]
     has(cloud, k) = system(sprintf("grep -c '^%s,\"%s\",' '%s'", cloud, runs[k], history)) + 0 > 0
     do for [q = 1:2] {
         set output dir.sprintf("cleaning_collapse_%s.png", figure[q])
-        set terminal pngcairo size (words(clouds) > 1 ? 700 * words(clouds) : 950),560 font "sans,12"
-        set multiplot layout 1,words(clouds) title what[q]." in the collapse of a cloud core"
+        set terminal pngcairo size (words(clouds) > 1 ? 700 * words(clouds) : 950),1000 font "sans,12"
+        set multiplot layout 2,words(clouds) title what[q]." in the collapse of a cloud core"
         set grid linecolor rgb "#dddddd"
         set logscale y
         set format y "10^{%L}"
         set xlabel "t / t_{ff}"
         unset ylabel
         set key top left noenhanced
-        set autoscale x
-        if (q == 1) { set yrange [1e-3:2] } else { set yrange [1e-7:1] }
-        do for [cloud in clouds] {
+        if (q == 1) { set yrange [1e-3:2] } else { set yrange [1e-7:10] }
+        do for [near_peak = 0:1] { do for [cloud in clouds] {
+            if (near_peak) { set xrange [0.86:*] } else { set xrange [0:*] }
             set title cloud." particles in the sphere"
             here = ""
             do for [k = 1:6] { if (has(cloud, k)) { here = here." ".k } }
             plot for [k in here] history using ($1 == (cloud + 0) && strcol(2) eq runs[k + 0] ? $3 : NaN):(q == 1 ? $6 : $9 * 1.152) every ::1 with lines linewidth 2 \
-                dashtype strokes[k + 0] linecolor rgb (k % 2 ? "#000000" : "#d55e00") title runs[k + 0]
-        }
+                linecolor rgb stroke[k + 0] title runs[k + 0]
+        } }
         unset multiplot
     }
 }

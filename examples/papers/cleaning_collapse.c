@@ -335,7 +335,7 @@ static void run(setting *s, const plan *p, outcome *o)
     o->r.inside = cloud(&g, &model, p->particles, s->mass_to_flux);
     snprintf(o->name, sizeof o->name, "cleaning_collapse_%d_%s", o->r.inside, p->name);
     for (k = 0; o->name[k]; k++)
-        if (strchr(" ,=.-", o->name[k])) o->name[k] = '_';
+        if (strchr(" =.-", o->name[k])) o->name[k] = '_';
     vtk_series_begin(&series, s->figures, o->name);
     if (!s->go_on || !load(s, &g, o)) {
         collapse_momentum(&g, o->r.momentum);
@@ -634,10 +634,10 @@ int main(int argc, char **argv)
         PLAN("control", 0, 2000, alpha_B, end, 5e-4, 800);
         PLAN("cleaned", 1, 2000, alpha_B, end, s.full ? 0.02 : 0.01, 0);
         if (s.full) {
-            PLAN("control, alpha_B = 0", 0, 2000, 0, end, 5e-4, 2000);
-            PLAN("cleaned, alpha_B = 0", 1, 2000, 0, end, 0.02, 0);
-            PLAN("control, alpha_B = 0.05", 0, 2000, 0.05, end, 5e-4, 2000);
-            PLAN("cleaned, alpha_B = 0.05", 1, 2000, 0.05, end, 0.02, 0);
+            PLAN("control with alpha_B = 0", 0, 2000, 0, end, 5e-4, 2000);
+            PLAN("cleaned with alpha_B = 0", 1, 2000, 0, end, 0.02, 0);
+            PLAN("control with alpha_B = 0.05", 0, 2000, 0.05, end, 5e-4, 2000);
+            PLAN("cleaned with alpha_B = 0.05", 1, 2000, 0.05, end, 0.02, 0);
             PLAN("control", 0, 10000, alpha_B, end, 0.02, 5000);
             PLAN("cleaned", 1, 10000, alpha_B, end, 1, 0);
             PLAN("control", 0, 30000, alpha_B, end, 0.02, 5000);
