@@ -427,7 +427,12 @@ SPH_FN void sphi_multiply_transposed(int rows, int cols, sph_real (*m)[SPHI_MAX]
 /* -------- the block system. Unknowns in the order (x, y, z) and (xx, xy, yy, xz, yz, zz), so that lower dimensions are the leading parts; as second unknown the
    coefficient of e_a e_b (half the derivative for a = b). Rows and columns are scaled to unit diagonals of K and M: conditioning then does not depend on units. */
 
-SPH_FN int sphi_unknowns(int dim) { return dim * (dim + 1) / 2; } /* of the Hessian */
+/* of the Hessian */
+SPH_FN int sphi_unknowns(int dim)
+{
+    SPH_ASSERT(dim >= 1 && dim <= 3);
+    return dim == 1 ? 1 : dim == 2 ? 3 : 6;
+}
 
 typedef struct sphi_blocks {
     sph_real K[SPHI_MAX][SPHI_MAX], B[SPHI_MAX][SPHI_MAX], A[SPHI_MAX][SPHI_MAX], M[SPHI_MAX][SPHI_MAX];
@@ -2058,20 +2063,25 @@ SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_index f
         sph_moments m;
         sph_jet j;
         sph_real conditioning = SPH_R(0);
-        int state;
+        int state, solved;
         sphi_moments(method, k, dim, 1, i, x, list, h_i, V, f, &m);
         state = sphi_solve(method, dim, &m, h_i, &j, want_conditioning ? &conditioning : 0);
+        solved = state == SPH_OK;
         if (!sphi_finite(conditioning)) conditioning = SPH_R(0); /* moments that overflowed */
-        if (state) state = sphi_singular_status(k, dim, i, x, list, h_i, sphi_neighbours_needed(method, dim));
+        if (!solved) state = sphi_singular_status(k, dim, i, x, list, h_i, sphi_neighbours_needed(method, dim));
         else if (want_conditioning && SPHI_ABS(conditioning) < conditioning_min) state = SPH_ILL_CONDITIONED;
         if (fallback_wls && (state == SPH_SINGULAR || state == SPH_ILL_CONDITIONED)) {
             sphi_moments(SPHI_WLS, k, dim, 1, i, x, list, h_i, V, f, &m);
-            if (sph_solve_block(dim, &m, h_i, &j, 0) == SPH_OK) state = SPH_FELL_BACK;
+            if (sph_solve_block(dim, &m, h_i, &j, 0) == SPH_OK) {
+                state = SPH_FELL_BACK;
+                solved = 1;
+            }
         }
-        if ((state == SPH_OK || state == SPH_ILL_CONDITIONED || state == SPH_FELL_BACK) &&
-            !(sphi_jet_finite(dim, j) && sphi_finite(sphi_trace(dim, j.hessian))))
+        if (solved && !(sphi_jet_finite(dim, j) && sphi_finite(sphi_trace(dim, j.hessian)))) {
             state = SPH_NOT_FINITE;
-        if (state == SPH_TOO_FEW || state == SPH_SINGULAR || state == SPH_NOT_FINITE) {
+            solved = 0;
+        }
+        if (!solved) {
             j = sph_jet_laplacian(dim);
             j.hessian.xx = j.hessian.yy = j.hessian.zz = SPH_R(0);
         }
@@ -4172,7 +4182,7 @@ SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k
                         (SPH_R(-0.5) * q * w - SPH_R(0.5) * eta * sph_dot(parts, B_ij, B_ij) +
                          s->alpha_u * sph_conductivity_speed(P_i, P_j, per_rho) * (u_i - sphi_at(s->u, j)) * per_rho);
             }
-            for (p = 0; p < end - tile; p++) fastest = v_sig[p] > fastest ? v_sig[p] : fastest;
+            for (p = tile; p < end; p++) fastest = v_sig[p - tile] > fastest ? v_sig[p - tile] : fastest;
         }
         div_v = -sv / (omega_i * rho_i);
         div_B = -sB / (omega_i * rho_i);
