@@ -172,5 +172,7 @@ int main(int argc, char **argv)
             report();
         }
     }
-    return writes && fclose(file) ? 2 : 0;
+    if (!writes || (!ferror(file) && fclose(file) == 0)) return 0;
+    perror(argv[2]);
+    return 2;
 }

@@ -196,5 +196,7 @@ int main(int argc, char **argv)
             fflush(stdout);
         }
     }
-    return csv && fclose(file) ? 2 : 0;
+    if (!csv || (!ferror(file) && fclose(file) == 0)) return 0;
+    perror(argv[2]);
+    return 2;
 }

@@ -166,7 +166,9 @@ static int write_csv(const char *name)
     }
     fprintf(file, "x,y,h,rho,exact\n");
     for (i = 0; i < N; i++) fprintf(file, "%.6g,%.6g,%.6g,%.6g,%.6g\n", x[i], y[i], h[i], rho[i], exact(sqrt(x[i] * x[i] + y[i] * y[i])));
-    return fclose(file) ? 2 : 0;
+    if (!ferror(file) && fclose(file) == 0) return 0;
+    perror(name);
+    return 2;
 }
 
 int main(int argc, char **argv)

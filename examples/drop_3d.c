@@ -149,7 +149,7 @@ static void write_vtk(const char *prefix, int frame)
     for (i = 0; i < n; i++) fprintf(file, "%g\n", p[i]);
     fprintf(file, "VECTORS velocity double\n");
     for (i = 0; i < n; i++) fprintf(file, "%g %g %g\n", v[0][i], v[1][i], v[2][i]);
-    fclose(file);
+    if (ferror(file) || fclose(file)) perror(name), exit(2);
 }
 
 static int failed;
@@ -196,5 +196,5 @@ int main(int argc, char **argv)
             fprintf(file, "%g,%.4g,%.4g,%.4g,%.4g,%.5g,%.5g\n", 0.02 * frame, x[0][i], x[1][i], x[2][i], p[i], axis[0], axis[1]);
         if (argc == 1 && frame % 10 == 0) draw();
     }
-    return csv && fclose(file) ? 2 : 0;
+    return csv && (ferror(file) || fclose(file)) ? perror(argv[2]), 2 : 0;
 }

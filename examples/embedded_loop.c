@@ -160,7 +160,10 @@ int main(int argc, char **argv)
     }
     if (error) printf("FAILED: %s\n", sph_status_text(error));
     if (tests && !failed && !error) printf("ok\n");
-    if (writes && fclose(file)) return 2;
+    if (writes && (ferror(file) || fclose(file))) {
+        perror(argv[2]);
+        return 2;
+    }
     if (tests || writes) return failed || error;
     for (k = 0; k < 2; k++) {
         printf(k ? "at rest:\n" : "gravity down, to the right, up, to the left; on the way:\n");

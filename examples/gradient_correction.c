@@ -127,7 +127,9 @@ static int write_csv(const char *name)
     }
     fprintf(file, "x,y,f,error_plain,error_cspm\n");
     for (i = 0; i < n; i++) fprintf(file, "%.6g,%.6g,%.6g,%.6g,%.6g\n", x[i], y[i], f[i], error(i, plain_x, plain_y), error(i, cspm_x, cspm_y));
-    return fclose(file) ? 2 : 0;
+    if (!ferror(file) && fclose(file) == 0) return 0;
+    perror(name);
+    return 2;
 }
 
 static int failed;

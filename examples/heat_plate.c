@@ -151,5 +151,7 @@ int main(int argc, char **argv)
         if (!writes) draw();
     }
     if (!writes) printf("in the centre: %.4f; 0.25 in the end\n", temperature[SIDE / 2 * SIDE + SIDE / 2]);
-    return writes && fclose(file) ? 2 : 0;
+    if (!writes || (!ferror(file) && fclose(file) == 0)) return 0;
+    perror(argv[2]);
+    return 2;
 }

@@ -55,7 +55,9 @@ static int write_csv(const char *name)
             const double r = 3.0 * i / 120;
             fprintf(file, "%s,%g,%.9g,%.9g\n", sph_kernel_name(kernels[k]), r, sph_kernel_w(kernels[k], DIM, r, h), -sph_kernel_dwdr(kernels[k], DIM, r, h));
         }
-    return fclose(file) ? 2 : 0;
+    if (!ferror(file) && fclose(file) == 0) return 0;
+    perror(name);
+    return 2;
 }
 
 static int failed;

@@ -179,7 +179,9 @@ int main(int argc, char **argv)
     if (writes) {
         fprintf(file, "x,y,p,ax,ay\n");
         for (i = 0; i < N; i++) fprintf(file, "%.5g,%.5g,%.5g,%.5g,%.5g\n", x[i], y[i], p[i], ax1[i], ay1[i]);
-        return fclose(file) ? 2 : 0;
+        if (!ferror(file) && fclose(file) == 0) return 0;
+        perror(argv[2]);
+        return 2;
     }
     if (!tests) draw();
     if (!tests) printf("largest difference of the two ways: %.1e of the largest acceleration\n", worst);

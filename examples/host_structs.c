@@ -150,7 +150,9 @@ static int write_csv(const char *name)
     for (i = 0; i < N; i++)
         fprintf(file, "%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%d\n", hill[i].position[0], hill[i].position[1], hill[i].height, hill[i].slope[0], hill[i].slope[1],
                 hill[i].laplacian, status[i]);
-    return fclose(file) ? 2 : 0;
+    if (!ferror(file) && fclose(file) == 0) return 0;
+    perror(name);
+    return 2;
 }
 
 int main(int argc, char **argv)

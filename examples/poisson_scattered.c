@@ -136,7 +136,9 @@ static int write_csv(const char *name)
     }
     fprintf(file, "x,y,u,exact\n");
     for (i = 0; i < n; i++) fprintf(file, "%.6g,%.6g,%.6g,%.6g\n", x[i], y[i], u[i], exact(x[i], y[i]));
-    return fclose(file) ? 2 : 0;
+    if (!ferror(file) && fclose(file) == 0) return 0;
+    perror(name);
+    return 2;
 }
 
 static int test(void)

@@ -166,7 +166,9 @@ static int write_csv(const char *name)
         while (k > 0 && t < 1) step(k == 2);
         for (i = 0; i < N; i++) fprintf(file, "%d,%.5g,%.5g\n", k, x[i] - floor(x[i]), y[i] - floor(y[i]));
     }
-    return fclose(file) ? 2 : 0;
+    if (!ferror(file) && fclose(file) == 0) return 0;
+    perror(name);
+    return 2;
 }
 
 int main(int argc, char **argv)

@@ -406,6 +406,12 @@ static inline int sparse_preconditioner_make(sparse_preconditioner *P, sparse_me
     return answer;
 }
 
+/* What the answers of sparse_finish, sparse_transpose, sparse_scale_rows and sparse_preconditioner_make mean. */
+static inline const char *sparse_answer_text(int answer)
+{
+    return answer == 0 ? "done" : answer == -1 ? "not enough memory" : answer == -2 ? "not a valid matrix" : "a diagonal is missing, or a pivot is 0";
+}
+
 /* z = M^-1 r; z is not r. P may be NULL: M = 1. */
 static inline void sparse_precondition(const sparse_preconditioner *P, int n, const double *restrict r, double *restrict z)
 {

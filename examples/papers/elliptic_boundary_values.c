@@ -138,11 +138,11 @@ static void uniform(report *r, const uniform_table *t, cloud *c, double apart[2]
             double *const b = elliptic_vector(elliptic_mimetic_faces(N)), *const u = elliptic_vector(elliptic_mimetic_faces(N)),
                           *const cells = elliptic_vector(N * N);
             sparse A;
-            if (elliptic_tpfa(&box, &A, b) != 0) exit(1);
+            elliptic_made(elliptic_tpfa(&box, &A, b), "matrix of two-point fluxes");
             elliptic_solve(&A, b, u);
             tpfa[k] = elliptic_relative_error(N * N, exact, u);
             sparse_free(&A);
-            if (elliptic_mimetic(&box, &A, b) != 0) exit(1);
+            elliptic_made(elliptic_mimetic(&box, &A, b), "matrix of the mimetic scheme");
             elliptic_solve(&A, b, u);
             elliptic_mimetic_cells(N, u, cells);
             mimetic[k] = elliptic_relative_error(N * N, exact, cells);
@@ -318,10 +318,10 @@ static void figure(const char *folder, int number, int mixed, cloud *c)
     cloud_cells(c, N);
     cloud_neighbours(c, 1.001 * c->dx);
     solve_problem(c, N, SCHEME_M, mixed, exact);
-    if (elliptic_tpfa(&box, &A, b) != 0) exit(1);
+    elliptic_made(elliptic_tpfa(&box, &A, b), "matrix of two-point fluxes");
     elliptic_solve(&A, b, tpfa);
     sparse_free(&A);
-    if (elliptic_mimetic(&box, &A, b) != 0) exit(1);
+    elliptic_made(elliptic_mimetic(&box, &A, b), "matrix of the mimetic scheme");
     elliptic_solve(&A, b, faces);
     sparse_free(&A);
     elliptic_mimetic_cells(N, faces, mimetic);

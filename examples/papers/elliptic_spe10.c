@@ -30,12 +30,6 @@ typedef struct problem {
     int real;         /* SPE10 itself */
 } problem;
 
-static void stop(const char *what)
-{
-    fprintf(stderr, "elliptic_spe10: %s\n", what);
-    exit(1);
-}
-
 /* ---- particles and matrices ---- */
 
 /* Cells first, then the faces of the low and the high end of each axis. */
@@ -149,7 +143,7 @@ static sparse_result solve(const sparse *A, const double *b, double *u, sparse_m
     o.history = history;
     o.monitor = watch;
     o.context = &bar;
-    if (sparse_preconditioner_make(&P, method, A) != 0) stop("no preconditioner: a pivot is 0");
+    elliptic_made(sparse_preconditioner_make(&P, method, A), "preconditioner");
     progress_begin(&bar, "GMRES", 0);
     r = sparse_gmres(A, &P, b, u, &o);
     progress_end(&bar);
@@ -308,7 +302,8 @@ static void run(report *r, problem *p, const char *figures, int full)
     {
         elliptic_box isotropic = box;
         isotropic.k[1] = isotropic.k[2] = isotropic.k[0];
-        if (elliptic_tpfa(&isotropic, &tpfa, b_tpfa) != 0 || sparse_scale_rows(&tpfa, b_tpfa) != 0) stop("no two-point fluxes");
+        elliptic_made(elliptic_tpfa(&isotropic, &tpfa, b_tpfa), "matrix of two-point fluxes");
+        elliptic_made(sparse_scale_rows(&tpfa, b_tpfa), "scaled matrix of two-point fluxes");
     }
     must(solve(&tpfa, b_tpfa, p->tpfa, SPARSE_ILU0, 1e-9, p->dim == 2 ? 0 : RESTART, 6000, NULL));
     for (v = 0; v < sizeof variants / sizeof *variants; v++) {
@@ -338,7 +333,8 @@ static void run(report *r, problem *p, const char *figures, int full)
     }
     if (anisotropic) { /* Kz of its own: the consistent operator, against TPFA with it */
         sparse_free(&tpfa);
-        if (elliptic_tpfa(&box, &tpfa, b_tpfa) != 0 || sparse_scale_rows(&tpfa, b_tpfa) != 0) stop("no two-point fluxes");
+        elliptic_made(elliptic_tpfa(&box, &tpfa, b_tpfa), "matrix of two-point fluxes");
+        elliptic_made(sparse_scale_rows(&tpfa, b_tpfa), "scaled matrix of two-point fluxes");
         must(solve(&tpfa, b_tpfa, p->tpfa, SPARSE_ILU0, 1e-9, RESTART, 6000, NULL));
         cloud_neighbours(&p->c, 1.001);
         matrix(p, ANISOTROPIC, SPH_MOBILITY_ARITHMETIC, &msph, b);

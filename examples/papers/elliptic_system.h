@@ -13,6 +13,14 @@
 #include "../common/sparse.h"
 #include "elliptic.h"
 
+/* Ends the program unless the matrix, or what else `answer` is about, was made. */
+static inline void elliptic_made(int answer, const char *what)
+{
+    if (answer == 0) return;
+    fprintf(stderr, "elliptic: no %s: %s\n", what, sparse_answer_text(answer));
+    exit(2);
+}
+
 static inline double *elliptic_vector(int n)
 {
     double *const v = (double *)elliptic_memory(NULL, (size_t)n * sizeof *v);
@@ -89,10 +97,7 @@ static inline void elliptic_solve(const sparse *A, const double *b, double *u)
     o.tolerance = 1e-12;
     o.max_iterations = 4000;
     o.restart = 60;
-    if (sparse_preconditioner_make(&P, SPARSE_ILU0, A) != 0) {
-        fprintf(stderr, "elliptic: no incomplete factorisation: a pivot is 0\n");
-        exit(1);
-    }
+    elliptic_made(sparse_preconditioner_make(&P, SPARSE_ILU0, A), "incomplete factorisation");
     r = sparse_bicgstab(A, &P, b, u, &o);
     if (!elliptic_solved(A, b, u, r)) r = sparse_gmres(A, &P, b, u, &o);
     sparse_preconditioner_free(&P);

@@ -107,10 +107,8 @@ static void projection_open(projection *q, scatter *s, int scale_traces)
     for (i = 0; i < n; i++) sparse_put(&build, i, border);
     sparse_put(&build, n, 0);
     sparse_end_row(&build);
-    if (sparse_finish(&build, &q->A) != 0 || sparse_preconditioner_make(&q->P, SPARSE_ILU0, &q->A) != 0) {
-        fprintf(stderr, "elliptic_uses: no matrix of the projection\n");
-        exit(1);
-    }
+    elliptic_made(sparse_finish(&build, &q->A), "matrix of the projection");
+    elliptic_made(sparse_preconditioner_make(&q->P, SPARSE_ILU0, &q->A), "incomplete factorisation of the projection");
 }
 static void projection_close(projection *q)
 {
@@ -436,10 +434,7 @@ static void slab_matrix(const scatter *s, double one, double dt, sparse *A)
             if (s->c.row[p] != 0) sparse_put(&build, s->c.index[p], -dt * s->c.row[p]);
         sparse_end_row(&build);
     }
-    if (sparse_finish(&build, A) != 0) {
-        fprintf(stderr, "elliptic_uses: no matrix of the slab\n");
-        exit(1);
-    }
+    elliptic_made(sparse_finish(&build, A), "matrix of the slab");
 }
 
 static void slab_ends(const scatter *s, double ratio, double t, double *u)
@@ -476,10 +471,7 @@ static void slab_implicit(scatter *s, double ratio, double theta, int count)
     o.tolerance = 1e-11;
     slab_matrix(s, 0, -1, &L);
     slab_matrix(s, 1, theta * dt, &A);
-    if (sparse_preconditioner_make(&P, SPARSE_ILU0, &A) != 0) {
-        fprintf(stderr, "elliptic_uses: no incomplete factorisation\n");
-        exit(1);
-    }
+    elliptic_made(sparse_preconditioner_make(&P, SPARSE_ILU0, &A), "incomplete factorisation of the slab");
     for (step = 1; step <= count; step++) {
         sparse_multiply(&L, u, b);
         for (i = 0; i < s->inner; i++) b[i] = u[i] + (1 - theta) * dt * b[i];
