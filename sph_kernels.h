@@ -206,7 +206,7 @@ typedef enum sph_error {
     SPH_ERROR_COUNT = -4,     /* fewer than one particle, or a stride of 0 where positions need one */
     SPH_ERROR_RANGE = -5,     /* not 0 <= first <= last <= n */
     SPH_ERROR_H = -6,         /* h is not finite and positive */
-    SPH_ERROR_POSITION = -7,  /* a position is not finite */
+    SPH_ERROR_POSITION = -7,  /* a position is not finite, or so large that the difference of two may not be */
     SPH_ERROR_VALUE = -8,     /* a field value, mass or volume is not finite (or a parameter is out of its range) */
     SPH_ERROR_LIST = -9,      /* list rows do not ascend, or an entry is no particle */
     SPH_ERROR_SELF = -10,     /* a row holds its own particle, but this operator adds that term itself */

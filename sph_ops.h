@@ -1406,12 +1406,20 @@ SPH_FN int sphi_check_frame(int dim, sph_index first, sph_index last, sph_points
     if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
     return first < 0 || first > last || last > x.n ? SPH_ERROR_RANGE : 0;
 }
+/* finite, and so is the difference of any two */
+SPH_FN int sphi_all_places(const SPH_GLOBAL sph_real *x, size_t stride, sph_index n)
+{
+    sph_index i;
+    int bad = 0;
+    for (i = 0; i < n; i++) bad |= !sphi_finite(SPH_R(2) * x[(size_t)i * stride]);
+    return !bad;
+}
 SPH_FN int sphi_check_positions(int dim, sph_points x)
 {
     if (!SPH_CHECK) return 0;
-    if (!sphi_all_finite(sph_scalars_strided(x.x, x.stride), x.n)) return SPH_ERROR_POSITION;
-    if (dim > 1 && !sphi_all_finite(sph_scalars_strided(x.y, x.stride), x.n)) return SPH_ERROR_POSITION;
-    if (dim > 2 && !sphi_all_finite(sph_scalars_strided(x.z, x.stride), x.n)) return SPH_ERROR_POSITION;
+    if (!sphi_all_places(x.x, x.stride, x.n)) return SPH_ERROR_POSITION;
+    if (dim > 1 && !sphi_all_places(x.y, x.stride, x.n)) return SPH_ERROR_POSITION;
+    if (dim > 2 && !sphi_all_places(x.z, x.stride, x.n)) return SPH_ERROR_POSITION;
     return 0;
 }
 /* The rows first ... last - 1 of a list of n sources, which the targets are themselves unless foreign. Without SPH_CHECK their ends alone. */
