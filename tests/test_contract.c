@@ -33,6 +33,11 @@
 #else
 #define WATCH(seconds) ((void)0)
 #endif
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__ 1 /* as gcc says it */
+#endif
+#endif
 #if defined(__SANITIZE_ADDRESS__)
 #include <sanitizer/asan_interface.h>
 #else
@@ -43,15 +48,8 @@
 /* ---------------------------------------------------------------- what a call is made of */
 
 /* Every array: name, what it holds, the axis it belongs to (it is there for dim > axis), how many. The inputs first. */
-enum { REAL, INDEX_, BYTE, BYTES }; /* BYTES: anything else, by its size */
-enum {
-    EACH,
-    PAIR,
-    ROWS,
-    ROOM,
-    WORK_ROOM,
-    FEW
-}; /* one a particle, a pair, a particle and one more, for the largest list, the grid's workspace, 64 bytes and more */
+enum { REAL, INDEX_, BYTE, BYTES };              /* BYTES: anything else, by its size */
+enum { EACH, PAIR, ROWS, ROOM, WORK_ROOM, FEW }; /* as many as particles, pairs, particles and one; for the longest list, a workspace, a struct */
 /* clang-format off */
 #define ARRAYS_OF(X) \
     X(PX, REAL, 0, EACH) X(PY, REAL, 1, EACH) X(PZ, REAL, 2, EACH) \
@@ -790,7 +788,7 @@ static int spoil_box(const function *f, world *w, int v)
 }
 
 static int spoil_x_nan(const function *f, world *w, int v) { return set_one(f, w, positions_of(f, w), v, (double)NAN); }
-static int spoil_x_inf(const function *f, world *w, int v) { return set_either(f, w, positions_of(f, w), v, (double)INFINITY, -(double)INFINITY); }
+static int spoil_x_inf(const function *f, world *w, int v) { return set_either(f, w, positions_of(f, w), v, (double)INFINITY, -0.75 * LIMIT); }
 static int spoil_h_low(const function *f, world *w, int v) { return set_either(f, w, lengths_of(f, w), v, 0.0, -0.1); }
 static int spoil_h_nan(const function *f, world *w, int v) { return set_one(f, w, lengths_of(f, w), v, (double)NAN); }
 static int spoil_h_inf(const function *f, world *w, int v) { return set_one(f, w, lengths_of(f, w), v, (double)INFINITY); }
@@ -950,7 +948,7 @@ static int spoil_all_coincident(const function *f, world *w, int v)
     int c;
     if (v > 1) return END;
     for (c = 0; c < w->dim; c++)
-        for (i = 0; i < w->n; i++) real_of(w, PX + c)[i] = v ? SPH_R(0.75 * LIMIT) : real_of(w, PX + c)[0];
+        for (i = 0; i < w->n; i++) real_of(w, PX + c)[i] = v ? SPH_R(0.25 * LIMIT) : real_of(w, PX + c)[0];
     if (v) w->number[STEP] = LIMIT;
     return moved(f, w);
 }
@@ -995,12 +993,12 @@ static int spoil_at_1e30(const function *f, world *w, int v)
         for (c = PX; c <= QZ; c++) real_of(w, c)[i] += SPH_R(1e30);
     return moved(f, w);
 }
-static int spoil_1e30(const function *f, world *w, int v) /* and farther apart than there are numbers */
+static int spoil_1e30(const function *f, world *w, int v) /* and so far apart that only the square of a distance overflows */
 {
     sph_index i;
     int c;
     for (i = 0; v == 1 && i < w->n; i++)
-        for (c = PX; c <= QZ; c++) real_of(w, c)[i] = SPH_R((i % 2 ? 0.7 : -0.7) * LIMIT / 1e30);
+        for (c = PX; c <= QZ; c++) real_of(w, c)[i] = SPH_R((i % 2 ? 0.45 : -0.45) * LIMIT / 1e30);
     return v > 1 ? END : scale(f, w, 1e30, 1e30);
 }
 static int spoil_1e_30(const function *f, world *w, int v) { return v > 0 ? END : scale(f, w, 1e-30, 1e-30); }
