@@ -483,7 +483,7 @@ static void compare(report *r, const char *size, const plan *pa, const outcome *
         const double ratio = x.error / y.error, robust = x.ratio / y.ratio;
         snprintf(text, sizeof text, "%.1f times at 7e-11 g/cm^3", ratio);
         claim(r, "Figure 5", size, "error before the sink, control / cleaned", "10 (an order of magnitude)", text, ratio >= 10,
-              "the control's error grows steeply with the density just before the sink");
+              "the control's error is smaller, the more particles there are; it grows steeply with the density just before the sink");
         if (asserted) {
             report_range(r, "independent", size, "error before the sink (7e-11 g/cm^3), control / cleaned", 13, ratio, 5, HUGE_VAL);
             report_range(r, "independent", size, "ratio of means before the sink, control / cleaned", (double)NAN, robust, 6, HUGE_VAL);
