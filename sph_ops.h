@@ -1350,12 +1350,14 @@ SPH_FN int sphi_store_finite(SPH_GLOBAL sph_real *out, sph_index i, sph_real val
     out[i] = ok ? value : SPH_R(0);
     return !ok;
 }
-/* The same for the entries first ... last - 1 of a row: all 0 if one overflowed. */
+/* The same for the entries first ... last - 1 of a row: all 0 if one overflowed, or their sum, the diagonal. */
 SPH_FN int sphi_row_finite(SPH_GLOBAL sph_real *row, sph_index first, sph_index last)
 {
+    sph_real sum = SPH_R(0);
     sph_index p;
-    int lost = 0;
-    for (p = first; p < last; p++) lost |= !sphi_finite(row[p]);
+    int lost;
+    for (p = first; p < last; p++) sum += row[p]; /* not finite if one of them is not */
+    lost = !sphi_finite(sum);
     if (lost)
         for (p = first; p < last; p++) row[p] = SPH_R(0);
     return lost;
@@ -2895,6 +2897,10 @@ SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_index fir
         }
         if (sphi_row_finite(out.row, list.start[i], list.start[i + 1])) state = SPH_NOT_FINITE;
         for (p = list.start[i]; p < list.start[i + 1]; p++) sum += out.row[p];
+        if (!sphi_finite(alpha_i - sum)) {
+            for (p = list.start[i]; p < list.start[i + 1]; p++) out.row[p] = SPH_R(0);
+            state = SPH_NOT_FINITE;
+        }
         out.diagonal[i] = sphi_unanswered(state) ? SPH_R(0) : alpha_i - sum;
         sphi_row_answer(out, list, i, 0, conditioning, state);
         failed += state != SPH_OK;
