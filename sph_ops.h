@@ -1706,7 +1706,8 @@ SPH_FN sph_index sph_density_adaptive(sph_kernel k, int dim, sph_index first, sp
         sph_real density = SPH_R(0), factor = SPH_R(0);
         int state = SPH_NOT_AVAILABLE;
         if (sphi_at(m, i) > SPH_R(0)) {
-            state = sphi_density_solve(k, dim, i, x, list, longest, m, eta, accepted, &h[i], &sums);
+            /* a reach that is a denormal number may leave no h at all */
+            state = longest > SPH_R(0) ? sphi_density_solve(k, dim, i, x, list, longest, m, eta, accepted, &h[i], &sums) : (int)SPH_NOT_FINITE;
             if (state == SPH_OK || state == SPH_ILL_CONDITIONED || state == SPH_LIST_TOO_SHORT) {
                 density = sph_density_value(k, dim, sums, h[i]);
                 factor = sums.S > SPH_R(0) ? sph_density_omega(dim, sums) : SPH_R(0);
