@@ -42,6 +42,7 @@ static outcome run(const char *path, char **words, int milliseconds, int from)
 {
     outcome o;
     size_t length = 0;
+    char rest[4096];
     ssize_t got;
     pid_t child;
     int ends[2];
@@ -71,13 +72,12 @@ static outcome run(const char *path, char **words, int milliseconds, int from)
         _exit(99);
     }
     close(ends[1]);
-    while ((got = read(ends[0], o.text + length, TEXT - 1 - length)) > 0) length += (size_t)got;
-    if (length == TEXT - 1) {
-        char rest[4096];
-        while (read(ends[0], rest, sizeof rest) > 0) {}
-    }
+    /* all of it, although the fuzzer's own timer interrupts */
+    while ((got = read(ends[0], length < TEXT - 1 ? o.text + length : rest, length < TEXT - 1 ? TEXT - 1 - length : sizeof rest)) > 0 || (got < 0 && errno == EINTR))
+        if (got > 0 && length < TEXT - 1) length += (size_t)got;
     close(ends[0]);
-    if (waitpid(child, &o.status, 0) != child) exit(1);
+    while (waitpid(child, &o.status, 0) != child)
+        if (errno != EINTR) exit(1);
     return o;
 }
 
@@ -177,7 +177,7 @@ static void check_options(char words[WORDS][WORD], int count)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    fuzz_input in = {data, size};
+    fuzz_input in = {data, size, 0};
     char words[WORDS][WORD], nonsense[] = "-nonsense", *argv[WORDS + 3];
     const program *p;
     int k, count, last, helped = 0;

@@ -409,7 +409,7 @@ static void check_elliptic(const cloud *c, fuzz_input *in)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    fuzz_input in = {data, size};
+    fuzz_input in = {data, size, 0};
     const int what = fuzz_below(&in, 5);
     cloud c;
     memset(&c, 0, sizeof c);

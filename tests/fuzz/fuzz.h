@@ -6,7 +6,7 @@
  *     clang -fsanitize=fuzzer,address,undefined target.c                       libFuzzer: runs until it is stopped, keeps what crashes
  *     afl-clang-fast -fsanitize=fuzzer target.c                                AFL++
  *     cc -fsanitize=address,undefined target.c replay.c                        replays the files that are named to it
- * The same bytes give the same run in all of them. An input that is too short reads as zeros from its end on.
+ * The same bytes give the same run in all of them. From its end on an input reads as random bytes that follow from those before, so that a short one is a whole cloud, too.
  */
 #ifndef FUZZ_H
 #define FUZZ_H
@@ -32,6 +32,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 typedef struct fuzz_input {
     const uint8_t *data;
     size_t left;
+    uint64_t random; /* 0 at first */
 } fuzz_input;
 
 #define FUZZ_REQUIRE(condition) fuzz_require((condition) ? 1 : 0, __FILE__, __LINE__, #condition)
@@ -44,8 +45,12 @@ static inline void fuzz_require(int holds, const char *file, int line, const cha
 
 static inline unsigned fuzz_byte(fuzz_input *in)
 {
-    if (in->left == 0) return 0;
+    if (in->left == 0) { /* Knuth's linear congruential generator, the high bits */
+        in->random = in->random * 6364136223846793005u + 1442695040888963407u;
+        return (unsigned)(in->random >> 56);
+    }
     in->left--;
+    in->random = (in->random ^ *in->data) * 1099511628211u;
     return *in->data++;
 }
 /* 0 ... below - 1 */

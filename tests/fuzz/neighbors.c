@@ -137,7 +137,7 @@ static void cloud_free(cloud *c)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    fuzz_input in = {data, size};
+    fuzz_input in = {data, size, 0};
     const int how = (int)fuzz_byte(&in), tame = (how & 3) != 0, periodic = (how >> 2) & 7, each = (how >> 5) & 3, foreign = how >> 7;
     const double scale = (how & 3) == 3 ? fuzz_scale(&in, SPH_SINGLE ? 10 : 100) : 1.0;
     const sph_index n = (sph_index)fuzz_below(&in, MOST + 1), m = (sph_index)fuzz_below(&in, MOST + 1);

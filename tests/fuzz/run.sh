@@ -22,6 +22,7 @@ done
 FUZZ_PROGRAMS=$BUILD/examples:$work/examples
 export FUZZ_PROGRAMS
 
+started=
 # kept TARGET: the files of a crash, with a name that says whose they are
 kept() { ls "$work"/crash-"$1"-* 2> /dev/null | sed 's/^/kept: /'; }
 
@@ -37,12 +38,21 @@ for t in ${*:-$all}; do
     else skip "replay of $t" "$CC has no sanitizers"; fi
     if command -v clang > /dev/null 2>&1 && has_sanitizers clang fuzzer-no-link,address,undefined; then
         mkdir -p "$work/corpus/$t"
-        rm -f "$work"/crash-"$t"-*
+        rm -f "$work"/crash-"$t"-* "$work/status-$t"
         # shellcheck disable=SC2086
         check "$t with libFuzzer compiles" clang -std=c99 -I. -fsanitize=fuzzer $optimise $sanitize "tests/fuzz/$t.c" -o "$work/$t" -lm
-        check "$t for $seconds s" "$work/$t" -max_total_time="$seconds" -timeout=20 -len_control=0 -max_len=600 -verbosity=0 -artifact_prefix="$work/crash-$t-" "$work/corpus/$t" "$corpus"
-        grep -e "does not hold" -e "runtime error" -e "ERROR: Addr" "$scratch/log" | head -n 3
-        kept "$t"
+        wait # one at a time, while the next one is compiled and replayed
+        (
+            "$work/$t" -max_total_time="$seconds" -timeout=20 -len_control=0 -max_len=600 -verbosity=0 -artifact_prefix="$work/crash-$t-" "$work/corpus/$t" "$corpus" > "$work/log-$t" 2>&1
+            echo $? > "$work/status-$t"
+        ) &
+        started="$started $t"
     else skip "fuzzing of $t" "no clang with libFuzzer"; fi
+done
+wait
+for t in $started; do
+    check "$t for $seconds s" grep -q -x 0 "$work/status-$t"
+    grep -a -e "does not hold" -e "runtime error" -e "ERROR: " "$work/log-$t" | head -n 3
+    kept "$t"
 done
 finish fuzz

@@ -270,7 +270,7 @@ static void check_condition(const sparse *A, const dense *D)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    fuzz_input in = {data, size};
+    fuzz_input in = {data, size, 0};
     const int what = fuzz_below(&in, 4);
     sparse A, T;
     dense D;

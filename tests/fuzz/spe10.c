@@ -40,22 +40,22 @@ static void write_model(fuzz_input *in, int text, int count)
     size_t at[4];
     int s, k;
     if (!m[3])
-        for (k = 0; k <= ELLIPTIC_BLOCK; k++) memcpy(m + WIDTH * k, text ? (k % 7 ? "2.5 " : "1e2\n") : "\0\0\x80\x3f", WIDTH); /* float32: 1 */
+        for (k = 0; k <= ELLIPTIC_BLOCK; k++) memcpy(m + WIDTH * k, text ? (k % 7 ? "5e0 " : "1e2\n") : "\0\0\x80\x3f", WIDTH); /* float32: 1 */
     for (s = 0; s < spoilt; s++) {
         at[s] = fuzz_bits(in, 3) % size;
-        m[at[s]] = (char)fuzz_byte(in);
+        m[at[s]] = fuzz_below(in, 2) ? "0-.eE+ x"[fuzz_below(in, 8)] : (char)fuzz_byte(in);
     }
     fwrite(m, 1, size - (size_t)fuzz_below(in, 3) / 2, file);
     fclose(file);
     for (s = 0; s < spoilt; s++) { /* whole again for the next input */
         k = (int)(at[s] / WIDTH);
-        memcpy(m + WIDTH * k, text ? (k % 7 ? "2.5 " : "1e2\n") : "\0\0\x80\x3f", WIDTH);
+        memcpy(m + WIDTH * k, text ? (k % 7 ? "5e0 " : "1e2\n") : "\0\0\x80\x3f", WIDTH);
     }
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    fuzz_input in = {data, size};
+    fuzz_input in = {data, size, 0};
     const int how = fuzz_below(&in, 8), dim = 2 + fuzz_below(&in, 2);
     char message[ELLIPTIC_MESSAGE];
     elliptic_field field;
