@@ -42,6 +42,8 @@ help:
 	@echo "make fuzz             FUZZ_SECONDS (60) of libFuzzer for each target of tests/fuzz, after a replay of its corpus under sanitizers"
 	@echo "make bench            time the search and the operators, as ratios to the machine's limits"
 	@echo "make docs             the headers' comments as pages (needs doxygen)"
+	@echo "make lint             static analysers, valgrind, the sanitizers of memory and threads: some ten minutes"
+	@echo "make mutation         how many broken formulas the tests notice: an hour (OPTIONS='-n 400')"
 	@echo "make figures          PNG of the figures from the last run (needs gnuplot)"
 	@echo "make gallery          PNG of examples/README.md, into $(BUILD)/gallery (needs gnuplot)"
 	@echo "make install          the headers and sph.pc below PREFIX=$(PREFIX); make uninstall removes them"
@@ -136,6 +138,11 @@ check-matrix:
 check-embedded:
 	@BUILD="$(BUILD)" sh tests/embedded/embedded.sh
 
+lint:
+	@CC="$(CC)" BUILD="$(BUILD)" sh tests/lint.sh
+mutation:
+	python3 tests/mutation/mutate.py $(OPTIONS)
+
 bench:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/bench/run.sh
 
@@ -162,4 +169,4 @@ dist:
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures gallery test test-sanitize fuzz check-matrix check-hosts check-embedded version install uninstall dist check-packages docs bench clean
+.PHONY: help reproduce reproduce-full figures gallery test test-sanitize fuzz check-matrix check-hosts check-embedded version install uninstall dist check-packages docs lint mutation bench clean

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+# shellcheck shell=sh
 # Sourced by the test scripts: counts checks.
 #     check WHAT COMMAND ...      passes if the command succeeds; its output is shown if it fails
 #     skip WHAT WHY               says aloud what is not tested
