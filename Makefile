@@ -42,6 +42,7 @@ help:
 	@echo "make fuzz             FUZZ_SECONDS (60) of libFuzzer for each target of tests/fuzz, after a replay of its corpus under sanitizers"
 	@echo "make bench            time the search and the operators, as ratios to the machine's limits"
 	@echo "make docs             the headers' comments as pages (needs doxygen)"
+	@echo "make coverage         lines and branches of the headers that the tests reach (needs gcovr)"
 	@echo "make lint             static analysers, valgrind, the sanitizers of memory and threads: some ten minutes"
 	@echo "make mutation         how many broken formulas the tests notice: an hour (OPTIONS='-n 400')"
 	@echo "make figures          PNG of the figures from the last run (needs gnuplot)"
@@ -121,7 +122,7 @@ $(BUILD)/tests/%: tests/test_%.c $(wildcard tests/*.h) $(COMMON) $(HEADERS)
 	$(CC) $(WARN) $(CFLAGS) -I. -o $@ $< $(LDLIBS)
 
 fuzz: $(DRIVERS:%=$(BUILD)/examples/%)
-	@CC="$(CC)" BUILD="$(BUILD)" FUZZ_SECONDS="$(FUZZ_SECONDS)" sh tests/fuzz/run.sh
+	@CC="$(CC)" BUILD="$(BUILD)" FUZZ_SECONDS="$(FUZZ_SECONDS)" sh tests/fuzz/fuzz.sh
 
 check-packages:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/packages/packages.sh
@@ -138,6 +139,11 @@ check-matrix:
 check-embedded:
 	@BUILD="$(BUILD)" sh tests/embedded/embedded.sh
 
+# every line and branch of the headers that the tests reach; one copy of each function, so that a branch is a branch of the source
+coverage:
+	@if ! command -v gcovr > /dev/null 2>&1; then echo "gcovr is not installed"; exit 2; fi
+	$(MAKE) --no-print-directory BUILD=$(BUILD)/coverage CC=gcc CFLAGS="-O0 --coverage -DSPH_FN='static __attribute__((noinline, unused))'" TESTS_FLOAT= DRIVERS= TEST_SCRIPTS= test
+	gcovr -r . --object-directory $(BUILD)/coverage -f 'sph[a-z_]*[.]h' --exclude-unreachable-branches --exclude-throw-branches --html-details $(BUILD)/coverage/index.html --print-summary
 lint:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/lint.sh
 mutation:
@@ -169,4 +175,4 @@ dist:
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures gallery test test-sanitize fuzz check-matrix check-hosts check-embedded version install uninstall dist check-packages docs lint mutation bench clean
+.PHONY: help reproduce reproduce-full figures gallery test test-sanitize fuzz check-matrix check-hosts check-embedded version install uninstall dist check-packages docs coverage lint mutation bench clean

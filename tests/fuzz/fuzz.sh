@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # The corpus of every fuzz target replayed with the address and undefined-behaviour sanitizers (double, and float where the headers are what is tested), then FUZZ_SECONDS (60) of libFuzzer for each.
-#     sh tests/fuzz/run.sh [TARGET ...]
+#     sh tests/fuzz/fuzz.sh [TARGET ...]
 # What crashes is kept as $BUILD/fuzz/crash-TARGET-...; put it into tests/fuzz/corpus/TARGET once it is mended. With AFL++ instead: afl-clang-fast -fsanitize=fuzzer -I. tests/fuzz/TARGET.c -lm
 . tests/check.sh
 seconds=${FUZZ_SECONDS:-60}
