@@ -5,13 +5,14 @@
     python3 tests/mutation/mutate.py [-n 400] [-seed 1] [-only sph_mhd] [-cc tcc]          from the root of the repository
 
 A mutant is one change in the body of one function: a sign, an operator, a constant, a component, i for j, a comparison. They are spread over all functions. A mutant is killed if a test
-program does not compile, fails, crashes or takes more than LIMIT seconds. Survivors are printed; those in tests/mutation/equivalent.txt (function, changed line, reason) change nothing that
+program does not compile, fails, crashes or takes more than LIMIT seconds of CPU. Survivors are printed; those in tests/mutation/equivalent.txt (function, changed line, reason) change nothing that
 can be seen and do not count. Most time goes into compiling, which is why tcc is the default: 400 mutants take it about half an hour.
 """
 import argparse
 import os
 import random
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -90,10 +91,9 @@ def order(header, name):
 
 
 def run(command, folder):
-    try:
-        return subprocess.run(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=LIMIT).returncode == 0
-    except subprocess.TimeoutExpired:
-        return False
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))
+    return subprocess.run(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=limit).returncode == 0
 
 
 def killed(cc, folder, header, name):
