@@ -171,7 +171,7 @@ if (there("cleaning_shocktube_profiles")) {
     array quantity[6] = ["density", "v_x", "v_y", "B_y", "pressure", "B_x"]
     do for [q = 1:6] {
         set title quantity[q]
-        if (q == 1) { set key bottom left font ",9" } else { unset key }
+        if (q == 1) { set key top right font ",8" samplen 1 } else { unset key }
         plot tube using (strcol(1) eq "cleaning" && $2 == 3 && $3 == solid ? $4 : NaN):(column(4 + q)) every ::1 with points pointtype 7 pointsize 0.2 linecolor rgb "#cccccc" title sprintf("3D, dx = 1/%d", solid), \
             tube using (strcol(1) eq "cleaning" && $2 == 2 && $3 == flat ? $4 : NaN):(column(4 + q)) every ::1 with points pointtype 7 pointsize 0.3 linecolor rgb "#d55e00" title sprintf("2D, dx = 1/%d", flat), \
             tube using (strcol(1) eq "neither resistivity nor cleaning" ? $4 : NaN):(column(4 + q)) every ::1 with points pointtype 7 pointsize 0.3 linecolor rgb "#0072b2" title "1/200, neither resistivity nor cleaning", \
