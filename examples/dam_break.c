@@ -179,10 +179,7 @@ int main(int argc, char **argv)
         return help ? 0 : 2;
     }
     file = csv ? fopen(argv[2], "w") : stdout;
-    if (!file) {
-        perror(argv[2]);
-        return 2;
-    }
+    if (!file) return perror(argv[2]), 2;
     if (csv) fprintf(file, "t,x,y,vx,vy,p,water\n");
     fill(20);
     rates();
