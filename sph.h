@@ -645,7 +645,9 @@ SPH_FN void sphi_range(sph_real x, sph_real R, sph_real low, sph_real inverse_wi
 /* a cell outside of the box: which image (0 inside), moving c inside */
 SPH_FN int64_t sphi_image(int64_t cells, int64_t *c)
 {
-    const int64_t image = *c >= 0 ? *c / cells : -((cells - 1 - *c) / cells);
+    int64_t image;
+    SPH_ASSERT(cells >= 1);
+    image = *c >= 0 ? *c / cells : -((cells - 1 - *c) / cells);
     *c -= image * cells;
     return image;
 }
