@@ -435,6 +435,7 @@ SPH_FN void sphi_limits_by(int criterion, const sph_grid *g, const sphi_search *
 {
     const sph_real own = s->own, widest = s->widest;
     int l;
+    SPH_ASSERT(n >= SPHI_LANES);
     for (l = 0; l < n; l++) {
         const sph_real R = sphi_lesser(sphi_pair_radius(criterion, own, sphi_at(s->source, g->member[m + l])), widest);
         limit[l] = R * R;
@@ -443,6 +444,7 @@ SPH_FN void sphi_limits_by(int criterion, const sph_grid *g, const sphi_search *
 SPH_FN void sphi_limits(const sph_grid *g, const sphi_search *s, sph_index m, int n, sph_real *limit)
 {
     int l;
+    SPH_ASSERT(n >= SPHI_LANES); /* whole lanes */
     if (s->criterion == SPH_SCATTER) sphi_limits_by(SPH_SCATTER, g, s, m, n, limit);
     else if (s->criterion == SPH_LARGER) sphi_limits_by(SPH_LARGER, g, s, m, n, limit);
     else if (s->criterion == SPH_MEAN) sphi_limits_by(SPH_MEAN, g, s, m, n, limit);

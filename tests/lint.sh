@@ -23,7 +23,7 @@ fact="-DSPH_ASSERT(x)=if (!(x)) __builtin_unreachable()"
 
 if have gcc; then check "gcc -fanalyzer" quiet gcc -std=c99 -O1 -fanalyzer -Wall -Wextra "$every" "$fact" -I. -c -o /dev/null "$scratch/all.c"; fi
 if have clang; then
-    check "clang --analyze" quiet clang --analyze -Xclang -analyzer-opt-analyze-headers -Xclang -analyzer-output=text -std=c99 "$every" "$fact" -I. -o /dev/null "$scratch/all.c"
+    check "clang --analyze" quiet clang --analyze -Xclang -analyzer-opt-analyze-headers -Xclang -analyzer-inline-max-stack-depth -Xclang 6 -Xclang -analyzer-output=text -std=c99 "$every" "$fact" -I. -o /dev/null "$scratch/all.c"
 fi
 if have clang-tidy; then
     # not easily-swappable-parameters (first, last, ...), macro-parentheses and branch-clone (lists of names and formulas by X-macros); integer-division and implicit-widening (columns and rows of

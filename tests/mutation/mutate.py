@@ -106,7 +106,7 @@ def killed(cc, folder, header, name):
 
 
 def preprocessed(cc, folder):
-    return subprocess.run([*cc.split(), "-E", "-P", "-I.", "sph.h"], cwd=folder, capture_output=True).stdout
+    return subprocess.run([*cc.split(), "-E", "-I.", "tests/test_neighbors.c"], cwd=folder, capture_output=True, check=True).stdout
 
 
 def main():
