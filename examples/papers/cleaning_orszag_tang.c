@@ -860,7 +860,7 @@ static void claims(report *r, const level *l)
 /* ---- the runs of a call ---- */
 
 enum {
-    LEVELS = 4,
+    LEVELS = 5,
     ALL = (1 << CASES) - 1,
     PAIR = 1 << CONTROL | 1 << CLEANED,
     PAPER = (1 << PUBLISHED) - 1,
@@ -883,6 +883,7 @@ static int plan_levels(level *levels, const setting *s, int side)
         if (s->full) {
             LEVEL(128, s->end, ALL);
             LEVEL(256, fmin(s->end, 0.5), PAIR);
+            LEVEL(512, s->end, PAPER);
         }
     }
 #undef LEVEL
@@ -900,8 +901,8 @@ int main(int argc, char **argv)
     const option_spec specs[] = {
         {"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
         {"figures", "folder of the figures' data", OPTION_TEXT, &s.figures, 0, 0},
-        {"full", "128 columns to t = 1 and 256 to t = 0.5, too: half an hour", OPTION_FLAG, &s.full, 0, 0},
-        {"side", "this number of columns alone (512: as published, hours)", OPTION_INT, &side, 8, 4096},
+        {"full", "128 columns to t = 1, 256 to t = 0.5, and 512 x 590 as published: some five hours", OPTION_FLAG, &s.full, 0, 0},
+        {"side", "this number of columns alone", OPTION_INT, &side, 8, 4096},
         {"end", "time of the last step", OPTION_REAL, &s.end, 1e-3, 10},
         {"courant", "time step over its limit", OPTION_REAL, &s.courant, 1e-3, 10},
         {"skin", "margin of the lists over h, to keep them for several steps", OPTION_REAL, &s.skin, 0, 2},
