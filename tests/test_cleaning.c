@@ -485,6 +485,8 @@ static void test_values(void)
     CHECK_RELATIVE((double)sph_mhd_fast_speed(SPH_R(3), B, SPH_R(4), SPH_R(5)), 3.0, 16.0 * EPSILON);
     CHECK_RELATIVE((double)sph_mhd_fast_speed(SPH_R(1), B, SPH_R(4), SPH_R(0)), sqrt(7.25), 16.0 * EPSILON);
     CHECK_RELATIVE((double)sph_mhd_signal_speed(SPH_R(1), SPH_R(2), SPH_R(2), SPH_R(-3)), 4.5, 8.0 * EPSILON);
+    CHECK_RELATIVE((double)sph_cleaning_sigma(2), 0.3, 2.0 * EPSILON);
+    CHECK(sph_cleaning_sigma(1) == sph_cleaning_sigma(2) && sph_cleaning_sigma(3) == SPH_R(1));
     CHECK_RELATIVE((double)sph_conductivity_speed(SPH_R(1), SPH_R(9), SPH_R(0.5)), 2.0, 8.0 * EPSILON);
     CHECK_RELATIVE((double)sph_cleaning_rate(SPH_R(2), SPH_R(0.5), SPH_R(0.1), SPH_R(3), SPH_R(7), SPH_R(4)), -4.0 * 7.0 - 10.0 * 3.0 - 6.0, 8.0 * EPSILON);
     CHECK_RELATIVE(2.0 * (double)sph_cleaning_rate_scaled(SPH_R(2), SPH_R(0.5), SPH_R(0.1), SPH_R(1.5), SPH_R(7), SPH_R(4)), -64.0, 8.0 * EPSILON);
