@@ -53,6 +53,7 @@ def mutations(body):
         (r" \|\| ", lambda m: " && "), (r"dim > 1", lambda m: "dim > 2"), (r"dim > 2", lambda m: "dim > 1"), (r"SPHI_ABS\(", lambda m: "("), (r"= -(?=\w)", lambda m: "= "),
         (r"\b(\w+)_i\b", lambda m: m.group(1) + "_j" if m.group(1) + "_j" in body else None), (r"\b(\w+)_j\b", lambda m: m.group(1) + "_i" if m.group(1) + "_i" in body else None)]
     code = re.sub(r"/\*.*?\*/", lambda m: " " * len(m.group()), body, flags=re.S)
+    code = re.sub(r'"(?:\\.|[^"\\\n])*"', lambda m: " " * len(m.group()), code)
     code = re.sub(r"^#.*$", lambda m: " " * len(m.group()), code, flags=re.M)
     for pattern, change in rules:
         for m in re.finditer(pattern, code):
