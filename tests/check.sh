@@ -2,6 +2,7 @@
 # shellcheck shell=sh
 # Sourced by the test scripts: counts checks.
 #     check WHAT COMMAND ...      passes if the command succeeds; its output is shown if it fails
+#     check WHAT answers STATUS TEXT COMMAND ...      passes if the command ends with that status and prints that text
 #     skip WHAT WHY               says aloud what is not tested
 #     finish NAME                 prints 'NAME: N passed, N failed' and ends with 1 if a check failed
 BUILD=${BUILD:-build}
@@ -21,6 +22,16 @@ check() {
         echo "failed: $what: $*"
         head -n 5 "$scratch/log"
     fi
+}
+answers() { # status, text that must be printed, command ...
+    want=$1 text=$2
+    shift 2
+    "$@" > "$scratch/output" 2>&1
+    status=$?
+    [ $status -eq "$want" ] && grep -q -e "$text" "$scratch/output" && return
+    echo "status $status (expected $want), or without '$text':"
+    head -n 3 "$scratch/output"
+    return 1
 }
 skip() { echo "skipped: $1: $2"; }
 finish() {

@@ -4,16 +4,6 @@
 . tests/check.sh
 bin=$BUILD/examples
 
-answers() { # status, text that must be printed, command ...
-    want=$1 text=$2
-    shift 2
-    "$@" > "$scratch/output" 2>&1
-    status=$?
-    [ $status -eq "$want" ] && grep -q -e "$text" "$scratch/output" && return
-    echo "status $status (expected $want), or without '$text'"
-    return 1
-}
-
 for d in $(cd "$bin" && ls | grep _); do # those that were built
     check "help" answers 0 "-out" "$bin/$d" -h
     check "unknown option" answers 2 "-nonsense" "$bin/$d" -nonsense

@@ -4,16 +4,6 @@
 # writes a table (-o), has help, and answers wrong use with a clear error and exit status 2. The gallery names each, with its picture and its line.
 . tests/check.sh
 
-answers() { # status, text that must be printed, command ...
-    want=$1 text=$2
-    shift 2
-    "$@" > "$scratch/output" 2>&1
-    status=$?
-    [ $status -eq "$want" ] && grep -q -e "$text" "$scratch/output" && return
-    echo "status $status (expected $want), or without '$text':"
-    head -n 3 "$scratch/output"
-    return 1
-}
 build() { # the cc line with this compiler, warnings as errors, into the scratch directory
     case $1 in "cc -O2 -I. -o $name examples/$name.c -lm") ;; *) echo "no such line: '$1'" && return 1 ;; esac
     $CC -Wall -Wextra -Werror $(echo "${1#cc }" | sed "s|-o $name|-o $scratch/$name|")

@@ -3,13 +3,7 @@
  * test_cleaning.c - magnetohydrodynamics and divergence cleaning: conjugate operators, what is conserved at one instant on random states with an h of each particle's own, linear fields, and that the pair of operators
  * that is not conjugate conserves nothing.
  */
-/* Not forced inline: kernels and dimensions are run-time values here, and one copy of each function is enough. */
-#if defined(__GNUC__) || defined(__clang__)
-#define SPH_FN static __attribute__((noinline, unused))
-#endif
-#if defined(__clang__)
-#pragma clang diagnostic ignored "-Wpass-failed" /* loops over a run-time kernel do not vectorise */
-#endif
+#include "one_copy.h"
 
 #include "../sph.h"
 #include "check.h"

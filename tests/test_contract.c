@@ -11,13 +11,7 @@
 #if defined(__unix__) || defined(__APPLE__)
 #define _POSIX_C_SOURCE 200809L /* alarm */
 #endif
-/* Not forced inline: kernels and dimensions are run-time values here, and one copy of each function is enough. */
-#if !defined(SPH_FN) && (defined(__GNUC__) || defined(__clang__))
-#define SPH_FN static __attribute__((noinline, unused))
-#endif
-#if defined(__clang__)
-#pragma clang diagnostic ignored "-Wpass-failed" /* loops over a run-time kernel do not vectorise */
-#endif
+#include "one_copy.h"
 
 #include "../sph.h"
 #include "check.h"

@@ -5,13 +5,7 @@
  *
  * A new function needs an adapter and a line in `functions`; a new cloud a line in degenerate() and in expected().
  */
-/* Not forced inline: kernels and dimensions are run-time values here, and one copy of each function is enough. */
-#if defined(__GNUC__) || defined(__clang__)
-#  define SPH_FN static __attribute__((noinline, unused))
-#endif
-#if defined(__clang__)
-#  pragma clang diagnostic ignored "-Wpass-failed" /* loops over a run-time kernel do not vectorise */
-#endif
+#include "one_copy.h"
 
 #include "../sph.h"
 #include "check.h"

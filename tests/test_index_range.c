@@ -2,13 +2,9 @@
 /*
  * test_index_range.c - clouds and lists that fill the range of sph_index, which has 16 bits here so that they fit anywhere: sizes that do not fit are refused, loops that go by tiles end.
  */
-/* Not forced inline: one copy of each function is enough. */
+#include "one_copy.h"
 #if defined(__GNUC__) || defined(__clang__)
-#define SPH_FN static __attribute__((noinline, unused))
 #pragma GCC diagnostic ignored "-Wconversion" /* sums of 16-bit numbers are ints */
-#endif
-#if defined(__clang__)
-#pragma clang diagnostic ignored "-Wpass-failed" /* loops over a run-time kernel do not vectorise */
 #endif
 #include <stdint.h>
 #define SPH_INDEX int16_t

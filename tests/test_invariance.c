@@ -6,12 +6,7 @@
  *     test_invariance            checks
  *     test_invariance -values    prints all outputs: tests/precision.sh compares those of float with those of double
  */
-#if defined(__GNUC__) || defined(__clang__)
-#define SPH_FN static __attribute__((noinline, unused))
-#endif
-#if defined(__clang__)
-#pragma clang diagnostic ignored "-Wpass-failed" /* loops over a run-time kernel do not vectorise */
-#endif
+#include "one_copy.h"
 
 #include "../sph.h"
 
@@ -33,7 +28,7 @@ typedef struct world {
     sph_real *a[FIELDS], *out[OUTPUTS];
     sph_index *count;
     unsigned char *status;
-    sph_real unit, sigma; /* the unit of length in the first cloud's; damping of the cleaning */
+    sph_real sigma; /* damping of the cleaning */
     sph_vec gravity;
 } world;
 
@@ -46,7 +41,7 @@ static world world_new(int dim, sph_index n)
     for (k = 0; k < OUTPUTS; k++) w.out[k] = (sph_real *)cloud_memory((size_t)n, sizeof *w.out[k]);
     w.count = (sph_index *)cloud_memory((size_t)n, sizeof *w.count);
     w.status = (unsigned char *)cloud_memory((size_t)n, 1);
-    w.unit = w.sigma = SPH_R(1);
+    w.sigma = SPH_R(1);
     w.gravity.x = SPH_R(0.3);
     w.gravity.y = SPH_R(dim > 1 ? -1 : 0);
     w.gravity.z = SPH_R(dim > 2 ? 0.4 : 0);
@@ -378,7 +373,6 @@ static world seen(const world *w, const view *v)
     double p[3], q[3];
     sph_index i, k, *old = (sph_index *)cloud_memory((size_t)n, sizeof *old);
     int f;
-    s.unit = SPH_R(v->unit);
     s.sigma = SPH_R(pow(v->unit, -w->c.dim)); /* so that all of the rate of psi has one power of length */
     s.c.dx = w->c.dx * v->unit;
     p[0] = (double)w->gravity.x;
