@@ -103,7 +103,7 @@
  *                  sph_viscosity_pair_signal  sph_viscosity_mu_pair_morris  sph_viscosity_mu_pair_monaghan_cleary  sph_pressure_tait  sph_density_tait
  *                  sph_sound_speed_tait  sph_time_step_sound  sph_time_step_force  sph_time_step_viscous_nu  sph_collision_pair  sph_collision_acceleration_pair
  *                  sph_mhd_traction  sph_mhd_fast_speed  sph_mhd_signal_speed  sph_conductivity_speed  sph_cleaning_rate  sph_cleaning_rate_scaled
- *                  sph_gravity_pair  sph_cleaning_rate_velocity  sph_cleaning_sigma  sph_euler_potentials  sph_viscosity_switch_rate
+ *                  sph_gravity_pair  sph_cleaning_rate_velocity  sph_cleaning_sigma  sph_euler_potentials  sph_viscosity_switch_rate  sph_resistivity_switch
  *                  sph_solve_gradient  sph_solve_cspm  sph_solve_block  sph_row_cspm  sph_row_block  sph_row_weight  sph_jet_laplacian
  */
 #ifndef SPH_OPS_H
@@ -1213,6 +1213,12 @@ SPH_FN sph_vec sph_euler_potentials(sph_vec grad_alpha, sph_vec grad_beta)
 SPH_FN sph_real sph_viscosity_switch_rate(sph_real alpha, sph_real alpha_min, sph_real alpha_max, sph_real v_sig, sph_real h, sph_real div_v)
 {
     return (alpha_min - alpha) * SPH_R(0.1) * v_sig / h + SPH_R(0.5) * (SPHI_ABS(div_v) - div_v) * (alpha_max - alpha);
+}
+/* alpha_B = alpha_max min(1, h change / B): resistivity only where the field changes within h. B = |B|; change: |grad B|, the root of the squares of all its components (Tricco & Price 2013, MNRAS 436, 2810,
+   with alpha_max = 1), or |curl B|, which leaves the divergence to the cleaning. 0 where nothing changes, alpha_max where only B is 0. */
+SPH_FN sph_real sph_resistivity_switch(sph_real alpha_max, sph_real h, sph_real change, sph_real B)
+{
+    return B > h * change ? alpha_max * (h * change / B) : change > SPH_R(0) ? alpha_max : SPH_R(0);
 }
 
 /* ================================================================ list tier: views */
@@ -4121,12 +4127,13 @@ SPH_FN sph_index sph_cleaning_rates_symmetric(sph_kernel k, int dim, sph_index f
 /* A magnetised gas; n numbers each, all sources. */
 typedef struct sph_mhd {
     sph_gas gas;
-    sph_scalars P, u, cs, alpha; /* pressure, thermal energy per mass, sound speed, viscosity of each particle (0: none) */
-    sph_vectors v, B;            /* three components each if v.z has an array, else dim */
-    sph_scalars psi;             /* null array: no cleaning */
+    sph_scalars P, u, cs;       /* pressure, thermal energy per mass, sound speed */
+    sph_scalars alpha, alpha_B; /* viscosity and resistivity of each particle, 0 ... 1 (0: none); a pair takes the mean */
+    sph_vectors v, B;           /* three components each if v.z has an array, else dim */
+    sph_scalars psi;            /* null array: no cleaning */
     sph_real ch, sigma;
-    sph_real beta, alpha_u, alpha_B; /* 2, 1 and 0 ... 1 are usual; alpha_u = 0, alpha_B = 0: no conductivity, no resistivity */
-    sph_real tensile;                /* the part of (9) that is subtracted: 1 all, 0 none (momentum is conserved then, and particles pair where B^2/2 > P) */
+    sph_real beta, alpha_u; /* 2 and 1 are usual; alpha_u = 0: no conductivity */
+    sph_real tensile;       /* the part of (9) that is subtracted: 1 all, 0 none (momentum is conserved then, and particles pair where B^2/2 > P) */
 } sph_mhd;
 /* Where rates go; null pointers are not wanted (accelerations and rate_B are). */
 typedef struct sph_mhd_out {
@@ -4144,7 +4151,7 @@ SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k
         const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(parts, s->v, i), B_i = sphi_vector_at(parts, s->B, i);
         const sph_real h_i = sphi_at(h, i), rho_i = sphi_at(s->gas.rho, i), own = sphi_mhd_own(&s->gas, i), omega_i = sphi_at(s->gas.omega, i);
         const sph_real P_i = sphi_at(s->P, i), u_i = sphi_at(s->u, i), cs_i = sphi_at(s->cs, i), alpha_i = sphi_at(s->alpha, i),
-                       psi_i = cleans ? sphi_at(s->psi, i) : SPH_R(0);
+                       alpha_B_i = sphi_at(s->alpha_B, i), psi_i = cleans ? sphi_at(s->psi, i) : SPH_R(0);
         const sph_real per_rho_i = SPH_R(1) / rho_i, per_omega_i = SPH_R(1) / omega_i, sound2_i = cs_i * cs_i, alfven2_i = sph_dot(3, B_i, B_i) * per_rho_i;
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0), tension = SPH_R(0), sv = SPH_R(0), sB = SPH_R(0), heat = SPH_R(0);
         sph_real ix = SPH_R(0), iy = SPH_R(0), iz = SPH_R(0), cx = SPH_R(0), cy = SPH_R(0), cz = SPH_R(0), rx = SPH_R(0), ry = SPH_R(0), rz = SPH_R(0);
@@ -4170,7 +4177,7 @@ SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k
                                          sphi_fast_speed(cs_j * cs_j, sph_dot(3, B_j, B_j) * c.per_rho, along_j * along_j * c.per_rho), s->beta, w);
                 const sph_real q =
                     SPH_R(0.25) * (alpha_i + sphi_at(s->alpha, j)) * speed * (w - SPHI_ABS(w)) * per_rho; /* alpha v_sig w / rho where they approach; <= 0 */
-                const sph_real eta = s->alpha_B * speed * per_rho * per_rho;
+                const sph_real eta = SPH_R(0.5) * (alpha_B_i + sphi_at(s->alpha_B, j)) * speed * per_rho * per_rho;
                 /* 0 beyond both supports; no comparison, which would keep gcc from vectorising */
                 v_sig[p - tile] = speed * (SPH_R(0.5) + SPHI_COPYSIGN(SPH_R(0.5), support * SPH_R(0.5) * (h_i + h_j + SPHI_ABS(h_i - h_j)) - c.r));
                 /* q G x / r: repels; the two tractions */
@@ -4254,11 +4261,12 @@ SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_index first, sph_index
     int error = sphi_check_mhd(k, dim, first, last, x, list, h, &state);
     if (!error) error = sphi_check_field(state.u, x.n);
     if (!error) error = sphi_check_field(state.alpha, x.n);
+    if (!error) error = sphi_check_field(state.alpha_B, x.n);
     if (!error && cleans) error = sphi_check_field(state.psi, x.n);
     if (!error) error = sphi_check_out(parts, out.acceleration);
     if (!error) error = sphi_check_out(parts, out.rate_B);
     if (!error && (!sphi_finite(state.ch) || state.ch < SPH_R(0) || !sphi_finite(state.sigma) || state.sigma < SPH_R(0))) error = SPH_ERROR_VALUE;
-    if (!error && (!sphi_finite(state.alpha_u) || !sphi_finite(state.alpha_B) || !sphi_finite(state.tensile))) error = SPH_ERROR_VALUE;
+    if (!error && (!sphi_finite(state.alpha_u) || !sphi_finite(state.tensile))) error = SPH_ERROR_VALUE;
     if (error) return error;
     if (parts == dim) return sphi_mhd_some(dim, cleans, k, dim, first, last, x, list, h, &state, &out);
     return sphi_mhd_some(3, cleans, k, dim, first, last, x, list, h, &state, &out);

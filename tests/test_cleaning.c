@@ -15,7 +15,7 @@
 #define KERNEL SPH_CUBIC_SPLINE
 #define EPSILON ((double)SPH_EPSILON)
 
-enum { M, RHO, OMEGA, H, P, U, CS, ALPHA, PSI, VX, VY, VZ, BX, BY, BZ, AX, AY, AZ, RBX, RBY, RBZ, RU, RPSI, DIVB, DIVV, VSIG, ARRAYS };
+enum { M, RHO, OMEGA, H, P, U, CS, ALPHA, ALPHA_B, PSI, VX, VY, VZ, BX, BY, BZ, AX, AY, AZ, RBX, RBY, RBZ, RU, RPSI, DIVB, DIVV, VSIG, ARRAYS };
 typedef struct state {
     cloud c;
     sph_real *a[ARRAYS];
@@ -125,14 +125,18 @@ static sph_index clean(int form, const state *s, double ch, double sigma, int mo
                                                   three_out(s, RBX), s->a[RPSI], s->a[DIVB]);
     }
 }
+/* resistivity of each particle's own, up to twice alpha_B */
 static sph_mhd mhd(const state *s, int parts, int cleans, double alpha_B, double alpha_u, double tensile)
 {
     sph_mhd m;
+    sph_index i;
+    for (i = 0; i < s->c.n; i++) s->a[ALPHA_B][i] = SPH_R(alpha_B * (1.0 + sin(7.0 * i)));
     m.gas = gas(s);
     m.P = field(s, P);
     m.u = field(s, U);
     m.cs = field(s, CS);
     m.alpha = field(s, ALPHA);
+    m.alpha_B = field(s, ALPHA_B);
     m.v = three(s, VX, parts);
     m.B = three(s, BX, parts);
     m.psi = sph_scalars_array(cleans ? s->a[PSI] : 0);
@@ -140,7 +144,6 @@ static sph_mhd mhd(const state *s, int parts, int cleans, double alpha_B, double
     m.sigma = SPH_R(0);
     m.beta = SPH_R(2);
     m.alpha_u = SPH_R(alpha_u);
-    m.alpha_B = SPH_R(alpha_B);
     m.tensile = SPH_R(tensile);
     return m;
 }
@@ -300,7 +303,7 @@ static void test_by_hand(void)
                     for (q = s.c.start[i]; q < s.c.start[i + 1]; q++) {
                         const sph_index j = s.c.index[q];
                         const double rj = (double)s.a[RHO][j], oj = (double)s.a[OMEGA][j], hj = (double)s.a[H][j], Pj = (double)s.a[P][j],
-                                     mj = (double)s.a[M][j], mean = 0.5 * (ri + rj);
+                                     mj = (double)s.a[M][j], mean = 0.5 * (ri + rj), resistivity = 0.5 * ((double)s.a[ALPHA_B][i] + (double)s.a[ALPHA_B][j]);
                         double xj[3], e[3], r = 0.0, w = 0.0, Bri = 0.0, Brj = 0.0, Fi, Fj, G, B2i = 0.0, B2j = 0.0, dB2 = 0.0, fast[2], vsig, gi, gj;
                         cloud_position(&s.c, j, xj);
                         for (k = 0; k < 3; k++) {
@@ -335,13 +338,13 @@ static void test_by_hand(void)
                             a[k] -= 0.7 * Bi[k] * mj * (Bri * gi + Brj * gj);
                             b[k] -= mj / (oi * ri) * (vij * Bri - Bi[k] * w) * Fi;
                             b[k] -= ri * mj * ((double)s.a[PSI][i] * gi + (double)s.a[PSI][j] * gj) * e[k];
-                            b[k] += ri * mj * 0.6 * vsig / (mean * mean) * (Bi[k] - Bj) * G;
+                            b[k] += ri * mj * resistivity * vsig / (mean * mean) * (Bi[k] - Bj) * G;
                             if (w < 0.0) a[k] += mj * 0.5 * ((double)s.a[ALPHA][i] + (double)s.a[ALPHA][j]) * vsig * w / mean * G * e[k];
                         }
                         u += Pi / (oi * ri * ri) * mj * w * Fi;
                         if (w < 0.0) u -= 0.5 * mj * 0.5 * ((double)s.a[ALPHA][i] + (double)s.a[ALPHA][j]) * vsig * w * w / mean * G;
                         u += mj * 0.8 * sqrt(fabs(Pi - Pj) / mean) / mean * ((double)s.a[U][i] - (double)s.a[U][j]) * G;
-                        u -= 0.5 * mj * 0.6 * vsig / (mean * mean) * dB2 * G;
+                        u -= 0.5 * mj * resistivity * vsig / (mean * mean) * dB2 * G;
                         divB -= mj * (Bri - Brj) * Fi / (oi * ri);
                         divv -= mj * w * Fi / (oi * ri);
                     }
@@ -376,10 +379,10 @@ static void test_heating(void)
     m.alpha = sph_scalars_array(zero);
     CHECK(rates(&s, m, field(&s, H)) == 0);
     for (i = 0; i < s.c.n; i++) none[i] = (double)s.a[RU][i];
-    m.alpha_B = SPH_R(0.5);
+    m.alpha_B = field(&s, ALPHA);
     CHECK(rates(&s, m, field(&s, H)) == 0);
     for (i = 0; i < s.c.n; i++) CHECK((double)s.a[RU][i] >= none[i] - BY_PRECISION(1e-12, 1e-3));
-    m.alpha_B = SPH_R(0);
+    m.alpha_B = sph_scalars_array(zero);
     m.alpha = field(&s, ALPHA);
     CHECK(rates(&s, m, field(&s, H)) == 0);
     for (i = 0; i < s.c.n; i++) {
@@ -493,6 +496,11 @@ static void test_values(void)
     CHECK_RELATIVE((double)sph_viscosity_switch_rate(SPH_R(0.5), SPH_R(0.1), SPH_R(2), SPH_R(3), SPH_R(0.2), SPH_R(-4)), -0.4 * 1.5 + 4.0 * 1.5,
                    16.0 * EPSILON);
     CHECK_RELATIVE((double)sph_viscosity_switch_rate(SPH_R(0.5), SPH_R(0.1), SPH_R(2), SPH_R(3), SPH_R(0.2), SPH_R(4)), -0.4 * 1.5, 16.0 * EPSILON);
+    CHECK_RELATIVE((double)sph_resistivity_switch(SPH_R(0.1), SPH_R(0.2), SPH_R(3), SPH_R(4)), 0.1 * 0.15, 8.0 * EPSILON);
+    CHECK(sph_resistivity_switch(SPH_R(0.1), SPH_R(0.2), SPH_R(30), SPH_R(4)) == SPH_R(0.1));
+    CHECK(sph_resistivity_switch(SPH_R(0.1), SPH_R(0.2), SPH_R(30), SPH_R(0)) == SPH_R(0.1));
+    CHECK(sph_resistivity_switch(SPH_R(0.1), SPH_R(0.2), SPH_R(0), SPH_R(4)) == SPH_R(0));
+    CHECK(sph_resistivity_switch(SPH_R(0.1), SPH_R(0.2), SPH_R(0), SPH_R(0)) == SPH_R(0));
 }
 
 /* ---- I9, I10: velocity cleaning ---- */

@@ -50,7 +50,7 @@ enum { EACH, PAIR, ROWS, ROOM, WORK_ROOM, FEW }; /* as many as particles, pairs,
     X(QX, REAL, 0, EACH) X(QY, REAL, 1, EACH) X(QZ, REAL, 2, EACH) /* other positions: targets that are no sources, positions of before */ \
     X(H, REAL, 0, EACH) X(REACH, REAL, 0, EACH) X(GUESS, REAL, 0, EACH) X(V, REAL, 0, EACH) X(M, REAL, 0, EACH) X(RHO, REAL, 0, EACH) X(OMEGA, REAL, 0, EACH) \
     X(INVERSE_M, REAL, 0, EACH) X(MX, REAL, 0, EACH) X(MY, REAL, 1, EACH) X(MZ, REAL, 2, EACH) /* mobilities */ \
-    X(F, REAL, 0, EACH) X(U, REAL, 0, EACH) X(P, REAL, 0, EACH) X(C, REAL, 0, EACH) X(ALPHA, REAL, 0, EACH) \
+    X(F, REAL, 0, EACH) X(U, REAL, 0, EACH) X(P, REAL, 0, EACH) X(C, REAL, 0, EACH) X(ALPHA, REAL, 0, EACH) X(ALPHA_B, REAL, 0, EACH) \
     X(VX, REAL, 0, EACH) X(VY, REAL, 1, EACH) X(VZ, REAL, 2, EACH) X(BX, REAL, 0, EACH) X(BY, REAL, 1, EACH) X(BZ, REAL, 2, EACH) \
     X(ROW, REAL, 0, PAIR) X(DIAGONAL, REAL, 0, EACH) X(START, INDEX_, 0, ROWS) X(INDEX, INDEX_, 0, ROOM) X(ORDER, INDEX_, 0, EACH) X(COUNT, INDEX_, 0, EACH) \
     X(GRID, BYTES, 0, FEW) X(WORK, BYTES, 0, WORK_ROOM) \
@@ -81,7 +81,7 @@ enum { VALUE_, LENGTH };
     X(LEAST, NOT_NEGATIVE, 0.0, VALUE_) X(CONDITIONING, ANY_NUMBER, 0.0, VALUE_) X(OPERATOR, ANY_NUMBER, 1.0, VALUE_) X(ETA, POSITIVE, 1.0, VALUE_) \
     X(TOLERANCE, BELOW_ONE, 1e-3, VALUE_) X(RESTITUTION, NOT_NEGATIVE, 0.9, VALUE_) X(CONTACT, POSITIVE, 1.0, VALUE_) X(DENSITY, POSITIVE, 20.0, VALUE_) \
     X(GRAVITY, ANY_NUMBER, 1.0, VALUE_) X(CH, NOT_NEGATIVE, 1.0, VALUE_) X(SIGMA, NOT_NEGATIVE, 0.3, VALUE_) X(PARAMETER_A, ANY_NUMBER, 1.0, VALUE_) \
-    X(PARAMETER_B, ANY_NUMBER, 0.5, VALUE_) X(PARAMETER_C, ANY_NUMBER, 0.1, VALUE_) X(PARAMETER_D, ANY_NUMBER, 1.0, VALUE_) X(TAU, ANY_NUMBER, 0.1, VALUE_) \
+    X(PARAMETER_B, ANY_NUMBER, 0.5, VALUE_) X(PARAMETER_C, ANY_NUMBER, 0.1, VALUE_) X(TAU, ANY_NUMBER, 0.1, VALUE_) \
     X(WAVE, ANY_NUMBER, 1.0, VALUE_) X(SKIN, NOT_NEGATIVE, 0.1, VALUE_) X(GRADIENT, ONE_OF + 3, 0.0, VALUE_) X(MEAN, ONE_OF + 2, 0.0, VALUE_) \
     X(VISCOSITY, ONE_OF + 3, 1.0, VALUE_) X(CRITERION, ONE_OF + 3, 2.0, VALUE_) X(FLAGS, OF_FLAGS, 0.0, VALUE_) X(CAPACITY, NO_LESS_THAN_0, 0.0, VALUE_) \
     X(DISTANCE, POSITIVE, 0.0, LENGTH) X(WITHIN, NOT_NEGATIVE, 0.0, LENGTH) X(STEP, ANY_NUMBER, 0.1, LENGTH)
@@ -343,6 +343,7 @@ static sph_index call_mhd_rates(const world *w)
     s.u = A(U);
     s.cs = A(C);
     s.alpha = A(ALPHA);
+    s.alpha_B = A(ALPHA_B);
     s.v = vectors_of(w, VX);
     s.B = vectors_of(w, BX);
     s.psi = A(F);
@@ -350,8 +351,7 @@ static sph_index call_mhd_rates(const world *w)
     s.sigma = X(SIGMA);
     s.beta = X(PARAMETER_A);
     s.alpha_u = X(PARAMETER_B);
-    s.alpha_B = X(PARAMETER_C);
-    s.tensile = X(PARAMETER_D);
+    s.tensile = X(PARAMETER_C);
     o.acceleration = vector_out_of(w, O0);
     o.rate_B = vector_out_of(w, O3);
     o.rate_u = R(S0);
@@ -470,8 +470,8 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(count_coincident, LISTED | COUNTS, ALL, LIST_OF, 0, 0, 0, N(WITHIN)),
     FUNCTION(separate_coincident, LISTED | COUNTS, ALL, LIST_OF, 0, XYZ(O0), 0, N(WITHIN) | N(STEP)),
     FUNCTION(conserved_sums, LISTED | OPAQUE, ALL, XYZ(PX) | BIT(M) | XYZ(VX), 0, BIT(S0), 0, 0),
-    FUNCTION(mhd_rates, SMOOTHED, ALL, GAS | BIT(P) | BIT(U) | BIT(C) | BIT(ALPHA) | XYZ(VX) | XYZ(BX), BIT(F), XYZ(O0) | XYZ(O3), XYZ(S0) | BIT(S3) | BIT(S4),
-             N(CH) | N(SIGMA) | N(PARAMETER_A) | N(PARAMETER_B) | N(PARAMETER_C) | N(PARAMETER_D)),
+    FUNCTION(mhd_rates, SMOOTHED, ALL, GAS | BIT(P) | BIT(U) | BIT(C) | BIT(ALPHA) | BIT(ALPHA_B) | XYZ(VX) | XYZ(BX), BIT(F), XYZ(O0) | XYZ(O3), XYZ(S0) | BIT(S3) | BIT(S4),
+             N(CH) | N(SIGMA) | N(PARAMETER_A) | N(PARAMETER_B) | N(PARAMETER_C)),
     FUNCTION(cleaning_rates, SMOOTHED, ALL, GAS | XYZ(BX) | BIT(F), BIT(U), XYZ(O0) | BIT(S0), BIT(S1), N(CH) | N(SIGMA)),
     FUNCTION(cleaning_rates_symmetric, SMOOTHED, ALL, GAS | XYZ(BX) | BIT(F), BIT(U), XYZ(O0) | BIT(S0), BIT(S1), N(CH) | N(SIGMA)),
     FUNCTION(cleaning_rates_nonconservative, SMOOTHED, ALL, GAS | XYZ(BX) | BIT(F), BIT(U), XYZ(O0) | BIT(S0), BIT(S1), N(CH) | N(SIGMA)),

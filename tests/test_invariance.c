@@ -249,7 +249,7 @@ static sph_index mhd(world *w, sph_index first, sph_index last)
     s.P = at(w, P);
     s.u = at(w, U);
     s.cs = at(w, CS);
-    s.alpha = at(w, ALPHA);
+    s.alpha = s.alpha_B = at(w, ALPHA);
     s.v = vectors(w, VX);
     s.B = vectors(w, BX);
     s.psi = at(w, PSI);
@@ -257,7 +257,6 @@ static sph_index mhd(world *w, sph_index first, sph_index last)
     s.sigma = w->sigma;
     s.beta = SPH_R(2);
     s.alpha_u = SPH_R(0.9);
-    s.alpha_B = SPH_R(0.6);
     s.tensile = SPH_R(0.8);
     o.acceleration = into(w, 0);
     o.rate_B = into(w, 3);

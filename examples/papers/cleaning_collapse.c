@@ -165,7 +165,7 @@ typedef struct outcome {
 } outcome;
 
 typedef struct setting {
-    int full, direct, no_zeta, go_on;
+    int full, direct, no_zeta, everywhere, go_on;
     double theta, courant, mass_to_flux, sink_radius, sigma, vtk, shortest;
     const char *out, *figures;
     progress show;
@@ -203,6 +203,7 @@ static collapse_model model_of(const setting *s, const plan *p)
     m.rho_sink = 1e-10 / unit_density();
     m.cleans = p->cleans;
     m.zeta = !s->no_zeta;
+    m.switches = !s->everywhere;
     return m;
 }
 
@@ -585,7 +586,8 @@ int main(int argc, char **argv)
         {"runs", "control, cleaned, or both", OPTION_TEXT, &which, 0, 0},
         {"end", "end of a run, in free-fall times", OPTION_REAL, &end, 1e-3, 10},
         {"after", "end of a run after its sink has formed, in free-fall times; negative: 5e-4 (control), 0.02 (cleaned)", OPTION_REAL, &after, -1, 10},
-        {"alpha-B", "resistivity", OPTION_REAL, &alpha_B, 0, 1},
+        {"alpha-B", "resistivity: the most of it, where B changes within h", OPTION_REAL, &alpha_B, 0, 1},
+        {"everywhere", "the same resistivity for all particles", OPTION_FLAG, &s.everywhere, 0, 0},
         {"sigma", "damping of the cleaning", OPTION_REAL, &s.sigma, 0, 10},
         {"mass-to-flux", "ratio over the critical one", OPTION_REAL, &s.mass_to_flux, -DBL_MAX, DBL_MAX},
         {"sink-radius", "accretion radius [AU]", OPTION_REAL, &s.sink_radius, -DBL_MAX, DBL_MAX},

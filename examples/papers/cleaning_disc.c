@@ -697,7 +697,8 @@ static void resistivity(report *r)
         m.P = m.u = m.cs = sph_scalars_same(&one);
         m.alpha = m.v.x = m.v.y = sph_scalars_same(&nought);
         m.B = vectors(&s, BX);
-        m.alpha_B = m.beta = 1;
+        m.alpha_B = sph_scalars_same(&one);
+        m.beta = 1;
         out.acceleration = vectors_out(&s, SAVED);
         out.rate_B = vectors_out(&s, RBX);
         eta = 0.75 * mean_r * s.a[H][0];

@@ -161,7 +161,7 @@ SPH_FN sph_index gas_rates_in(int dim, gas *g)
     s.sigma = g->sigma;
     s.beta = 2;
     s.alpha_u = g->alpha_u;
-    s.alpha_B = g->alpha_B;
+    s.alpha_B = sph_scalars_same(&g->alpha_B);
     s.tensile = g->tensile;
     out.acceleration = gas_out(g->rate + VX);
     out.rate_B = gas_out(g->rate + BX);

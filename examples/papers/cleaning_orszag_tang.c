@@ -158,6 +158,7 @@ static sph_gas densities(const gas *g)
 }
 static sph_mhd magnetised(const gas *g, const plan *c, int cleans)
 {
+    static const double none = 0;
     sph_mhd s;
     s.gas = densities(g);
     s.P = field(g, P);
@@ -171,7 +172,7 @@ static sph_mhd magnetised(const gas *g, const plan *c, int cleans)
     s.sigma = c->sigma;
     s.beta = 2;
     s.alpha_u = 1;
-    s.alpha_B = c->euler ? 0 : c->alpha_B;
+    s.alpha_B = sph_scalars_same(c->euler ? &none : &c->alpha_B);
     s.tensile = 1;
     return s;
 }

@@ -31,15 +31,16 @@ typedef struct collapse_model {
     double courant, shortest;         /* time step over its limit; a shorter one than that ends the run */
     double fastest;                   /* so does a faster signal */
     double theta;                     /* of the tree; 0: direct summation */
-    double alpha_B, alpha_min, alpha_max, sigma, tensile;
+    double alpha_B;                   /* resistivity; with `switches` the most of it: alpha_B min(1, h |curl B| / |B|) */
+    double alpha_min, alpha_max, sigma, tensile;
     double radius, rho_sink; /* of the sink; rho_sink 0: never */
-    int cleans, zeta;
+    int cleans, zeta, switches, unused; /* a restart compares all bytes: no gaps */
 } collapse_model;
 
 /* what evolves, with a rate each; what goes with the particle; what follows from them */
 enum { VX, VY, VZ, BX, BY, BZ, PSI, ALPHA, EVOLVED };
 enum { X = EVOLVED, Y, Z, H, ID, MEDIUM, KEPT };
-enum { RHO = KEPT, OMEGA, P, CS, SPEED, DIV_V, DIV_B, ZETA, GX, GY, GZ, REACH, SX, SY, SZ, ARRAYS };
+enum { RHO = KEPT, OMEGA, P, CS, SPEED, DIV_V, DIV_B, ALPHA_B, ZETA, GX, GY, GZ, REACH, SX, SY, SZ, ARRAYS };
 static const char *const collapse_evolved[EVOLVED] = {"vx", "vy", "vz", "Bx", "By", "Bz", "psi", "alpha"};
 
 /* Everything else that a restart needs: plain numbers */
@@ -147,6 +148,7 @@ static inline sph_mhd collapse_mhd(const collapse *g)
     s.u = sph_scalars_same(&none);
     s.cs = collapse_field(g, CS);
     s.alpha = collapse_field(g, ALPHA);
+    s.alpha_B = g->model.switches ? collapse_field(g, ALPHA_B) : sph_scalars_same(&g->model.alpha_B);
     s.v = collapse_vectors(g, VX);
     s.B = collapse_vectors(g, BX);
     s.psi = sph_scalars_array(g->model.cleans ? g->a[PSI] : NULL);
@@ -154,10 +156,16 @@ static inline sph_mhd collapse_mhd(const collapse *g)
     s.sigma = g->model.sigma;
     s.beta = 2;
     s.alpha_u = 0;
-    s.alpha_B = g->model.alpha_B;
     s.tensile = g->model.tensile;
     return s;
 }
+
+static inline void collapse_vector_of(double *const *a, int which, sph_index i, double *v)
+{
+    int c;
+    for (c = 0; c < 3; c++) v[c] = a[which + c][i];
+}
+static inline double collapse_length(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 /* Sweeps over ranges of the gas, by the threads of the driver where it is compiled with them */
 typedef sph_index (*collapse_sweep)(collapse *g, sph_index first, sph_index last);
@@ -289,6 +297,20 @@ static inline sph_index collapse_correction_sweep(collapse *g, sph_index first, 
     return sph_gravity_correction(COLLAPSE_KERNEL, first, last, collapse_points(g), collapse_list(g), collapse_field(g, H), collapse_gas(g),
                                   collapse_field(g, ZETA), 1, collapse_into(&g->a[SX]));
 }
+/* the curl, in the place of the rate of B that comes after it */
+static inline sph_index collapse_resistivity_sweep(collapse *g, sph_index first, sph_index last)
+{
+    const sph_index failed = sph_curl_difference(COLLAPSE_KERNEL, 3, first, last, collapse_points(g), collapse_list(g), collapse_field(g, H), collapse_gas(g),
+                                                 collapse_vectors(g, BX), collapse_into(&g->rate[BX]));
+    sph_index i;
+    for (i = first; i < last; i++) {
+        double curl[3], B[3];
+        collapse_vector_of(g->rate, BX, i, curl);
+        collapse_vector_of(g->a, BX, i, B);
+        g->a[ALPHA_B][i] = sph_resistivity_switch(g->model.alpha_B, g->a[H][i], collapse_length(curl), collapse_length(B));
+    }
+    return failed;
+}
 static inline sph_index collapse_rates_sweep(collapse *g, sph_index first, sph_index last)
 {
     sph_mhd_out out;
@@ -371,6 +393,7 @@ static inline int collapse_rates(collapse *g)
     if (collapse_sort(g) || collapse_density(g)) return 1;
     collapse_equation_of_state(g);
     if (collapse_gravity(g)) return 1;
+    if (g->model.switches && collapse_expect(g, collapse_everywhere(collapse_resistivity_sweep, g, g->s.n), "sph_curl_difference")) return 1;
     if (collapse_expect(g, collapse_everywhere(collapse_rates_sweep, g, g->s.n), "sph_mhd_rates")) return 1;
     collapse_sink_gravity(g);
     collapse_errors(g);
@@ -414,11 +437,6 @@ static inline double collapse_longest_step(const collapse *g, sph_index *shortes
 
 /* ---- the sink ---- */
 
-static inline void collapse_vector_of(double *const *a, int which, sph_index i, double *v)
-{
-    int c;
-    for (c = 0; c < 3; c++) v[c] = a[which + c][i];
-}
 /* Gas whose ID is negative becomes part of the sink, and what stays moves up, in its order. */
 static inline void collapse_swallow(collapse *g)
 {
@@ -617,7 +635,6 @@ static inline void collapse_momentum(const collapse *g, double *p)
         for (i = 0; i < g->s.n; i++) p[c] += g->model.m * g->a[VX + c][i];
     }
 }
-static inline double collapse_length(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 /* ---- restart ---- */
 
@@ -638,11 +655,11 @@ static inline int collapse_transfer(collapse_file *file, void *p, size_t size)
 /* Everything that the next step needs, in the order of the file. more: what the driver wants to keep; it belongs to the caller who reads. */
 static inline int collapse_transfer_all(collapse_file *file, collapse *g, void **more, size_t *more_size)
 {
-    char magic[16] = "sph.h collapse 1";
+    char magic[16] = "sph.h collapse 2";
     collapse_model model = g->model;
     uint64_t size = *more_size, hash;
     int k;
-    if (!collapse_transfer(file, magic, sizeof magic) || memcmp(magic, "sph.h collapse 1", sizeof magic) != 0)
+    if (!collapse_transfer(file, magic, sizeof magic) || memcmp(magic, "sph.h collapse 2", sizeof magic) != 0)
         return !collapse_trouble(g, "it is no restart of this program");
     if (!collapse_transfer(file, &model, sizeof model) || memcmp(&model, &g->model, sizeof model) != 0)
         return !collapse_trouble(g, "it belongs to a run with other parameters");

@@ -232,11 +232,11 @@ SPH_FN sph_index apply_range(int which, int dim, sph_index first, sph_index last
     case MHD_CLEANED: {
         sph_mhd s;
         sph_mhd_out r;
-        s.gas.m = s.gas.rho = s.gas.omega = s.P = s.u = s.cs = s.alpha = V;
+        s.gas.m = s.gas.rho = s.gas.omega = s.P = s.u = s.cs = s.alpha = s.alpha_B = V;
         s.v.x = s.v.y = s.B.x = s.B.y = f;
         s.v.z = s.B.z = sph_scalars_array(dim > 2 ? c->f : 0);
         s.psi = sph_scalars_array(0);
-        s.ch = s.alpha_u = s.alpha_B = s.tensile = SPH_R(1);
+        s.ch = s.alpha_u = s.tensile = SPH_R(1);
         s.sigma = SPH_R(0.3);
         s.beta = SPH_R(2);
         r.acceleration.x = o->g[0];

@@ -107,11 +107,11 @@ static sph_mhd mhd(const arguments *a)
 {
     sph_mhd s;
     s.gas = gas(a);
-    s.P = a->s[3], s.u = a->s[4], s.cs = a->s[1], s.alpha = a->s[0];
+    s.P = a->s[3], s.u = a->s[4], s.cs = a->s[1], s.alpha = a->s[0], s.alpha_B = a->s[1];
     s.v = vectors(a, 5);
     s.B = vectors(a, 8);
     s.psi = a->s[11];
-    s.ch = a->number[0], s.sigma = a->number[1], s.beta = a->number[2], s.alpha_u = a->number[3], s.alpha_B = a->number[4], s.tensile = a->number[5];
+    s.ch = a->number[0], s.sigma = a->number[1], s.beta = a->number[2], s.alpha_u = a->number[3], s.tensile = a->number[4];
     return s;
 }
 static sph_mhd_out mhd_out(const arguments *a)
