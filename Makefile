@@ -41,6 +41,7 @@ help:
 	@echo "make check-embedded   the self-check on microcontrollers and other processors, in emulators; code size and memory"
 	@echo "make fuzz             FUZZ_SECONDS (60) of libFuzzer for each target of tests/fuzz, after a replay of its corpus under sanitizers"
 	@echo "make bench            time the search and the operators, as ratios to the machine's limits"
+	@echo "make bench-gpu        sweeps on a GPU beside one core (needs nvcc and a GPU)"
 	@echo "make docs             the headers' comments as pages (needs doxygen)"
 	@echo "make coverage         lines and branches of the headers that the tests reach (needs gcovr)"
 	@echo "make lint             static analysers, valgrind, the sanitizers of memory and threads: some ten minutes"
@@ -151,6 +152,12 @@ mutation:
 
 bench:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/bench/run.sh
+bench-gpu:
+	@PATH="$$PATH:/usr/local/cuda/bin"; mkdir -p $(BUILD)/bench; \
+	if ! command -v nvcc > /dev/null 2>&1; then echo "nvcc is not installed"; exit 2; fi; \
+	for single in 0 1; do \
+	    nvcc -std=c++17 -O3 -diag-suppress 128 -DSPH_SINGLE=$$single -I. tests/bench/bench_gpu.cu -o $(BUILD)/bench/bench_gpu && $(BUILD)/bench/bench_gpu || exit 1; \
+	done
 
 # ---------------------------------------------------------------- packages
 
@@ -175,4 +182,4 @@ dist:
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures gallery test test-sanitize fuzz check-matrix check-hosts check-embedded version install uninstall dist check-packages docs coverage lint mutation bench clean
+.PHONY: help reproduce reproduce-full figures gallery test test-sanitize fuzz check-matrix check-hosts check-embedded version install uninstall dist check-packages docs coverage lint mutation bench bench-gpu clean

@@ -12,6 +12,7 @@
  * DATA
  *   sph_points    positions where they are: sph_points_separate (x[], y[], z[]), sph_points_interleaved (xyzxyz...), sph_points_strided (array of structs)
  *   sph_scalars   one number per particle: sph_scalars_array(p), sph_scalars_strided(p, stride), sph_scalars_same(&value) for one value for all
+ *   sph_vectors   one vector per particle: sph_vectors_separate (x[], y[], z[]), or any three sph_scalars; results go to a sph_vector_out: sph_vector_out_separate (x[], y[], z[])
  *   sph_list      neighbour lists in CSR form: neighbours of target i are index[start[i]] ... index[start[i + 1] - 1]
  *   sph_points_periodic(points, lx, ly, lz) makes them periodic: every pair vector is then that to the nearest image. Positions need not be wrapped
  *   All strides count sph_real. Sources are the particles 0 ... n - 1, targets are the first ... last - 1 of them; ghost, boundary and halo particles are
@@ -29,6 +30,7 @@
  *
  * INDEX   (k: kernel, dim: dimension, ...: first, last, points, list, h, V)
  *   views          sph_points_separate  sph_points_interleaved  sph_points_strided  sph_points_periodic  sph_scalars_array  sph_scalars_strided  sph_scalars_same
+ *                  sph_vectors_separate  sph_vector_out_separate
  *   vectors        sph_dot  sph_scale  sph_subtract  sph_length
  *   interpolation  sph_shepard_sum(k, dim, ..., out)                                     gamma_i = sum_j V_j W_ij, the particle itself included
  *                  sph_interpolate_shepard(k, dim, ..., f, out, status)                  sum_j V_j f_j W_ij / gamma_i
@@ -1278,6 +1280,30 @@ SPH_FN sph_scalars sph_scalars_strided(const SPH_GLOBAL sph_real *p, size_t stri
 }
 SPH_FN sph_scalars sph_scalars_array(const SPH_GLOBAL sph_real *p) { return sph_scalars_strided(p, 1); }
 SPH_FN sph_scalars sph_scalars_same(const SPH_GLOBAL sph_real *value) { return sph_scalars_strided(value, 0); }
+
+/* One vector per particle: three component arrays, of which dim are read (or written) */
+typedef struct sph_vectors {
+    sph_scalars x, y, z;
+} sph_vectors;
+typedef struct sph_vector_out {
+    SPH_GLOBAL sph_real *x, *y, *z;
+} sph_vector_out;
+SPH_FN sph_vectors sph_vectors_separate(const SPH_GLOBAL sph_real *x, const SPH_GLOBAL sph_real *y, const SPH_GLOBAL sph_real *z)
+{
+    sph_vectors v;
+    v.x = sph_scalars_array(x);
+    v.y = sph_scalars_array(y);
+    v.z = sph_scalars_array(z);
+    return v;
+}
+SPH_FN sph_vector_out sph_vector_out_separate(SPH_GLOBAL sph_real *x, SPH_GLOBAL sph_real *y, SPH_GLOBAL sph_real *z)
+{
+    sph_vector_out v;
+    v.x = x;
+    v.y = y;
+    v.z = z;
+    return v;
+}
 
 /* Where the derivatives go: separate arrays or members of structs, `stride` sph_real apart (0 counts as 1); a null pointer is not wanted. */
 typedef struct sph_derivative_out {
@@ -3180,14 +3206,6 @@ SPH_FN sph_index sph_csr_assemble(sph_index first, sph_index last, sph_index n, 
 #endif
 
 /* ================================================================ list tier: weakly compressible fluid */
-
-/* three component arrays, of which dim are read (or written) */
-typedef struct sph_vectors {
-    sph_scalars x, y, z;
-} sph_vectors;
-typedef struct sph_vector_out {
-    SPH_GLOBAL sph_real *x, *y, *z;
-} sph_vector_out;
 
 SPH_FN sph_vec sphi_vector_at(int dim, sph_vectors v, sph_index i)
 {

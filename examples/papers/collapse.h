@@ -108,20 +108,9 @@ static inline void collapse_free(collapse *g)
 static inline sph_scalars collapse_field(const collapse *g, int which) { return sph_scalars_array(g->a[which]); }
 static inline sph_vectors collapse_vectors(const collapse *g, int which)
 {
-    sph_vectors v;
-    v.x = collapse_field(g, which);
-    v.y = collapse_field(g, which + 1);
-    v.z = collapse_field(g, which + 2);
-    return v;
+    return sph_vectors_separate(g->a[which], g->a[which + 1], g->a[which + 2]);
 }
-static inline sph_vector_out collapse_into(double *const *a)
-{
-    sph_vector_out v;
-    v.x = a[0];
-    v.y = a[1];
-    v.z = a[2];
-    return v;
-}
+static inline sph_vector_out collapse_into(double *const *a) { return sph_vector_out_separate(a[0], a[1], a[2]); }
 static inline sph_points collapse_open(const collapse *g) { return sph_points_separate(g->s.n, g->a[X], g->a[Y], g->a[Z]); }
 static inline sph_points collapse_points(const collapse *g) { return sph_points_periodic(collapse_open(g), g->model.box, g->model.box, g->model.box); }
 static inline sph_list collapse_list(const collapse *g)
