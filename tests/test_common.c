@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * test_common [DIR] - what the example drivers share.  Writes and removes one
- * small file in DIR (default: the current directory).
+ * test_common [DIR] - what the example drivers share.  Writes and removes
+ * small files in DIR (default: the current directory).
  */
 #include "check.h"
 
@@ -11,6 +11,7 @@
 #include "../examples/common/random.h"
 #include "../examples/common/report.h"
 #include "../examples/common/statistics.h"
+#include "../examples/common/vtk.h"
 
 /* ---- random.h ---------------------------------------------------------- */
 
@@ -361,6 +362,45 @@ static int status_of(const char *text)
     return status;
 }
 
+/* ---- vtk.h ------------------------------------------------------------- */
+
+/* a run that goes on from time `from` keeps the pictures from before */
+static void test_series(const char *dir)
+{
+    static const struct {
+        double from;
+        int kept;
+    } cases[] = {{3, 3}, {2.5, 3}, {2, 2}, {0.1, 1}, {0, 0}};
+    const double x = 0;
+    char path[PART_FILE_PATH];
+    vtk_series s;
+    int k, c;
+    for (c = 0; c < (int)(sizeof cases / sizeof *cases); c++) {
+        vtk_series_begin(&s, dir, "test_series");
+        for (k = 0; k < 3; k++) CHECK(vtk_series_add(&s, k, 1, &x, &x, NULL, NULL, 0));
+        vtk_series_end(&s);
+        vtk_series_begin(&s, dir, "test_series");
+        vtk_series_resume(&s, cases[c].from);
+        CHECK(s.count == cases[c].kept);
+        CHECK(vtk_series_add(&s, 7, 1, &x, &x, NULL, NULL, 0));
+        vtk_series_end(&s);
+        vtk_series_begin(&s, dir, "test_series");
+        vtk_series_resume(&s, 8);
+        CHECK(s.count == cases[c].kept + 1);
+        for (k = 0; k < s.count; k++) CHECK(s.time[k] == (k < cases[c].kept ? k : 7));
+        vtk_series_end(&s);
+    }
+    for (k = 0; k < 4; k++) {
+        snprintf(path, sizeof path, "%s/test_series_%04d.vtu", dir, k);
+        remove(path);
+    }
+    snprintf(path, sizeof path, "%s/test_series.pvd", dir);
+    CHECK(remove(path) == 0);
+    vtk_series_begin(&s, dir, "test_series");
+    vtk_series_resume(&s, 8);
+    CHECK(s.count == 0);
+}
+
 static void test_malformed(void)
 {
     CHECK(status_of("") == 0);
@@ -396,6 +436,7 @@ int main(int argc, char **argv)
     test_statistics();
     test_options();
     test_report(argc > 1 ? argv[1] : ".");
+    test_series(argc > 1 ? argv[1] : ".");
     test_malformed();
     test_progress();
     return check_report("test_common");

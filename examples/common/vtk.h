@@ -16,6 +16,7 @@
 
 #include "part_file.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* ---- points ---- */
@@ -80,6 +81,23 @@ static inline void vtk_series_begin(vtk_series *s, const char *dir, const char *
     s->name = name;
     s->time = NULL;
     s->count = 0;
+}
+
+/* After vtk_series_begin: a run that goes on from this time keeps what its series has from before. */
+static inline void vtk_series_resume(vtk_series *s, double from_time)
+{
+    char path[PART_FILE_PATH], line[256];
+    FILE *from;
+    double time;
+    if (snprintf(path, sizeof path, "%s/%s.pvd", s->dir, s->name) >= (int)sizeof path || !(from = fopen(path, "r"))) return;
+    while (fgets(line, sizeof line, from))
+        if (sscanf(line, "<DataSet timestep=\"%lf\"", &time) == 1 && time < from_time - 1e-9 * fabs(from_time)) {
+            double *const times = (double *)realloc(s->time, (size_t)(s->count + 1) * sizeof *times);
+            if (!times) break;
+            s->time = times;
+            s->time[s->count++] = time;
+        }
+    fclose(from);
 }
 
 static inline int vtk_series_add(vtk_series *s, double time, int n, const double *x, const double *y, const double *z, const vtk_field *fields, int count)
