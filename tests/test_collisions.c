@@ -306,6 +306,34 @@ static void test_coincident(void)
     gas_free(&g);
 }
 
+/* a velocity that would leave the range of numbers, of either particle and along either axis: the pair stays as it is */
+static void test_overflow(void)
+{
+    const double large = BY_PRECISION(1.79e308, 3.4e38);
+    int dim, axis, heavy, k;
+    for (dim = 1; dim <= 3; dim++)
+        for (axis = 0; axis < dim; axis++)
+            for (heavy = 0; heavy < 2; heavy++) {
+                cloud c = cloud_new(dim, 2);
+                sph_real *const x[3] = {c.x, c.y, c.z};
+                sph_collision_report report = {0, 0, SPH_R(0)};
+                gas g;
+                x[axis][0] = SPH_R(1);
+                g = gas_of(c, 2.0);
+                g.w[heavy] = SPH_R(0);
+                g.w[1 - heavy] = SPH_R(1);
+                g.v[axis][0] = SPH_R((heavy ? 0.1 : -0.59) * large);
+                g.v[axis][1] = SPH_R((heavy ? 0.59 : -0.1) * large);
+                CHECK(collide(SEQUENTIAL, &g, 1.0, &report) == 1);
+                CHECK(report.collisions == 0);
+                for (k = 0; k < dim; k++) {
+                    CHECK(g.v[k][0] == (k == axis ? SPH_R((heavy ? 0.1 : -0.59) * large) : SPH_R(0)));
+                    CHECK(g.v[k][1] == (k == axis ? SPH_R((heavy ? 0.59 : -0.1) * large) : SPH_R(0)));
+                }
+                gas_free(&g);
+            }
+}
+
 /* (4.22) is (4.20) over the time step if N = |v_ij| dt / r: for one pair at a time */
 static void test_acceleration(void)
 {
@@ -344,6 +372,7 @@ int main(void)
     test_walls();
     test_lists();
     test_coincident();
+    test_overflow();
     test_acceleration();
     return check_report("test_collisions");
 }

@@ -434,6 +434,18 @@ static void test_masses(void)
     CHECK(solve(SPH_CUBIC_SPLINE, &g, 1.2, 1e-6) == g.n); /* a density beyond all numbers */
     for (i = 0; i < g.n; i++) CHECK(g.status[i] == SPH_NOT_FINITE && fabs((double)g.rho[i]) + fabs((double)g.omega[i]) <= 0.0 && g.h[i] > SPH_R(0));
     gas_free(&g);
+    { /* a mass that the kernel makes nothing of: no density, and none of its factor */
+        const sph_real x = SPH_R(0), m = BY_PRECISION(SPH_R(4.9406564584124654e-324), SPH_R(1.4012984643248171e-45)), reach = SPH_R(0.3);
+        const sph_index start[2] = {0, 0}, index[1] = {0};
+        const sph_points points = sph_points_periodic(sph_points_separate(1, &x, &x, &x), SPH_R(1), SPH_R(1), SPH_R(1));
+        sph_real h = SPH_R(0.1), rho = SPH_R(7), omega = SPH_R(7);
+        unsigned char status = SPH_OK;
+        sph_list list;
+        list.start = start;
+        list.index = index;
+        CHECK(sph_density_adaptive(SPH_CUBIC_SPLINE, 3, 0, 1, points, list, sph_scalars_same(&reach), sph_scalars_same(&m), SPH_R(1.2), SPH_R(1e-3), &h, &rho, &omega, &status) == 1);
+        CHECK(status != SPH_OK && fabs((double)rho) + fabs((double)omega) <= 0.0 && h > SPH_R(0));
+    }
 }
 
 int main(void)

@@ -1004,6 +1004,23 @@ static void test_assembly(void)
     setup_free(&s);
 }
 
+/* only the full gradient has a part that does not lie along the pair */
+static void test_rest(void)
+{
+    static const int gradients[] = {SPH_GRADIENT_DIFFUSE, SPH_GRADIENT_SHEPARD_DIFFUSE, SPH_GRADIENT_SHEPARD_FULL, SPH_GRADIENT_FULL};
+    sph_wf v;
+    sph_shepard s;
+    int k;
+    v.w = SPH_R(2), v.f = SPH_R(-3);
+    s.nu = SPH_R(0.5);
+    s.gradient.x = SPH_R(5), s.gradient.y = SPH_R(7), s.gradient.z = SPH_R(11);
+    for (k = 0; k < 4; k++) {
+        const sph_kernel_gradient g = sph_elliptic_gradient_pair(gradients[k], v, SPH_R(0.1), s);
+        const double factor = gradients[k] == SPH_GRADIENT_FULL ? -8.0 : 0.0;
+        CHECK((double)g.rest.x == factor * 5.0 && (double)g.rest.y == factor * 7.0 && (double)g.rest.z == factor * 11.0);
+    }
+}
+
 int main(void)
 {
     test_figures();
@@ -1021,5 +1038,6 @@ int main(void)
     test_eigenvalues();
     test_promises();
     test_assembly();
+    test_rest();
     return check_report("test_elliptic");
 }
