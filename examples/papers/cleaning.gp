@@ -245,7 +245,7 @@ if (there("cleaning_collapse_fig5")) {
     set datafile separator ","
     history = dir."cleaning_collapse_fig5.csv"
     clouds = system(sprintf("tail -n +2 '%s' | cut -d, -f1 | sort -u -n", history))
-    array resistivity[3] = ["", "_with_alpha_B___0_05", "_with_alpha_B___0"]
+    array resistivity[3] = ["", "_with_alpha_B___0_1_everywhere", "_with_alpha_B___0"]
     do for [cloud in clouds] { do for [v = 1:3] {
         columns(k) = sprintf("cleaning_collapse_fig4_%s_%s%s%s", cloud, k == 1 ? "control" : "cleaned", resistivity[v], k == 3 ? "_end" : "")
         if (there(columns(1)) && there(columns(2))) {
@@ -253,7 +253,7 @@ if (there("cleaning_collapse_fig5")) {
                 set output dir.sprintf("cleaning_collapse_%s_%s.png", q == 1 ? "fig4" : "jet", cloud.resistivity[v])
                 panels = there(columns(3)) ? 3 : 2
                 set terminal pngcairo size (650 * panels),1200 font "sans,12"
-                set multiplot layout 2,panels title (q == 1 ? "Figure 4: column density along y, log_{10} g/cm^2, " : "Mean velocity along the axis, km/s, ").cloud." particles in the sphere".(v == 1 ? "" : v == 2 ? ", {/Symbol a}_B = 0.05" : ", {/Symbol a}_B = 0")
+                set multiplot layout 2,panels title (q == 1 ? "Figure 4: column density along y, log_{10} g/cm^2, " : "Mean velocity along the axis, km/s, ").cloud." particles in the sphere".(v == 1 ? "" : v == 2 ? ", {/Symbol a}_B = 0.1 everywhere" : ", {/Symbol a}_B = 0")
                 unset key
                 set size ratio 1
                 if (q == 1) { set palette defined (0 "#000000", 1 "#3b0f70", 2 "#b73779", 3 "#fc8961", 4 "#fcfdbf") } else { set palette defined (-1 "#0072b2", 0 "#ffffff", 1 "#d55e00") }
@@ -279,7 +279,7 @@ if (there("cleaning_collapse_fig5")) {
     array figure[2] = ["fig5", "fig6"]
     array what[2] = ["Figure 5: mean of h |div B| / |B|", "Figure 6: linear momentum made, |P - P_0| [10^5 cm/s solar masses]"]
     array stroke[6] = ["#000000", "#d55e00", "#999999", "#e69f00", "#0072b2", "#cc79a7"]
-    array runs[6] = ["control", "cleaned", "control with alpha_B = 0", "cleaned with alpha_B = 0", "control with alpha_B = 0.05", "cleaned with alpha_B = 0.05"]
+    array runs[6] = ["control", "cleaned", "control with alpha_B = 0", "cleaned with alpha_B = 0", "control with alpha_B = 0.1 everywhere", "cleaned with alpha_B = 0.1 everywhere"]
     has(cloud, k) = system(sprintf("grep -c '^%s,\"%s\",' '%s'", cloud, runs[k], history)) + 0 > 0
     do for [q = 1:2] {
         set output dir.sprintf("cleaning_collapse_%s.png", figure[q])
