@@ -644,11 +644,11 @@ int main(int argc, char **argv)
             PLAN("control with alpha_B = 0.1 everywhere", 0, 2000, 0.1, 5e-4, 2000);
             PLAN("cleaned with alpha_B = 0.1 everywhere", 1, 2000, 0.1, 0.02, 0);
             everywhere = both;
-            PLAN("control", 0, 10000, alpha_B, 5e-4, 5000);
+            PLAN("control", 0, 10000, alpha_B, 5e-3, 2000);
             PLAN("cleaned", 1, 10000, alpha_B, 1, 0);
-            PLAN("control with alpha_B = 0", 0, 10000, 0, 5e-4, 5000);
+            PLAN("control with alpha_B = 0", 0, 10000, 0, 5e-4, 2000);
             PLAN("cleaned with alpha_B = 0", 1, 10000, 0, 5e-4, 0);
-            PLAN("control", 0, 30000, alpha_B, 5e-4, 5000);
+            PLAN("control", 0, 30000, alpha_B, 5e-4, 2000);
             PLAN("cleaned", 1, 30000, alpha_B, 0.02, 0);
         }
     }
