@@ -23,20 +23,9 @@ typedef struct state {
 
 static sph_vectors three(const state *s, int first, int parts)
 {
-    sph_vectors v;
-    v.x = sph_scalars_array(s->a[first]);
-    v.y = sph_scalars_array(parts > 1 ? s->a[first + 1] : 0);
-    v.z = sph_scalars_array(parts > 2 ? s->a[first + 2] : 0);
-    return v;
+    return sph_vectors_separate(s->a[first], parts > 1 ? s->a[first + 1] : 0, parts > 2 ? s->a[first + 2] : 0);
 }
-static sph_vector_out three_out(const state *s, int first)
-{
-    sph_vector_out v;
-    v.x = s->a[first];
-    v.y = s->a[first + 1];
-    v.z = s->a[first + 2];
-    return v;
-}
+static sph_vector_out three_out(const state *s, int first) { return sph_vector_out_separate(s->a[first], s->a[first + 1], s->a[first + 2]); }
 static sph_scalars field(const state *s, int which) { return sph_scalars_array(s->a[which]); }
 static sph_gas gas(const state *s)
 {

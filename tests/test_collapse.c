@@ -144,12 +144,9 @@ static void test_tree_gravity(void)
     static const double theta[] = {1, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2};
     enum { ANGLES = sizeof theta / sizeof *theta };
     heap s = heap_new(4000, 0);
-    sph_vector_out a;
+    const sph_vector_out a = sph_vector_out_separate(s.a[0], s.a[1], s.a[2]);
     double error[ANGLES], momentum[ANGLES], e, p, whole[3];
     int k, c;
-    a.x = s.a[0];
-    a.y = s.a[1];
-    a.z = s.a[2];
     CHECK(sph_gravity_direct(COLLAPSE_KERNEL, 0, s.n, sph_points_separate(s.n, s.x[0], s.x[1], s.x[2]), sph_scalars_array(s.h), sph_scalars_array(s.m), 0.8, a,
                              NULL) == 0);
     tree_moments(&s.t, s.x[0], s.x[1], s.x[2], s.m);
@@ -365,11 +362,8 @@ static void ball(collapse *g, const collapse_model *model, sph_index n)
 static double energy(const collapse *g)
 {
     double *const phi = (double *)tree_memory(NULL, 4 * (size_t)g->s.n, sizeof *phi), e = 0;
-    sph_vector_out a;
+    const sph_vector_out a = sph_vector_out_separate(phi + g->s.n, phi + 2 * g->s.n, phi + 3 * g->s.n);
     sph_index i;
-    a.x = phi + g->s.n;
-    a.y = a.x + g->s.n;
-    a.z = a.y + g->s.n;
     CHECK(sph_gravity_direct(COLLAPSE_KERNEL, 0, g->s.n, collapse_open(g), collapse_field(g, H), sph_scalars_same(&g->model.m), 1, a, phi) == 0);
     for (i = 0; i < g->s.n; i++)
         e += g->model.m * (0.5 * (pow(g->a[VX][i], 2) + pow(g->a[VY][i], 2) + pow(g->a[VZ][i], 2)) + g->a[P][i] / (0.4 * g->a[RHO][i]) + 0.5 * phi[i]);

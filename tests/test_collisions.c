@@ -41,14 +41,7 @@ static void gas_free(gas *g)
     free(g->w);
     free(g->count);
 }
-static sph_vectors gas_v(const gas *g)
-{
-    sph_vectors v;
-    v.x = sph_scalars_array(g->v[0]);
-    v.y = sph_scalars_array(g->v[1]);
-    v.z = sph_scalars_array(g->v[2]);
-    return v;
-}
+static sph_vectors gas_v(const gas *g) { return sph_vectors_separate(g->v[0], g->v[1], g->v[2]); }
 
 enum { SEQUENTIAL, WEIGHTED, LITERAL, FORMS };
 /* one sweep over all particles; the velocities are changed */
@@ -58,13 +51,10 @@ static sph_index collide(int form, gas *g, double restitution, sph_collision_rep
     const sph_points x = cloud_points(&g->c);
     const sph_list list = cloud_list(&g->c);
     const sph_scalars w = sph_scalars_array(g->w);
-    sph_vector_out dv;
+    const sph_vector_out dv = sph_vector_out_separate(g->dv[0], g->dv[1], g->dv[2]);
     sph_index i, answer;
     int k;
     if (form == SEQUENTIAL) return sph_collide_sequential(dim, 0, g->c.n, x, list, g->distance, w, SPH_R(restitution), g->v[0], g->v[1], g->v[2], 1, report);
-    dv.x = g->dv[0];
-    dv.y = g->dv[1];
-    dv.z = g->dv[2];
     if (form == WEIGHTED) {
         answer = sph_collision_count(dim, 0, g->c.n, x, list, g->distance, w, gas_v(g), g->count);
         CHECK(answer >= 0);
@@ -349,9 +339,7 @@ static void test_acceleration(void)
     g.w[1] = SPH_R(3);
     g.v[0][0] = SPH_R(1);
     g.v[1][1] = SPH_R(-0.5);
-    a.x = g.dv[0];
-    a.y = g.dv[1];
-    a.z = g.dv[2];
+    a = sph_vector_out_separate(g.dv[0], g.dv[1], g.dv[2]);
     r = 0.5;
     speed = hypot(1.0, 0.5);
     CHECK(sph_collision_acceleration_literal(2, 0, 2, cloud_points(&c), cloud_list(&g.c), g.distance, sph_scalars_array(g.w), SPH_R(0.3), gas_v(&g),

@@ -118,14 +118,7 @@ static sph_vectors vectors_of(const world *w, int a)
     v.z = w->dim > 2 ? scalars_of(w, a + 2) : sph_scalars_array(0); /* a third component in 2D is there if its array is */
     return v;
 }
-static sph_vector_out vector_out_of(const world *w, int a)
-{
-    sph_vector_out v;
-    v.x = real_of(w, a);
-    v.y = real_of(w, a + 1);
-    v.z = real_of(w, a + 2);
-    return v;
-}
+static sph_vector_out vector_out_of(const world *w, int a) { return sph_vector_out_separate(real_of(w, a), real_of(w, a + 1), real_of(w, a + 2)); }
 static sph_diagonal diagonal_of(const world *w, int a)
 {
     sph_diagonal d;
@@ -314,11 +307,7 @@ static sph_index call_collide_sequential(const world *w)
 static sph_index call_grid_order(const world *w) { return sph_grid_order((const sph_grid *)w->a[GRID]) ? 1 : 0; }
 static sph_index call_curl_difference(const world *w) /* three components in any dimension */
 {
-    sph_vector_out o;
-    o.x = R(O0);
-    o.y = R(S0);
-    o.z = R(S1);
-    return sph_curl_difference(RANGE, gas_of(w), vectors_of(w, BX), o);
+    return sph_curl_difference(RANGE, gas_of(w), vectors_of(w, BX), sph_vector_out_separate(R(O0), R(S0), R(S1)));
 }
 static sph_index call_elliptic_diagnose(const world *w)
 {

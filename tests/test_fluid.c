@@ -57,22 +57,8 @@ static void flow_free(flow *f)
     cloud_free(&f->c);
     free(f->m);
 }
-static sph_vectors flow_v(const flow *f)
-{
-    sph_vectors v;
-    v.x = sph_scalars_array(f->v[0]);
-    v.y = sph_scalars_array(f->v[1]);
-    v.z = sph_scalars_array(f->v[2]);
-    return v;
-}
-static sph_vector_out flow_a(const flow *f)
-{
-    sph_vector_out a;
-    a.x = f->a[0];
-    a.y = f->a[1];
-    a.z = f->a[2];
-    return a;
-}
+static sph_vectors flow_v(const flow *f) { return sph_vectors_separate(f->v[0], f->v[1], f->v[2]); }
+static sph_vector_out flow_a(const flow *f) { return sph_vector_out_separate(f->a[0], f->a[1], f->a[2]); }
 static sph_fluid fluid(const flow *f, int viscosity, double alpha, double beta)
 {
     sph_fluid s;
@@ -107,11 +93,8 @@ static sph_index viscous(int form, const flow *f, sph_scalars h, sph_scalars mu)
 static sph_conserved conserved(const flow *f, sph_real *const *v)
 {
     sph_conserved q;
-    sph_vectors s;
+    const sph_vectors s = sph_vectors_separate(v[0], v[1], v[2]);
     memset(&q, 0, sizeof q);
-    s.x = sph_scalars_array(v[0]);
-    s.y = sph_scalars_array(v[1]);
-    s.z = sph_scalars_array(v[2]);
     CHECK(sph_conserved_sums(f->c.dim, 0, f->c.n, cloud_points(&f->c), sph_scalars_array(f->m), s, &q) == 0);
     return q;
 }
@@ -422,13 +405,13 @@ static void test_wall(void)
     sph_real *const share = (sph_real *)cloud_memory((size_t)n, sizeof *share), *const normal = (sph_real *)cloud_memory((size_t)n, sizeof *normal);
     unsigned char *const status = (unsigned char *)cloud_memory((size_t)n, 1);
     const sph_real zero = SPH_R(0);
-    sph_vectors at_rest, none, up;
+    const sph_vectors none = sph_vectors_separate(0, 0, 0);
+    sph_vectors at_rest, up;
     sph_vec gravity = {SPH_R(0), SPH_R(0), SPH_R(0)};
     double worst_p = 0.0, worst_v = 0.0, slip = -1e9, across = 0.0;
     sph_index i, walls = 5 * 17;
     gravity.y = SPH_R(g);
     at_rest.x = at_rest.y = at_rest.z = sph_scalars_same(&zero);
-    none.x = none.y = none.z = sph_scalars_array(0);
     up.x = up.z = at_rest.x;
     up.y = sph_scalars_array(normal);
     for (i = 0; i < n; i++) { /* the five lowest rows are wall: two of them are in reach of the fluid */
@@ -515,16 +498,14 @@ static void test_distribution(void)
     CHECK((double)out[10 * 24 + 12] < 0.9);
     CHECK(sph_count_coincident(2, 0, c.n, x, cloud_list(&c), SPH_R(1e-12)) == 2);
     {
-        sph_vector_out to;
-        to.x = (sph_real *)cloud_memory(2 * (size_t)c.n, sizeof *to.x);
-        to.y = to.x + c.n;
-        to.z = 0;
+        sph_real *const moved = (sph_real *)cloud_memory(2 * (size_t)c.n, sizeof *moved);
+        const sph_vector_out to = sph_vector_out_separate(moved, moved + c.n, 0);
         CHECK(sph_separate_coincident(2, 0, c.n, x, cloud_list(&c), SPH_R(1e-12), SPH_R(0.1 * dx), to) == 2);
         CHECK(hypot((double)(to.x[30] - to.x[31]), (double)(to.y[30] - to.y[31])) > 0.05 * dx);
         CHECK_CLOSE(hypot((double)(to.x[30] - c.x[30]), (double)(to.y[30] - c.y[30])), 0.1 * dx, 1e-6);
         for (i = 0; i < c.n; i++)
             if (i != 30 && i != 31) CHECK(to.x[i] == c.x[i] && to.y[i] == c.y[i]);
-        free(to.x);
+        free(moved);
     }
     /* probes, and nobody in reach */
     {
@@ -575,6 +556,7 @@ static void test_hexatic_and_separation(void)
     free(out);
     cloud_free(&c);
     for (dim = 1; dim <= 3; dim++) {
+        sph_real *moved;
         sph_vector_out to;
         double d2;
         c = cloud_lattice(dim, 7, 1.5, 0.1, 4);
@@ -582,9 +564,8 @@ static void test_hexatic_and_separation(void)
         c.y[5] = c.y[4];
         c.z[5] = c.z[4];
         cloud_neighbors(&c, 2.0 * (double)c.h);
-        to.x = (sph_real *)cloud_memory(3 * (size_t)c.n, sizeof *to.x);
-        to.y = to.x + c.n;
-        to.z = to.y + c.n;
+        moved = (sph_real *)cloud_memory(3 * (size_t)c.n, sizeof *moved);
+        to = sph_vector_out_separate(moved, moved + c.n, moved + 2 * c.n);
         CHECK(sph_separate_coincident(dim, 0, c.n, cloud_points(&c), cloud_list(&c), SPH_R(0), SPH_R(0.01), to) == 2);
         for (i = 4; i < 6; i++) {
             d2 = pow((double)(to.x[i] - c.x[i]), 2.0) + pow((double)(to.y[i] - c.y[i]), 2.0) + pow((double)(to.z[i] - c.z[i]), 2.0);
@@ -594,7 +575,7 @@ static void test_hexatic_and_separation(void)
         CHECK(sqrt(d2) > 0.005);
         for (i = 0; i < c.n; i++)
             if (i != 4 && i != 5) CHECK(to.x[i] == c.x[i] && (dim < 2 || to.y[i] == c.y[i]) && (dim < 3 || to.z[i] == c.z[i]));
-        free(to.x);
+        free(moved);
         cloud_free(&c);
     }
 }

@@ -111,14 +111,7 @@ static void ball_free(ball *s)
     cloud_free(&s->c);
     free(s->m);
 }
-static sph_vector_out out_of(sph_real *const *a)
-{
-    sph_vector_out v;
-    v.x = a[0];
-    v.y = a[1];
-    v.z = a[2];
-    return v;
-}
+static sph_vector_out out_of(sph_real *const *a) { return sph_vector_out_separate(a[0], a[1], a[2]); }
 /* the potential energy; with an h that follows the density, if asked */
 static double energy(sph_kernel k, ball *s, double G, int follow)
 {
