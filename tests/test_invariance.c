@@ -103,22 +103,8 @@ static world first_world(int dim)
 
 static const sph_kernel KERNEL = SPH_WENDLAND_C4;
 static sph_scalars at(const world *w, int field) { return sph_scalars_array(w->a[field]); }
-static sph_vectors vectors(const world *w, int field)
-{
-    sph_vectors v;
-    v.x = at(w, field);
-    v.y = at(w, field + 1);
-    v.z = sph_scalars_array(w->c.dim > 2 ? w->a[field + 2] : 0);
-    return v;
-}
-static sph_vector_out into(const world *w, int k)
-{
-    sph_vector_out v;
-    v.x = w->out[k];
-    v.y = w->out[k + 1];
-    v.z = w->out[k + 2];
-    return v;
-}
+static sph_vectors vectors(const world *w, int field) { return sph_vectors_separate(w->a[field], w->a[field + 1], w->c.dim > 2 ? w->a[field + 2] : 0); }
+static sph_vector_out into(const world *w, int k) { return sph_vector_out_separate(w->out[k], w->out[k + 1], w->out[k + 2]); }
 static sph_gas gas(const world *w)
 {
     sph_gas g;
@@ -225,8 +211,7 @@ OPERATOR(fluid_colagrossi, sph_fluid_rates_colagrossi(SWEEP, fluid(w), into(w, 0
 OPERATOR(fluid_hu_adams, sph_fluid_rates_hu_adams(SWEEP, fluid(w), into(w, 0), OUT(3), OUT(4)))
 static sph_index wall(world *w, sph_index first, sph_index last)
 {
-    sph_vectors none;
-    none.x = none.y = none.z = sph_scalars_array(0);
+    const sph_vectors none = sph_vectors_separate(0, 0, 0);
     return sph_wall_adami(SWEEP, at(w, SHARE), at(w, RHO), at(w, P), vectors(w, VX), vectors(w, BX), w->gravity, none, OUT(3), into(w, 0), w->status);
 }
 static sph_index wall_slips(world *w, sph_index first, sph_index last)
