@@ -208,15 +208,12 @@ SPH_FN sph_index apply_range(int which, int dim, sph_index first, sph_index last
     }
     case ACCELERATION: /* pressure alone */
     case FLUID: {      /* with artificial viscosity, density rate and heating */
+        const sph_vector_out a = sph_vector_out_separate(o->g[0], o->g[1], o->g[2]);
         sph_fluid fluid;
-        sph_vector_out a;
         fluid.m = fluid.rho = fluid.c = V;
         fluid.p = fluid.v.x = fluid.v.y = fluid.v.z = f;
         fluid.alpha = fluid.eta = SPH_R(0.1);
         fluid.beta = SPH_R(0);
-        a.x = o->g[0];
-        a.y = o->g[1];
-        a.z = o->g[2];
         fluid.viscosity = SPH_VISCOSITY_NONE;
         if (which == ACCELERATION) return sph_fluid_rates_monaghan(KERNEL, dim, first, last, x, list, h, fluid, a, 0, 0);
         fluid.viscosity = SPH_VISCOSITY_MONAGHAN;
@@ -233,18 +230,13 @@ SPH_FN sph_index apply_range(int which, int dim, sph_index first, sph_index last
         sph_mhd s;
         sph_mhd_out r;
         s.gas.m = s.gas.rho = s.gas.omega = s.P = s.u = s.cs = s.alpha = s.alpha_B = V;
-        s.v.x = s.v.y = s.B.x = s.B.y = f;
-        s.v.z = s.B.z = sph_scalars_array(dim > 2 ? c->f : 0);
+        s.v = s.B = sph_vectors_separate(c->f, c->f, dim > 2 ? c->f : 0);
         s.psi = sph_scalars_array(0);
         s.ch = s.alpha_u = s.tensile = SPH_R(1);
         s.sigma = SPH_R(0.3);
         s.beta = SPH_R(2);
-        r.acceleration.x = o->g[0];
-        r.acceleration.y = o->g[1];
-        r.acceleration.z = o->g[2];
-        r.rate_B.x = o->g[3];
-        r.rate_B.y = o->g[4];
-        r.rate_B.z = o->g[5];
+        r.acceleration = sph_vector_out_separate(o->g[0], o->g[1], o->g[2]);
+        r.rate_B = sph_vector_out_separate(o->g[3], o->g[4], o->g[5]);
         r.rate_u = o->g[6];
         r.rate_psi = o->g[7];
         r.div_B = o->g[8];

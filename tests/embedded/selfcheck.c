@@ -231,7 +231,7 @@ static int tank_rates(sph_points points, sph_real dt)
     const sph_list list = {start, list_index};
     const sph_real one = SPH_R(1);
     const sph_scalars H = sph_scalars_same(&length);
-    sph_vector_out a = {ax, ay, 0};
+    const sph_vector_out a = sph_vector_out_separate(ax, ay, 0);
     sph_fluid fluid;
     sph_gas gas;
     int i;
@@ -240,9 +240,7 @@ static int tank_rates(sph_points points, sph_real dt)
     gas.omega = sph_scalars_same(&one);
     fluid.p = sph_scalars_array(p);
     fluid.c = sph_scalars_same(&sound);
-    fluid.v.x = sph_scalars_array(vx);
-    fluid.v.y = sph_scalars_array(vy);
-    fluid.v.z = sph_scalars_array(0);
+    fluid.v = sph_vectors_separate(vx, vy, 0);
     fluid.viscosity = SPH_VISCOSITY_MONAGHAN;
     fluid.alpha = SPH_R(0.1);
     fluid.beta = SPH_R(0);

@@ -34,14 +34,7 @@ static sph_vectors vectors(const arguments *a, int from)
     v.z = a->s[from + 2];
     return v;
 }
-static sph_vector_out vector_out(const arguments *a, int from)
-{
-    sph_vector_out v;
-    v.x = OUT(from);
-    v.y = OUT(from + 1);
-    v.z = OUT(from + 2);
-    return v;
-}
+static sph_vector_out vector_out(const arguments *a, int from) { return sph_vector_out_separate(OUT(from), OUT(from + 1), OUT(from + 2)); }
 static sph_diagonal diagonal(const arguments *a, int from)
 {
     sph_diagonal d;
