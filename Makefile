@@ -44,7 +44,7 @@ help:
 	@echo "make bench-gpu        sweeps on a GPU beside one core (needs nvcc and a GPU)"
 	@echo "make docs             the headers' comments as pages (needs doxygen)"
 	@echo "make coverage         lines and branches of the headers that the tests reach (needs gcovr)"
-	@echo "make lint             static analysers, valgrind, the sanitizers of memory and threads: some ten minutes"
+	@echo "make lint             static analysers, valgrind, the sanitizers of memory and threads: some twelve minutes"
 	@echo "make mutation         how many broken formulas the tests notice: an hour (OPTIONS='-n 400')"
 	@echo "make figures          PNG of the figures from the last run (needs gnuplot)"
 	@echo "make gallery          PNG of examples/README.md, into $(BUILD)/gallery (needs gnuplot)"
@@ -146,7 +146,7 @@ coverage:
 	$(MAKE) --no-print-directory BUILD=$(BUILD)/coverage CC=gcc CFLAGS="-O0 --coverage -DSPH_FN='static __attribute__((noinline, unused))'" TESTS_FLOAT= DRIVERS= TEST_SCRIPTS= test
 	gcovr -r . --object-directory $(BUILD)/coverage -f 'sph[a-z_]*[.]h' --exclude-unreachable-branches --exclude-throw-branches --html-details $(BUILD)/coverage/index.html --print-summary
 lint:
-	@CC="$(CC)" BUILD="$(BUILD)" sh tests/lint.sh
+	@CC="$(CC)" BUILD="$(BUILD)" sh tests/lint/lint.sh
 mutation:
 	python3 tests/mutation/mutate.py $(OPTIONS)
 
