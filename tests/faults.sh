@@ -5,17 +5,6 @@
 . tests/check.sh
 bin=$BUILD/examples
 
-# fails STATUS TEXT COMMAND...: ends with the status (2, or any that is not 0) and says so
-fails() {
-    want=$1 text=$2
-    shift 2
-    "$@" > "$scratch/output" 2>&1
-    status=$?
-    if [ "$want" = any ]; then [ $status -ne 0 ] && [ $status -lt 124 ]; else [ $status -eq "$want" ]; fi && grep -q -i -e "$text" "$scratch/output" && return
-    echo "status $status (expected $want), or without '$text'"
-    return 1
-}
-
 # ---- killed ----
 
 # Snapshots as fast as they can be written: VTK files and their list, a table, a figure.
@@ -84,17 +73,17 @@ else skip "a driver killed" "$bin/icspm_uniform is not built"; fi
 mkdir -p "$scratch/full"
 if [ -c /dev/full ] && [ -x "$bin/icspm_uniform" ]; then
     ln -s /dev/full "$scratch/full/icspm_uniform.csv.part" # what is written to it finds no space
-    check "a full disk" fails 2 "no space" "$bin/icspm_uniform" -out "$scratch/full" -figures "$scratch"
+    check "a full disk" answers 2 "No space" "$bin/icspm_uniform" -out "$scratch/full" -figures "$scratch"
     check "no table of that name" test ! -e "$scratch/full/icspm_uniform.csv"
     ln -s /dev/full "$scratch/full/icspm_fig2.csv.part"
-    check "a full disk for figures" fails 2 "no space" "$bin/icspm_uniform" -out "$scratch" -figures "$scratch/full"
+    check "a full disk for figures" answers 2 "No space" "$bin/icspm_uniform" -out "$scratch" -figures "$scratch/full"
     check "no figure of that name" test ! -e "$scratch/full/icspm_fig2.csv"
 else skip "a full disk" "no /dev/full, or $bin/icspm_uniform is not built"; fi
 if [ -c /dev/full ]; then
     for f in density_cloud gradient_correction hello_kernel host_structs; do
         check "$f compiles" "$CC" -std=c99 -I. -O0 "-DSPH_FN=static __attribute__((noinline, unused))" "examples/$f.c" -o "$scratch/$f" -lm
-        check "$f, full disk" fails 2 "no space" "$scratch/$f" -o /dev/full
-        check "$f, no folder" fails 2 "no/such" "$scratch/$f" -o no/such/file
+        check "$f, full disk" answers 2 "No space" "$scratch/$f" -o /dev/full
+        check "$f, no folder" answers 2 "no/such" "$scratch/$f" -o no/such/file
     done
 fi
 forbidden= # a folder in which not even root may write, or one that was made so
@@ -106,9 +95,9 @@ elif [ "$(id -u)" -ne 0 ]; then
 fi
 echo "a file" > "$scratch/file"
 for d in $(cd "$bin" && ls | grep _); do
-    check "a file for a folder" fails 2 "$scratch/file" "$bin/$d" -out "$scratch/file"
-    [ -n "$forbidden" ] && check "no permission" fails 2 "$forbidden" "$bin/$d" -out "$forbidden"
-    [ -n "$forbidden" ] && check "no permission for figures" fails 2 "$forbidden" "$bin/$d" -out "$scratch" -figures "$forbidden"
+    check "a file for a folder" answers 2 "$scratch/file" "$bin/$d" -out "$scratch/file"
+    [ -n "$forbidden" ] && check "no permission" answers 2 "$forbidden" "$bin/$d" -out "$forbidden"
+    [ -n "$forbidden" ] && check "no permission for figures" answers 2 "$forbidden" "$bin/$d" -out "$scratch" -figures "$forbidden"
 done
 [ -n "$forbidden" ] || skip "no permission" "root may write everywhere, and there is no /sys"
 
@@ -127,7 +116,7 @@ if (ulimit -v 100000) 2> /dev/null; then
         [ -x "$bin/${d%% *}" ] || continue
         case $d in icspm*) limit=20000 ;; cleaning*) limit=60000 ;; clustering*) limit=9000 ;; *) limit=7000 ;; esac
         # shellcheck disable=SC2086
-        check "$d, starved of memory" fails any "memory" starved $limit "$bin/"$d -out "$scratch" -figures "$scratch"
+        check "$d, starved of memory" answers error "memory" starved $limit "$bin/"$d -out "$scratch" -figures "$scratch"
     done
 else skip "no memory" "there is no ulimit -v"; fi
 finish faults

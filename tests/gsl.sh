@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Kernels against GSL's adaptive quadrature and derivatives, where GSL is installed.
 . tests/check.sh
-printf '#include <gsl/gsl_version.h>\nint main(void) { return 0; }\n' > "$scratch/has.c"
-if ! $CC -o "$scratch/has" "$scratch/has.c" -lgsl -lgslcblas -lm 2> /dev/null; then
+if ! compiles "#include <gsl/gsl_version.h>\n$empty" "$CC" -lgsl -lgslcblas -lm; then
     skip "kernels against GSL" "GSL is not installed (Debian: libgsl-dev)"
     exit 0
 fi

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # The solvers once more with PETSc's beside them, where PETSc is installed.
 . tests/check.sh
-if ! command -v pkg-config > /dev/null 2>&1 || ! pkg-config --exists PETSc; then
+if ! installed pkg-config || ! pkg-config --exists PETSc; then
     skip "solvers against PETSc" "PETSc is not installed, or pkg-config does not find it (Debian: petsc-dev pkg-config)"
     exit 0
 fi

@@ -34,10 +34,8 @@ for name in $(grep -o 'sph_[a-z0-9_]*' examples/README.md | sort -u); do
 done
 
 # no heap and no stdio where there is no host: what embedded_loop asks of the system is arithmetic
-if command -v nm > /dev/null 2>&1; then
+if needs "embedded_loop, freestanding" nm; then
     check "embedded_loop, freestanding" $CC -std=c99 -ffreestanding -O2 -I. -c -o "$scratch/embedded_loop.o" examples/embedded_loop.c
     check "embedded_loop needs nothing but arithmetic" test -z "$(nm -u "$scratch/embedded_loop.o" | grep -v -e ' w ' | awk '{ print $NF }' | grep -v -x -e '_*\(sqrtf\|fabsf\|floorf\|fmaxf\|copysignf\|powf\|memset\|memcpy\)')"
-else
-    skip "embedded_loop, freestanding" "nm is not installed"
 fi
 finish single

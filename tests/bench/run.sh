@@ -7,7 +7,7 @@
 # GCC, CLANG and CXX name the compilers. Figures move with what else the machine does: compare ratios, and within one run.
 LC_ALL=C
 export LC_ALL
-BUILD=${BUILD:-build}
+. tests/check.sh
 GCC=${GCC:-gcc}
 CLANG=${CLANG:-clang}
 CXX=${CXX:-g++}
@@ -26,16 +26,6 @@ mkdir -p "$dir" || exit 2
 csv=$dir/bench.csv
 targets=$dir/targets.csv
 log=$dir/build.log
-failed=0
-skip() { echo "skipped: $1: $2"; }
-have() { command -v "$1" > /dev/null 2>&1; }
-# compiles PROGRAM_TEXT COMPILER FLAGS ...: whether this builds
-compiles() {
-    text=$1
-    shift
-    printf '%s\n' "$text" > "$dir/has.c"
-    "$@" -o "$dir/has" "$dir/has.c" > /dev/null 2>&1
-}
 # defines MACRO COMPILER FLAGS ...
 defines() {
     macro=$1
@@ -45,7 +35,7 @@ defines() {
 }
 
 nanoflann=
-if printf '#include <nanoflann.hpp>\n' > "$dir/has.cpp" && have "$CXX" && $CXX -E "$dir/has.cpp" > /dev/null 2>&1; then
+if printf '#include <nanoflann.hpp>\n' > "$dir/has.cpp" && installed "$CXX" && $CXX -E "$dir/has.cpp" > /dev/null 2>&1; then
     native=-march=native
     $CXX $native -E "$dir/has.cpp" > /dev/null 2>&1 || native=
     nanoflann=$dir/nanoflann.o
@@ -130,13 +120,8 @@ build_variant() {
     shift 2
     count=$((count + 1))
     rm -f "$dir/$count.skipped"
-    if ! have "$1"; then
-        skip "$name" "$1 is not installed"
-        : > "$dir/$count.skipped"
-        return
-    fi
-    if ! compiles 'int main(void) { return 0; }' "$@"; then
-        skip "$name" "$* does not work here"
+    if ! compiles "$empty" "$@"; then
+        skip "$name" "$* is not installed, or does not work here"
         : > "$dir/$count.skipped"
         return
     fi
@@ -145,8 +130,7 @@ build_variant() {
         [ $full = 1 ] || [ $count = 2 ] && extras="variable 2d avx2"
         if [ "$cores" -lt 2 ]; then
             :
-        elif compiles '#include <omp.h>
-int main(void) { omp_set_num_threads(2); return 0; }' "$@" -fopenmp; then
+        elif compiles "#include <omp.h>\nint main(void) { omp_set_num_threads(2); return 0; }" "$@" -fopenmp; then
             extras="$extras omp"
         else
             skip "$name, two threads" "$1 has no OpenMP here"
@@ -216,7 +200,7 @@ variants run_variant
 dam() {
     name=$1
     shift 2
-    have "$1" && compiles 'int main(void) { return 0; }' "$@" || return
+    compiles "$empty" "$@" || return
     if ! "$@" -std=c99 -Wall -Wextra -Wpedantic -o "$dir/dam" examples/papers/clustering_dam.c -lm 2> "$log"; then
         echo "$name: examples/papers/clustering_dam.c does not compile:"
         head -n 20 "$log"

@@ -15,17 +15,14 @@
 #
 # The detector itself is tested, too, on functions that must not pass.
 
+. tests/check.sh
 set -u
 LC_ALL=C
 export LC_ALL
 
 calls_exp='SPH_GAUSSIAN SPH_SUPER_GAUSSIAN'
-directory=build/folding
-passed=0
-failed=0
 
 [ -f sph_kernels.h ] || { echo "folding: sph_kernels.h not found: run from the repository root" >&2; exit 1; }
-mkdir -p "$directory" || exit 1
 [ $# -gt 0 ] || set -- gcc clang
 
 kernels=
@@ -38,7 +35,7 @@ done
 [ -n "$kernels" ] || { echo "folding: no kernels found in sph_kernels.h" >&2; exit 1; }
 
 # Functions named write_KERNEL_w_DIM, sum_KERNEL_w_DIM, ..., and control_*, which the detector must object to.
-source=$directory/folding.c
+source=$scratch/folding.c
 {
     echo '#include "sph_kernels.h"'
     echo '#define WRITES(K, DIM, V) \'
@@ -108,7 +105,7 @@ for cc in "$@"; do
     # shellcheck disable=SC2086
     set -- $cc
     set +f
-    if ! command -v "$1" >/dev/null 2>&1; then
+    if ! installed "$1"; then
         echo "folding $cc: skipped, not installed"
         continue
     fi
@@ -123,11 +120,11 @@ for cc in "$@"; do
     esac
     if "$@" --version 2>/dev/null | grep -q clang; then family=clang level=-O2; else family=gcc level=-O3; fi
 
-    asm=$directory/folding.s
+    asm=$scratch/folding.s
     if ! "$@" -std=c99 -O2 -DFOLDING_PART=0 -I. -S "$source" -o "$asm"; then
         fail "$cc does not compile $source"
     else
-        count "$asm" >"$directory/counts"
+        count "$asm" >"$scratch/counts"
         # Besides the loops themselves and their remainders nothing branches: 16 conditional jumps are ample for them, and far fewer than a chain of 20 comparisons
         # in every switch of a kernel that has not been folded.
         for id in $kernels; do
@@ -139,7 +136,7 @@ for cc in "$@"; do
                     done
                 done
             done
-        done >"$directory/names"
+        done >"$scratch/names"
         verdict=$(awk '
             NR == FNR { calls[$1] = $2; indirect[$1] = $3; conditional[$1] = $4; next }
             !($1 in calls) { print "failed " $1 " is not in the assembly"; next }
@@ -147,17 +144,17 @@ for cc in "$@"; do
             indirect[$1] + 0 > 0 { print "failed " $1 " has an indirect jump"; next }
             conditional[$1] + 0 > 16 { print "failed " $1 " has " conditional[$1] " conditional jumps"; next }
             { print "passed" }
-        ' "$directory/counts" "$directory/names")
+        ' "$scratch/counts" "$scratch/names")
         passed=$((passed + $(printf '%s\n' "$verdict" | grep -c '^passed')))
         failed=$((failed + $(printf '%s\n' "$verdict" | grep -c '^failed')))
         printf '%s\n' "$verdict" | sed -n "s/^failed/folding $cc -O2: failed:/p" >&2
 
-        if awk '$1 == "control_switch" && ($3 > 0 || $4 > 16) { found = 1 } END { exit !found }' "$directory/counts"; then
+        if awk '$1 == "control_switch" && ($3 > 0 || $4 > 16) { found = 1 } END { exit !found }' "$scratch/counts"; then
             passed=$((passed + 1))
         else
             fail "$cc -O2: a kernel chosen at run time was not seen to branch"
         fi
-        if awk '$1 == "control_call" && $2 > 0 { found = 1 } END { exit !found }' "$directory/counts"; then
+        if awk '$1 == "control_call" && $2 > 0 { found = 1 } END { exit !found }' "$scratch/counts"; then
             passed=$((passed + 1))
         else
             fail "$cc -O2: the call of exp was not seen"
@@ -175,7 +172,7 @@ for cc in "$@"; do
                     fail "$cc does not compile $source with -DSPH_SINGLE=$single"
                     continue
                 fi
-                count "$asm" >"$directory/counts"
+                count "$asm" >"$scratch/counts"
             fi
             for id in $kernels; do
                 for value in w f; do
@@ -183,16 +180,16 @@ for cc in "$@"; do
                         echo "write_${id}_${value}_$dim"
                     done
                 done
-            done >"$directory/names"
+            done >"$scratch/names"
             verdict=$(awk '
                 NR == FNR { packed[$1] = $5; next }
                 packed[$1] + 0 > 0 { print "passed"; next }
                 { print "failed " $1 " does not vectorise" }
-            ' "$directory/counts" "$directory/names")
+            ' "$scratch/counts" "$scratch/names")
             passed=$((passed + $(printf '%s\n' "$verdict" | grep -c '^passed')))
             failed=$((failed + $(printf '%s\n' "$verdict" | grep -c '^failed')))
             printf '%s\n' "$verdict" | sed -n "s/^failed/folding $cc $level -DSPH_SINGLE=$single: failed:/p" >&2
-            if awk '$1 == "control_call" && $5 == 0 { found = 1 } END { exit !found }' "$directory/counts"; then
+            if awk '$1 == "control_call" && $5 == 0 { found = 1 } END { exit !found }' "$scratch/counts"; then
                 passed=$((passed + 1))
             else
                 fail "$cc $level -DSPH_SINGLE=$single: the loop that calls exp was seen as vectorised"

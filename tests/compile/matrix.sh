@@ -30,7 +30,7 @@ job() {
     echo "$@" | tr '\n' ' ' >> "$scratch/jobs/$jobs"
 }
 has() {
-    command -v "${1%% *}" > /dev/null 2>&1 && echo 'int main(void) { return 0; }' > "$scratch/has.c" && $1 "$scratch/has.c" -o "$scratch/has" > /dev/null 2>&1 && return
+    compiles "$empty" "$1" && return
     skip "$1" "not installed"
     return 1
 }
@@ -65,7 +65,7 @@ for cxx in g++ clang++; do
     done
     job "headers together, $cxx" $cxx -x c++ -std=c++11 "$strict" -fsyntax-only "$scratch/only_all.c"
 done
-if command -v clang > /dev/null 2>&1; then
+if installed clang; then
     for single in 0 1; do
         job "OpenCL C 1.2, SPH_SINGLE=$single" clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -Werror -DSPH_SINGLE=$single -I. -include sph_ops.h -fsyntax-only /dev/null
     done
@@ -76,7 +76,7 @@ fi
 # every function kept, once, called by none; clang's hint that a loop of calls was not vectorised says nothing then
 all="'-DSPH_FN=static __attribute__((noinline, used))'"
 for cc in gcc clang; do
-    command -v $cc > /dev/null 2>&1 || continue
+    installed $cc || continue
     if [ $cc = gcc ]; then more=$strict_gcc; else more=-Wno-pass-failed; fi
     for single in 0 1; do
         if [ "$full" ] || [ $single = 0 ]; then job "code, $cc -O2, SPH_SINGLE=$single" $cc -std=c99 "$strict_c" "$more" -O2 "$all" -DSPH_SINGLE=$single -c "$scratch/only_sph.h.c" -o /dev/null; fi
@@ -87,7 +87,7 @@ for cc in gcc clang; do
     done
 done
 [ "$full" ] && for cxx in g++ clang++; do
-    command -v $cxx > /dev/null 2>&1 || continue
+    installed $cxx || continue
     if [ $cxx = g++ ]; then more=$strict_gcc; else more=-Wno-pass-failed; fi
     for level in -O0 -O2; do job "code, $cxx $level" $cxx -x c++ -std=c++11 "$strict" "$more" $level "$all" -c "$scratch/only_sph.h.c" -o /dev/null; done
 done
@@ -95,7 +95,7 @@ done
 # ---------------------------------------------------------------- sources
 
 for cc in gcc clang; do
-    command -v $cc > /dev/null 2>&1 || continue
+    installed $cc || continue
     for f in $(ls tests/test_*.c | grep -v -e test_gsl -e test_common); do
         for single in 0 1; do job "$f, $cc, SPH_SINGLE=$single" $cc -std=c99 "$basic" -DSPH_SINGLE=$single -fsyntax-only "$f"; done
     done

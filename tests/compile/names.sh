@@ -27,10 +27,7 @@ seconds() { # of processor time
 
 echo "what an inclusion costs:          bytes, alone   with a 3D gradient   seconds, alone   with a 3D gradient"
 for cc in gcc clang; do
-    if ! command -v $cc > /dev/null 2>&1; then
-        skip "names and sizes by $cc" "not installed"
-        continue
-    fi
+    needs "names and sizes by $cc" $cc || continue
     macros $cc "$scratch/without.c" > "$scratch/without"
     for header in sph_kernels.h sph_ops.h sph.h; do
         printf '#include "%s"\n' "$header" > "$scratch/alone.c"

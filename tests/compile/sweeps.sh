@@ -46,7 +46,7 @@ count() {
 obeys() { awk "!($2) { print; bad = 1 } END { exit bad || NR == 0 }" "$1"; }
 
 for cc in gcc clang; do
-    if ! command -v $cc > /dev/null 2>&1 || [ "$($cc -dumpmachine | cut -d- -f1)" != x86_64 ]; then
+    if ! installed $cc || [ "$($cc -dumpmachine | cut -d- -f1)" != x86_64 ]; then
         skip "assembly of the sweeps by $cc" "not installed, or not for x86-64"
         continue
     fi

@@ -10,17 +10,6 @@ rows=$scratch/rows
 : > "$rows"
 awk -f $here/known.awk tests/known/kernels.csv > "$scratch/known_answers.h" || exit 2
 
-# needs WHAT COMMAND...: all of them installed?
-needs() {
-    needed=$1
-    shift
-    for command in "$@"; do
-        command -v "$command" > /dev/null 2>&1 && continue
-        skip "$needed" "$command is not installed"
-        return 1
-    done
-}
-
 # target NAME PREFIX 'COMPILER FLAGS' 'EMULATOR'... where PREFIX names the tools: builds, runs, weighs. A NAME that ends in -linux stands on an operating system: not weighed.
 target() {
     name=$1 prefix=$2 program=$scratch/$1.elf output=$scratch/$1.out

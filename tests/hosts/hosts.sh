@@ -3,17 +3,10 @@
 # Builds and runs every host of examples/hosts whose tools are installed; each prints its numbers, and what it should have got. From the root of the repository.
 . tests/check.sh
 hosts=examples/hosts
-scratch=$BUILD/hosts
-mkdir -p "$scratch" || exit 2
 export PYTHONDONTWRITEBYTECODE=1
 warn="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wstrict-prototypes -Wmissing-prototypes -Werror -Wno-unknown-warning-option -Wno-pass-failed"
 not_inlined='-DSPH_FN=static __attribute__((noinline, unused))' # for tests that call many copies: seconds to compile, not minutes
 
-has() { # tool, what it is for, where it is in Debian
-    command -v "$1" > /dev/null 2>&1 && return
-    skip "$2" "no $1 (Debian: $3)"
-    return 1
-}
 # runs a host and shows what it prints; one that ends with 77 has no device
 run() {
     what=$1
@@ -42,13 +35,13 @@ if built "the shim, an object," "$scratch/sph_shim.o" $CC -std=c99 $warn -O2 -fP
         run "the shim, float" "$scratch/test_shim-float"
     fi
 
-    if has gfortran Fortran gfortran; then
+    if needs Fortran gfortran; then
         # shellcheck disable=SC2086
         built Fortran "$scratch/host_f90" gfortran -std=f2018 -Wall -Wextra -Wno-integer-division -Werror -O2 -J "$scratch" $hosts/sph.f90 $hosts/host.f90 "$scratch/sph_shim.o" -o "$scratch/host_f90" -lm &&
             run Fortran "$scratch/host_f90"
     fi
 
-    if has python3 Python python3; then
+    if needs Python python3; then
         run "Python, array module" python3 -S $hosts/host.py "$scratch/libsph_shim.so" # -S: without installed packages
         run "Python, what it refuses" python3 tests/hosts/test_python.py "$scratch/libsph_shim.so" without-numpy
         numpy=
@@ -63,12 +56,12 @@ if built "the shim, an object," "$scratch/sph_shim.o" $CC -std=c99 $warn -O2 -fP
 fi
 
 for cxx in g++ clang++; do
-    has $cxx "C++ by $cxx" "${cxx%++}" || continue
+    needs "C++ by $cxx" $cxx || continue
     built "C++ by $cxx" "$scratch/host-$cxx" $cxx -std=c++11 -Wall -Wextra -Wpedantic -Wshadow -Werror -Wno-unknown-warning-option -Wno-pass-failed -O2 -I. $hosts/host.cpp -o "$scratch/host-$cxx" &&
         run "C++ by $cxx" "$scratch/host-$cxx"
 done
 
-if has emcc WebAssembly emscripten && has node WebAssembly nodejs; then
+if needs "WebAssembly (Debian: emscripten nodejs)" emcc node; then
     fetch=
     node --no-experimental-fetch -e 0 2> /dev/null && fetch=--no-experimental-fetch # the loader of older emscriptens takes a fetch for a browser's
     # emscripten of Debian finds its node modules only if it is told; it must not wait for input
@@ -76,8 +69,7 @@ if has emcc WebAssembly emscripten && has node WebAssembly nodejs; then
         run WebAssembly node $fetch $hosts/host.js "$scratch/sph_shim.js"
 fi
 
-printf '#define CL_TARGET_OPENCL_VERSION 120\n#include <CL/cl.h>\nint main(void) { return clGetPlatformIDs(0, 0, 0) == 1; }\n' > "$scratch/has.c"
-if $CC "$scratch/has.c" -o "$scratch/has" -lOpenCL 2> /dev/null; then
+if compiles '#define CL_TARGET_OPENCL_VERSION 120\n#include <CL/cl.h>\nint main(void) { return clGetPlatformIDs(0, 0, 0) == 1; }' "$CC" -lOpenCL; then
     for single in 0 1; do
         # shellcheck disable=SC2086
         built OpenCL "$scratch/host_opencl-$single" $CC -std=c99 $warn -O2 -DSPH_SINGLE=$single -I. $hosts/host_opencl.c -o "$scratch/host_opencl-$single" -lOpenCL -lm || continue
@@ -88,7 +80,7 @@ else
 fi
 
 PATH=$PATH:/usr/local/cuda/bin
-if has nvcc CUDA nvidia-cuda-toolkit; then # 128: a loop that SPH_CHECK=0 leaves out
+if needs "CUDA (Debian: nvidia-cuda-toolkit)" nvcc; then # 128: a loop that SPH_CHECK=0 leaves out
     for single in 0 1; do
         built "CUDA, SPH_SINGLE=$single" "$scratch/host_cuda-$single" nvcc -std=c++17 -O2 -Werror all-warnings -diag-suppress 128 -DSPH_SINGLE=$single -I. $hosts/host_cuda.cu -o "$scratch/host_cuda-$single" &&
             run "CUDA, SPH_SINGLE=$single" "$scratch/host_cuda-$single"

@@ -3,7 +3,6 @@
 # Every way to get the headers but copying them: installed by make, CMake, Meson, as a Debian package and as one file; a host is built from each and run. Skips aloud where a tool is not installed.
 #     make check-packages
 . tests/check.sh
-CC=${CC:-cc}
 root=$PWD
 here=$root/tests/packages
 version=$(make -s version)
@@ -18,7 +17,6 @@ host() {
     cat "$scratch/output" "$scratch/said" 2> /dev/null
     return 1
 }
-have() { command -v "$1" > /dev/null 2>&1; }
 
 check "versions agree" test "$(sed -n 's/.*"version": "\(.*\)".*/\1/p' "$here/vcpkg/vcpkg.json") $(sed -n '1s/.*(\(.*\)).*/\1/p' "$here/debian/changelog")" = "$version $version"
 check "the change log has this version" grep -q "^## $version" CHANGELOG.md
@@ -28,14 +26,12 @@ check "make install" make -s install PREFIX=/usr DESTDIR="$scratch/installed"
 check "what is installed" test "$(cd "$scratch/installed" && find . -type f | LC_ALL=C sort | tr '\n' ' ')" = \
     "./usr/include/sph.h ./usr/include/sph_kernels.h ./usr/include/sph_ops.h ./usr/share/pkgconfig/sph.pc "
 check "host of installed headers" host "$scratch/plain" $CC -std=c99 -o "$scratch/plain" -I"$scratch/installed/usr/include" "$here/consumer/main.c" -lm
-if have pkg-config; then
+if needs pkg-config pkg-config; then
     export PKG_CONFIG_SYSROOT_DIR="$scratch/installed" PKG_CONFIG_PATH="$scratch/installed/usr/share/pkgconfig"
     check "pkg-config: version" test "$(pkg-config --modversion sph)" = "$version"
     # shellcheck disable=SC2046
     check "host by pkg-config" host "$scratch/pc" $CC -std=c99 -o "$scratch/pc" "$here/consumer/main.c" $(pkg-config --keep-system-cflags --cflags --libs sph)
     unset PKG_CONFIG_SYSROOT_DIR PKG_CONFIG_PATH
-else
-    skip "pkg-config" "not installed"
 fi
 check "make uninstall" make -s uninstall PREFIX=/usr DESTDIR="$scratch/installed"
 check "nothing is left" test -z "$(find "$scratch/installed" -type f)"
@@ -73,20 +69,18 @@ cmake_host() { # name, options ...
     shift
     cmake -S "$here/consumer" -B "$build" "$@" && cmake --build "$build"
 }
-if have cmake; then
+if needs CMake cmake; then
     check "cmake: install" sh -c "cmake -S '$root' -B '$scratch/cmake' -DCMAKE_INSTALL_PREFIX='$scratch/prefix' > '$scratch/output' 2>&1 && cmake --install '$scratch/cmake' >> '$scratch/output'"
     check "cmake: find_package" host "$scratch/cmake-package/consumer" cmake_host package -DVIA=package -DCMAKE_PREFIX_PATH="$scratch/prefix"
     check "cmake: add_subdirectory" host "$scratch/cmake-subdirectory/consumer" cmake_host subdirectory -DVIA=subdirectory -DSOURCE="$root"
     if [ -n "$tarball" ]; then check "cmake: FetchContent" host "$scratch/cmake-fetch/consumer" cmake_host fetch -DVIA=fetch -DSOURCE="$tarball"; fi
-else
-    skip "CMake" "not installed"
 fi
 
 # ---- Meson ----
 meson_host() { # project folder, build folder
     meson setup "$2" "$1" && meson compile -C "$2"
 }
-if have meson && have ninja; then
+if needs Meson meson ninja; then
     mkdir -p "$scratch/meson/subprojects/sph"
     cp "$here/consumer/main.c" "$here/consumer/meson.build" "$scratch/meson"
     cp sph.h sph_ops.h sph_kernels.h meson.build "$scratch/meson/subprojects/sph"
@@ -94,8 +88,6 @@ if have meson && have ninja; then
     check "meson: install" sh -c "meson setup '$scratch/meson-sph' '$root' --prefix /usr > '$scratch/output' 2>&1 && DESTDIR='$scratch/meson-installed' meson install -C '$scratch/meson-sph' >> '$scratch/output'"
     check "meson: the same files" test "$(cd "$scratch/meson-installed" && find . -type f | LC_ALL=C sort | tr '\n' ' ')" = \
         "./usr/include/sph.h ./usr/include/sph_kernels.h ./usr/include/sph_ops.h ./usr/share/pkgconfig/sph.pc "
-else
-    skip "Meson" "not installed (meson and ninja)"
 fi
 
 # ---- Debian, Conan, vcpkg ----
@@ -104,7 +96,7 @@ debian_package() {
         (cd "$scratch/debian" && dpkg-buildpackage -us -uc -b) && dpkg-deb -x "$scratch/libsph-dev_${version}_all.deb" "$scratch/deb" &&
         $CC -std=c99 -o "$scratch/deb/host" -I"$scratch/deb/usr/include" "$here/consumer/main.c" -lm
 }
-if have dpkg-buildpackage && have dh; then check "debian: libsph-dev" host "$scratch/deb/host" debian_package; else skip "the Debian package" "dpkg-dev and debhelper are not installed"; fi
-if have conan; then check "conan: create" conan create "$here/conan"; else skip "the Conan recipe" "conan is not installed"; fi
-if have vcpkg; then check "vcpkg: install" vcpkg install sph --overlay-ports="$here"; else skip "the vcpkg port" "vcpkg is not installed"; fi
+if needs "the Debian package" dpkg-buildpackage dh; then check "debian: libsph-dev" host "$scratch/deb/host" debian_package; fi
+if needs "the Conan recipe" conan; then check "conan: create" conan create "$here/conan"; fi
+if needs "the vcpkg port" vcpkg; then check "vcpkg: install" vcpkg install sph --overlay-ports="$here"; fi
 finish packages
