@@ -63,8 +63,8 @@ static void rates(double damping)
 {
     static const double one = 1; /* Omega of an h that is constant */
     const sph_gas gas = {sph_scalars_same(&m), sph_scalars_array(rho), sph_scalars_same(&one)};
-    const sph_vectors B = {sph_scalars_array(Bx), sph_scalars_array(By), sph_scalars_array(NULL)};
-    const sph_vector_out rate_B = {rate_x, rate_y, NULL};
+    const sph_vectors B = sph_vectors_separate(Bx, By, NULL);
+    const sph_vector_out rate_B = sph_vector_out_separate(rate_x, rate_y, NULL);
     need(sph_cleaning_rates(KERNEL, DIM, 0, N, points(), list, sph_scalars_same(&h), gas, B, sph_scalars_array(psi), sph_scalars_array(NULL), ch, damping,
                             rate_B, rate_psi, div_B));
 }
@@ -144,11 +144,26 @@ static int test(void)
     return failed != 0;
 }
 
+static char part[4096]; /* FILE.part, which is renamed when it is whole, so that no half of a file is left; a device is written as it is */
+static FILE *create(const char *name)
+{
+    snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
+    return fopen(part, "w");
+}
+static int finish(FILE *file, const char *name) /* the exit status; also where create failed */
+{
+    const int broken = !file || ferror(file);
+    if (file && fclose(file) == 0 && !broken && (rename(part, name) == 0 || (remove(name) == 0 && rename(part, name) == 0))) return 0;
+    perror(name);
+    if (strcmp(part, name) != 0) remove(part);
+    return 2;
+}
+
 int main(int argc, char **argv)
 {
     static const double times[] = {0, 0.2, 1};
     const int writes = argc == 3 && strcmp(argv[1], "-o") == 0;
-    FILE *const file = writes ? fopen(argv[2], "w") : stdout;
+    FILE *const file = writes ? create(argv[2]) : stdout;
     int k, i;
     if (argc == 2 && strcmp(argv[1], "-t") == 0) return test();
     if (argc > 1 && !writes) {
@@ -157,10 +172,7 @@ int main(int argc, char **argv)
         fprintf(help ? stdout : stderr, "clean_field [-o FILE.csv | -t]   draw the divergence at three times, write it for a plot, or test the cleaning\n");
         return help ? 0 : 2;
     }
-    if (!file) {
-        perror(argv[2]);
-        return 2;
-    }
+    if (!file) return finish(file, argv[2]);
     fill();
     if (writes) fprintf(file, "t,x,y,Bx,By,h_div_B\n");
     for (k = 0; k < 3; k++) {
@@ -172,7 +184,5 @@ int main(int argc, char **argv)
             report();
         }
     }
-    if (!writes || (!ferror(file) && fclose(file) == 0)) return 0;
-    perror(argv[2]);
-    return 2;
+    return writes ? finish(file, argv[2]) : 0;
 }

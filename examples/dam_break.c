@@ -70,8 +70,8 @@ static void rates(void)
     const sph_points points = sph_points_separate(n, x, y, NULL);
     const double radius = sph_kernel_support(KERNEL) * h;
     const sph_scalars R = sph_scalars_same(&radius), H = sph_scalars_same(&h), mass = sph_scalars_same(&m), density = sph_scalars_array(rho);
-    const sph_scalars none = sph_scalars_same(&zero), absent = sph_scalars_array(NULL);
-    const sph_vectors v = {sph_scalars_array(vx), sph_scalars_array(vy), absent}, at_rest = {none, none, none}, no_normal = {absent, absent, absent};
+    const sph_scalars none = sph_scalars_same(&zero);
+    const sph_vectors v = sph_vectors_separate(vx, vy, NULL), at_rest = {none, none, none}, no_normal = sph_vectors_separate(NULL, NULL, NULL);
     const sph_gas gas = {mass, density, sph_scalars_same(&one)};
     const sph_vec gravity = {0, -g, 0};
     const sph_list list = {start, list_index};
@@ -88,12 +88,12 @@ static void rates(void)
     }
     /* the walls stand still, also for the viscosity: their v_wall, which would make them rough, is not used */
     need(sph_wall_adami(KERNEL, DIM, n_water, n, points, list, H, sph_scalars_array(is_water), density, sph_scalars_array(p), v, at_rest, gravity, no_normal,
-                        p_wall, (sph_vector_out){v_wall_x, v_wall_y, NULL}, NULL));
+                        p_wall, sph_vector_out_separate(v_wall_x, v_wall_y, NULL), NULL));
     for (i = n_water; i < n; i++) {
         p[i] = fmax(p_wall[i], 0); /* a wall pushes, it does not pull */
         rho[i] = sph_density_tait(p[i], rho0, c, gamma7, 0);
     }
-    need(sph_fluid_rates_monaghan(KERNEL, DIM, 0, n_water, points, list, H, fluid, (sph_vector_out){ax, ay, NULL}, NULL, NULL));
+    need(sph_fluid_rates_monaghan(KERNEL, DIM, 0, n_water, points, list, H, fluid, sph_vector_out_separate(ax, ay, NULL), NULL, NULL));
 }
 /* kick, drift, kick: leapfrog */
 static void step(void)

@@ -51,7 +51,7 @@ static void fill(int across) /* particles along a radius: not more than 9, for M
     m = rho0 * 4 / 3 * 3.14159265358979324 / n;
 }
 
-static sph_vectors velocity(void) { return (sph_vectors){sph_scalars_array(v[0]), sph_scalars_array(v[1]), sph_scalars_array(v[2])}; }
+static sph_vectors velocity(void) { return sph_vectors_separate(v[0], v[1], v[2]); }
 
 /* continuity for the density, then pressures, then forces */
 static void rates(void)
@@ -76,7 +76,7 @@ static void rates(void)
         rho[i] -= dt * rho[i] * divergence[i];
         p[i] = sph_pressure_tait(rho[i], rho0, c, gamma7, 0);
     }
-    need(sph_fluid_rates_monaghan(KERNEL, DIM, 0, n, points, list, H, fluid, (sph_vector_out){a[0], a[1], a[2]}, NULL, NULL));
+    need(sph_fluid_rates_monaghan(KERNEL, DIM, 0, n, points, list, H, fluid, sph_vector_out_separate(a[0], a[1], a[2]), NULL, NULL));
 }
 static void add(double to, double rate[DIM][MOST], double value[DIM][MOST])
 {

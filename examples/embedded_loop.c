@@ -47,17 +47,15 @@ static int step(float gx, float gy)
 {
     const sph_points points = sph_points_separate(N, x, y, 0);
     const sph_scalars R = sph_scalars_same(&radius), H = sph_scalars_same(&h), mass = sph_scalars_same(&m), density = sph_scalars_array(rho);
-    const sph_scalars pressure = sph_scalars_array(p), none = sph_scalars_same(&zero), absent = sph_scalars_array(0);
-    const sph_vectors v = {sph_scalars_array(vx), sph_scalars_array(vy), absent}, at_rest = {none, none, none}, no_normal = {absent, absent, absent};
+    const sph_scalars pressure = sph_scalars_array(p), none = sph_scalars_same(&zero);
+    const sph_vectors v = sph_vectors_separate(vx, vy, 0), at_rest = {none, none, none}, no_normal = sph_vectors_separate(0, 0, 0);
+    const sph_vector_out a = sph_vector_out_separate(ax, ay, 0), v_wall = sph_vector_out_separate(wall_vx, wall_vy, 0);
     const sph_fluid fluid = {mass, density, pressure, sph_scalars_same(&c), v, SPH_VISCOSITY_MONAGHAN, 0.8f, 0, 0.1f};
     const sph_vec gravity = {gx, gy, 0};
     const sph_list list = {start, list_index};
-    sph_vector_out a, v_wall;
     sph_grid grid;
     int64_t pairs;
     int i, error;
-    a.x = ax, a.y = ay, a.z = 0;
-    v_wall.x = wall_vx, v_wall.y = wall_vy, v_wall.z = 0;
     for (i = 0; i < N_WATER; i++) { /* kick and drift */
         vx[i] += dt * (ax[i] + gx);
         vy[i] += dt * (ay[i] + gy);
@@ -129,12 +127,27 @@ static int check(const float *g)
     return 0;
 }
 
+static char part[4096]; /* FILE.part, which is renamed when it is whole, so that no half of a file is left; a device is written as it is */
+static FILE *create(const char *name)
+{
+    snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
+    return fopen(part, "w");
+}
+static int finish(FILE *file, const char *name) /* the exit status; also where create failed */
+{
+    const int broken = !file || ferror(file);
+    if (file && fclose(file) == 0 && !broken && (rename(part, name) == 0 || (remove(name) == 0 && rename(part, name) == 0))) return 0;
+    perror(name);
+    if (strcmp(part, name) != 0) remove(part);
+    return 2;
+}
+
 int main(int argc, char **argv)
 {
     const int tests = argc == 2 && strcmp(argv[1], "-t") == 0, writes = argc == 3 && strcmp(argv[1], "-o") == 0;
     static const int shown[2] = {40, CALLS - 1}; /* of each turn: on the way, and at rest */
     char picture[2][SIDE][4 * (SIDE + 3)];
-    FILE *const file = writes ? fopen(argv[2], "w") : stdout;
+    FILE *const file = writes ? create(argv[2]) : stdout;
     int turn, call, i, j, k, error = setup(), failed = 0;
     if (argc > 1 && !tests && !writes) {
         const int help = strcmp(argv[1], "-h") == 0;
@@ -142,10 +155,7 @@ int main(int argc, char **argv)
         fprintf(help ? stdout : stderr, "embedded_loop [-o FILE.csv | -t]   show the lights, write the particles for a plot, or test them\n");
         return help ? 0 : 2;
     }
-    if (!file) {
-        perror(argv[2]);
-        return 2;
-    }
+    if (!file) return finish(file, argv[2]);
     if (writes) fprintf(file, "turn,x,y,p\n");
     memset(picture, ' ', sizeof picture);
     for (turn = 0; turn < 4 && !error; turn++) {
@@ -160,10 +170,7 @@ int main(int argc, char **argv)
     }
     if (error) printf("FAILED: %s\n", sph_status_text(error));
     if (tests && !failed && !error) printf("ok\n");
-    if (writes && (ferror(file) || fclose(file))) {
-        perror(argv[2]);
-        return 2;
-    }
+    if (writes && finish(file, argv[2])) return 2;
     if (tests || writes) return failed || error;
     for (k = 0; k < 2; k++) {
         printf(k ? "at rest:\n" : "gravity down, to the right, up, to the left; on the way:\n");

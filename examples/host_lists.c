@@ -102,10 +102,9 @@ static sph_index by_rows(void)
 {
     static sph_index start[N + 2], row[2 * PAIRS];
     const sph_points points = sph_points_separate(N, x, y, NULL);
-    const sph_scalars none = sph_scalars_array(NULL);
-    const sph_vectors v = {sph_scalars_array(vx), sph_scalars_array(vy), none};
+    const sph_vectors v = sph_vectors_separate(vx, vy, NULL);
     const sph_fluid gas = {sph_scalars_array(m), sph_scalars_array(rho), sph_scalars_array(p), sph_scalars_array(c), v, SPH_VISCOSITY_MONAGHAN, 1, 2, 0.1};
-    const sph_vector_out acceleration = {ax2, ay2, NULL};
+    const sph_vector_out acceleration = sph_vector_out_separate(ax2, ay2, NULL);
     int i, q;
     memset(start, 0, sizeof start);
     for (q = 0; q < pairs; q++) { /* count, two places on ... */
@@ -147,11 +146,26 @@ static double off(const double *a, const double *b) /* largest difference, relat
     return most / size;
 }
 
+static char part[4096]; /* FILE.part, which is renamed when it is whole, so that no half of a file is left; a device is written as it is */
+static FILE *create(const char *name)
+{
+    snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
+    return fopen(part, "w");
+}
+static int finish(FILE *file, const char *name) /* the exit status; also where create failed */
+{
+    const int broken = !file || ferror(file);
+    if (file && fclose(file) == 0 && !broken && (rename(part, name) == 0 || (remove(name) == 0 && rename(part, name) == 0))) return 0;
+    perror(name);
+    if (strcmp(part, name) != 0) remove(part);
+    return 2;
+}
+
 int main(int argc, char **argv)
 {
     const int tests = argc == 2 && strcmp(argv[1], "-t") == 0, writes = argc == 3 && strcmp(argv[1], "-o") == 0;
     double worst, along = 0, exact = 0, momentum = 0;
-    FILE *const file = writes ? fopen(argv[2], "w") : stdout;
+    FILE *const file = writes ? create(argv[2]) : stdout;
     sph_index answer;
     int i;
     if (argc > 1 && !tests && !writes) {
@@ -160,10 +174,7 @@ int main(int argc, char **argv)
         fprintf(help ? stdout : stderr, "host_lists [-o FILE.csv | -t]   draw accelerations, write them for a plot, or test that both ways agree\n");
         return help ? 0 : 2;
     }
-    if (!file) {
-        perror(argv[2]);
-        return 2;
-    }
+    if (!file) return finish(file, argv[2]);
     fill();
     find_pairs();
     by_pairs();
@@ -179,9 +190,7 @@ int main(int argc, char **argv)
     if (writes) {
         fprintf(file, "x,y,p,ax,ay\n");
         for (i = 0; i < N; i++) fprintf(file, "%.5g,%.5g,%.5g,%.5g,%.5g\n", x[i], y[i], p[i], ax1[i], ay1[i]);
-        if (!ferror(file) && fclose(file) == 0) return 0;
-        perror(argv[2]);
-        return 2;
+        return finish(file, argv[2]);
     }
     if (!tests) draw();
     if (!tests) printf("largest difference of the two ways: %.1e of the largest acceleration\n", worst);
