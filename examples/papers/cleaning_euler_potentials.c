@@ -60,22 +60,8 @@ static void cylinder_close(cylinder *c)
     cleaning_lists_close(&c->lists);
 }
 static sph_points points(const cylinder *c) { return sph_points_periodic(sph_points_separate(c->n, c->a[X], c->a[Y], c->a[Z]), 0, 0, 1); }
-static sph_vectors vectors(const cylinder *c, int first)
-{
-    sph_vectors v;
-    v.x = sph_scalars_array(c->a[first]);
-    v.y = sph_scalars_array(c->a[first + 1]);
-    v.z = sph_scalars_array(c->a[first + 2]);
-    return v;
-}
-static sph_vector_out vectors_out(const cylinder *c, int first)
-{
-    sph_vector_out v;
-    v.x = c->a[first];
-    v.y = c->a[first + 1];
-    v.z = c->a[first + 2];
-    return v;
-}
+static sph_vectors vectors(const cylinder *c, int first) { return sph_vectors_separate(c->a[first], c->a[first + 1], c->a[first + 2]); }
+static sph_vector_out vectors_out(const cylinder *c, int first) { return sph_vector_out_separate(c->a[first], c->a[first + 1], c->a[first + 2]); }
 
 /* Places and velocities where the layers have turned by turn * sin 2 pi z, and the lists */
 static void turn_to(cylinder *c, double turn)
@@ -99,7 +85,7 @@ static void induction(cylinder *c)
     sph_mhd_out out = {0};
     s.gas.m = sph_scalars_same(&c->V);
     s.gas.rho = s.gas.omega = s.cs = sph_scalars_same(&one);
-    s.P = s.u = s.alpha = sph_scalars_same(&nought);
+    s.P = s.u = s.alpha = s.alpha_B = sph_scalars_same(&nought);
     s.v = vectors(c, VX);
     s.B = vectors(c, BX);
     out.acceleration = vectors_out(c, AX);
