@@ -49,22 +49,9 @@ static void state_close(state *s)
 }
 static sph_points points(const state *s) { return sph_points_periodic(sph_points_separate(s->n, s->a[X], s->a[Y], s->a[Z]), s->box, s->box, s->box); }
 static sph_scalars field(const state *s, int which) { return sph_scalars_array(s->a[which]); }
-static sph_vectors vectors(const state *s, int first)
-{
-    sph_vectors v;
-    v.x = field(s, first);
-    v.y = field(s, first + 1);
-    v.z = sph_scalars_array(s->dim > 2 ? s->a[first + 2] : NULL); /* the third component of a plane field is not cleaned */
-    return v;
-}
-static sph_vector_out vectors_out(const state *s, int first)
-{
-    sph_vector_out v;
-    v.x = s->a[first];
-    v.y = s->a[first + 1];
-    v.z = s->a[first + 2];
-    return v;
-}
+/* the third component of a plane field is not cleaned */
+static sph_vectors vectors(const state *s, int first) { return sph_vectors_separate(s->a[first], s->a[first + 1], s->dim > 2 ? s->a[first + 2] : NULL); }
+static sph_vector_out vectors_out(const state *s, int first) { return sph_vector_out_separate(s->a[first], s->a[first + 1], s->a[first + 2]); }
 static sph_gas gas(const state *s)
 {
     sph_gas g;

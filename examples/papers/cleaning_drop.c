@@ -31,22 +31,7 @@ typedef struct drop {
 
 static sph_points points(const drop *d) { return sph_points_separate(d->n, d->a[X], d->a[Y], NULL); }
 static sph_scalars field(const drop *d, int which) { return sph_scalars_array(d->a[which]); }
-static sph_vectors vectors(const drop *d, int first)
-{
-    sph_vectors v;
-    v.x = field(d, first);
-    v.y = field(d, first + 1);
-    v.z = sph_scalars_array(NULL);
-    return v;
-}
-static sph_vector_out vectors_out(const drop *d, int first)
-{
-    sph_vector_out v;
-    v.x = d->a[first];
-    v.y = d->a[first + 1];
-    v.z = NULL;
-    return v;
-}
+static sph_vectors velocities(const drop *d) { return sph_vectors_separate(d->a[VX], d->a[VY], NULL); }
 
 /* The sweeps find a state that is no number. */
 static void well(const drop *d, sph_index answer)
@@ -79,12 +64,13 @@ SPH_FN sph_index accelerate_by(int viscosity, drop *d)
     f.rho = field(d, RHO);
     f.p = field(d, P);
     f.c = sph_scalars_same(&cs);
-    f.v = vectors(d, VX);
+    f.v = velocities(d);
     f.viscosity = viscosity;
     f.alpha = d->alpha;
     f.beta = viscosity == (int)SPH_VISCOSITY_MONAGHAN ? 2 * d->alpha : 2; /* of 1992: beside alpha; of 1997: within alpha v_sig */
     f.eta = 0.1;
-    return sph_fluid_rates_monaghan(SPH_CUBIC_SPLINE, 2, 0, d->n, points(d), cleaning_list(&d->lists), sph_scalars_same(&h), f, vectors_out(d, AX), NULL, NULL);
+    return sph_fluid_rates_monaghan(SPH_CUBIC_SPLINE, 2, 0, d->n, points(d), cleaning_list(&d->lists), sph_scalars_same(&h), f,
+                                    sph_vector_out_separate(d->a[AX], d->a[AY], NULL), NULL, NULL);
 }
 /* The sweep folds for a constant viscosity, too. */
 static void accelerate(drop *d, int viscosity)
@@ -113,7 +99,7 @@ static void divergence(drop *d)
     g.rho = field(d, RHO);
     g.omega = sph_scalars_same(&one);
     neighbours(d);
-    well(d, sph_divergence_difference(SPH_CUBIC_SPLINE, 2, 0, d->n, points(d), cleaning_list(&d->lists), sph_scalars_same(&h), g, vectors(d, VX), d->a[DIVV]));
+    well(d, sph_divergence_difference(SPH_CUBIC_SPLINE, 2, 0, d->n, points(d), cleaning_list(&d->lists), sph_scalars_same(&h), g, velocities(d), d->a[DIVV]));
 }
 
 static drop drop_new(double alpha, int viscosity, int cleans)
@@ -218,7 +204,7 @@ static sample measure(const drop *d)
 static void sums(const drop *d, double of[3])
 {
     sph_conserved c;
-    cleaning_expect(sph_conserved_sums(2, 0, d->n, points(d), sph_scalars_same(&d->m), vectors(d, VX), &c));
+    cleaning_expect(sph_conserved_sums(2, 0, d->n, points(d), sph_scalars_same(&d->m), velocities(d), &c));
     of[0] = c.momentum.x;
     of[1] = c.momentum.y;
     of[2] = c.angular_momentum.z;

@@ -72,20 +72,9 @@ static inline sph_points gas_points(const gas *g)
 static inline sph_scalars gas_field(const gas *g, int which) { return sph_scalars_array(g->a[which]); }
 static inline sph_vectors gas_vectors(const gas *g, int first, int parts)
 {
-    sph_vectors v;
-    v.x = gas_field(g, first);
-    v.y = gas_field(g, first + 1);
-    v.z = sph_scalars_array(parts > 2 ? g->a[first + 2] : NULL);
-    return v;
+    return sph_vectors_separate(g->a[first], g->a[first + 1], parts > 2 ? g->a[first + 2] : NULL);
 }
-static inline sph_vector_out gas_out(double *const *first)
-{
-    sph_vector_out v;
-    v.x = first[0];
-    v.y = first[1];
-    v.z = first[2];
-    return v;
-}
+static inline sph_vector_out gas_out(double *const *first) { return sph_vector_out_separate(first[0], first[1], first[2]); }
 static inline sph_gas gas_densities(const gas *g)
 {
     sph_gas s;

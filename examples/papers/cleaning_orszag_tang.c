@@ -123,22 +123,7 @@ static void gas_free(gas *g)
     free(g->work);
 }
 static sph_scalars field(const gas *g, int which) { return sph_scalars_array(g->a[which]); }
-static sph_vectors vectors(const gas *g, int which)
-{
-    sph_vectors v;
-    v.x = field(g, which);
-    v.y = field(g, which + 1);
-    v.z = sph_scalars_array(NULL);
-    return v;
-}
-static sph_vector_out into(double *x, double *y)
-{
-    sph_vector_out v;
-    v.x = x;
-    v.y = y;
-    v.z = NULL;
-    return v;
-}
+static sph_vectors vectors(const gas *g, int which) { return sph_vectors_separate(g->a[which], g->a[which + 1], NULL); }
 static sph_points points_at(const gas *g, int x) { return sph_points_periodic(sph_points_separate(g->n, g->a[x], g->a[x + 1], NULL), 1, 1, 0); }
 static sph_points points(const gas *g) { return points_at(g, X); }
 static sph_list list(const gas *g)
@@ -291,8 +276,8 @@ static sph_index diffusion_sweep(gas *g, const plan *c, sph_index first, sph_ind
 static sph_index rates_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
     sph_mhd_out out;
-    out.acceleration = into(g->rate[VX], g->rate[VY]);
-    out.rate_B = into(g->rate[BX], g->rate[BY]);
+    out.acceleration = sph_vector_out_separate(g->rate[VX], g->rate[VY], NULL);
+    out.rate_B = sph_vector_out_separate(g->rate[BX], g->rate[BY], NULL);
     out.rate_u = g->rate[U];
     out.rate_psi = c->cleans == CONJUGATE ? g->rate[PSI] : NULL;
     out.div_B = g->a[DIV_B];
@@ -303,7 +288,8 @@ static sph_index rates_sweep(gas *g, const plan *c, sph_index first, sph_index l
 static sph_index nonconservative_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
     return sph_cleaning_rates_nonconservative(KERNEL, 2, first, last, points(g), list(g), field(g, H), densities(g), vectors(g, BX), field(g, PSI),
-                                              field(g, DIV_V), g->ch, c->sigma, into(g->a[SCRATCH_X], g->a[SCRATCH_Y]), g->rate[PSI], NULL);
+                                              field(g, DIV_V), g->ch, c->sigma, sph_vector_out_separate(g->a[SCRATCH_X], g->a[SCRATCH_Y], NULL), g->rate[PSI],
+                                              NULL);
 }
 
 /* what follows from u, rho and B */
@@ -502,7 +488,7 @@ static balance gas_balance(gas *g, const plan *c, double t)
     }
 #define CLEAN(damping) \
     expect(sph_cleaning_rates(KERNEL, 2, 0, g->n, points(g), list(g), field(g, H), densities(g), vectors(g, BX), field(g, PSI), sph_scalars_array(NULL), \
-                              g->ch, damping, into(g->rate[BX], g->rate[BY]), g->rate[PSI], NULL), \
+                              g->ch, damping, sph_vector_out_separate(g->rate[BX], g->rate[BY], NULL), g->rate[PSI], NULL), \
            "sph_cleaning_rates")
     CLEAN(0);
     for (i = 0, sum = size = 0; i < g->n; i++) {
@@ -524,8 +510,8 @@ static balance gas_balance(gas *g, const plan *c, double t)
     { /* all of it without (9), which takes momentum and does work */
         sph_mhd s = magnetised(g, c, 1);
         s.tensile = 0;
-        out.acceleration = into(g->rate[VX], g->rate[VY]);
-        out.rate_B = into(g->rate[BX], g->rate[BY]);
+        out.acceleration = sph_vector_out_separate(g->rate[VX], g->rate[VY], NULL);
+        out.rate_B = sph_vector_out_separate(g->rate[BX], g->rate[BY], NULL);
         out.rate_u = g->rate[U];
         out.rate_psi = g->rate[PSI];
         out.div_B = g->a[DIV_B];

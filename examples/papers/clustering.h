@@ -318,22 +318,8 @@ static inline sph_points flow_points(const flow *f)
 {
     return sph_points_periodic(sph_points_separate(f->n, f->x, f->y, NULL), FLOW_PERIODIC > 0 ? f->box_x : 0, FLOW_PERIODIC > 1 ? f->box_y : 0, 0);
 }
-static inline sph_vectors flow_velocities(const flow *f)
-{
-    sph_vectors v;
-    v.x = sph_scalars_array(f->vx);
-    v.y = sph_scalars_array(f->vy);
-    v.z = sph_scalars_array(NULL);
-    return v;
-}
-static inline sph_vector_out flow_accelerations(const flow *f)
-{
-    sph_vector_out a;
-    a.x = f->ax;
-    a.y = f->ay;
-    a.z = NULL;
-    return a;
-}
+static inline sph_vectors flow_velocities(const flow *f) { return sph_vectors_separate(f->vx, f->vy, NULL); }
+static inline sph_vector_out flow_accelerations(const flow *f) { return sph_vector_out_separate(f->ax, f->ay, NULL); }
 /* how many have an acceleration and a rate of density: ghosts are the last */
 static inline int flow_moved(const flow *f) { return f->ghosts_evolve ? f->n : f->n_fluid; }
 

@@ -27,14 +27,7 @@ typedef struct dam {
 } dam;
 
 static sph_points points(const dam *d, double *const x[3]) { return sph_points_separate(d->n, x[0], x[1], d->dim > 2 ? x[2] : NULL); }
-static sph_vectors velocities(const dam *d)
-{
-    sph_vectors v;
-    v.x = sph_scalars_array(d->v[0]);
-    v.y = sph_scalars_array(d->v[1]);
-    v.z = sph_scalars_array(d->dim > 2 ? d->v[2] : NULL);
-    return v;
-}
+static sph_vectors velocities(const dam *d) { return sph_vectors_separate(d->v[0], d->v[1], d->dim > 2 ? d->v[2] : NULL); }
 
 /* y is up, z across; 2D: one layer of cells in z, and no walls there. Only what the water can reach has walls. */
 static void fill(dam *d, int dim, int resolution)
@@ -111,9 +104,9 @@ SPH_FN void find_neighbours(int dim, dam *d)
 SPH_FN void step(int dim, dam *d, double dt)
 {
     static const double one = 1;
+    const sph_vector_out a = sph_vector_out_separate(d->a[0], d->a[1], dim > 2 ? d->a[2] : NULL);
     sph_fluid s;
     sph_gas g;
-    sph_vector_out a;
     int i, k;
     find_neighbours(dim, d);
     for (i = 0; i < d->n_fluid; i++) d->p[i] = sph_pressure_tait(d->rho[i], water, d->c, 1, 0);
@@ -126,9 +119,6 @@ SPH_FN void step(int dim, dam *d, double dt)
     s.alpha = 0.01;
     s.beta = 0;
     s.eta = 0.1;
-    a.x = d->a[0];
-    a.y = d->a[1];
-    a.z = dim > 2 ? d->a[2] : NULL;
     clustering_expect(
         sph_fluid_rates_colagrossi(wendland, dim, 0, d->n_fluid, points(d, d->x), neighbours_list(&d->all), sph_scalars_same(&d->h), s, a, NULL, NULL));
     for (i = 0; i < d->n_fluid; i++) {

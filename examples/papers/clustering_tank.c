@@ -76,17 +76,13 @@ static void wall(flow *f)
     tank *const t = (tank *)f->data;
     const double length = f->h;
     const sph_scalars h = sph_scalars_same(&length);
+    const sph_vectors none = sph_vectors_separate(NULL, NULL, NULL);
     sph_vec g = {0, 0, 0};
-    sph_vector_out v;
-    sph_vectors none;
     int i;
     g.y = -gravity;
-    v.x = f->vx;
-    v.y = f->vy;
-    v.z = NULL;
-    none.x = none.y = none.z = sph_scalars_array(NULL);
     clustering_expect(sph_wall_adami(f->kernel, 2, f->n_fluid, f->n, flow_points(f), neighbours_list(&f->all), h, sph_scalars_array(t->share),
-                                     sph_scalars_array(f->rho), sph_scalars_array(f->p), flow_velocities(f), t->rest, g, none, f->p, v, NULL));
+                                     sph_scalars_array(f->rho), sph_scalars_array(f->p), flow_velocities(f), t->rest, g, none, f->p,
+                                     sph_vector_out_separate(f->vx, f->vy, NULL), NULL));
     for (i = f->n_fluid; i < f->n; i++) f->rho[i] = sph_density_tait(f->p[i], water, sound, 1, 0);
 }
 
@@ -139,7 +135,7 @@ static tank_result simulate(sph_kernel kernel, double smoothing, double p0, int 
         t.share[i] = !f.ghost[i];
         t.zero[i] = 0;
     }
-    t.rest.x = t.rest.y = t.rest.z = sph_scalars_array(t.zero);
+    t.rest = sph_vectors_separate(t.zero, t.zero, t.zero);
     f.data = &t;
     f.after = measure;
     if (adami) f.ghosts = wall;

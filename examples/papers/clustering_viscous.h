@@ -21,25 +21,13 @@ typedef struct viscous {
     double *psi, *share, *wall_p, *wall_vx, *wall_vy, *vx, *vy, *ax, *ay;
 } viscous;
 
-static inline sph_vectors viscous_vectors(const double *x, const double *y)
-{
-    sph_vectors v;
-    v.x = sph_scalars_array(x);
-    v.y = sph_scalars_array(y);
-    v.z = sph_scalars_array(NULL);
-    return v;
-}
-
 /* ---------------------------------------------------------------- before the accelerations: psi and walls */
 
 SPH_FN sph_index viscous_walls_by(sph_kernel k, flow *f, viscous *w)
 {
     const sph_vec nothing = {0, 0, 0};
-    const sph_vectors none = viscous_vectors(NULL, NULL);
-    sph_vector_out v;
-    v.x = w->wall_vx;
-    v.y = w->wall_vy;
-    v.z = NULL;
+    const sph_vectors none = sph_vectors_separate(NULL, NULL, NULL);
+    const sph_vector_out v = sph_vector_out_separate(w->wall_vx, w->wall_vy, NULL);
     return sph_wall_adami(k, 2, f->n_fluid, f->n, flow_points(f), neighbours_list(&f->all), sph_scalars_same(&f->h), sph_scalars_array(w->share),
                           sph_scalars_array(f->rho), sph_scalars_array(f->p), flow_velocities(f), flow_velocities(f), nothing, none, w->wall_p, v, NULL);
 }
@@ -66,12 +54,9 @@ static inline void viscous_pressures(flow *f)
 
 SPH_FN sph_index viscous_accelerations_by(sph_kernel k, const flow *f, const viscous *w)
 {
-    sph_vector_out a;
-    a.x = w->ax;
-    a.y = w->ay;
-    a.z = NULL;
     return sph_viscous_mu_morris(k, 2, 0, f->n_fluid, flow_points(f), neighbours_list(&f->all), sph_scalars_same(&f->h), sph_scalars_array(f->m),
-                                 sph_scalars_array(f->rho), viscous_vectors(w->vx, w->vy), sph_scalars_same(&w->mu), 0.1, a);
+                                 sph_scalars_array(f->rho), sph_vectors_separate(w->vx, w->vy, NULL), sph_scalars_same(&w->mu), 0.1,
+                                 sph_vector_out_separate(w->ax, w->ay, NULL));
 }
 static inline void viscous_forces(flow *f)
 {
