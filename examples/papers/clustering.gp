@@ -229,7 +229,7 @@ if (there("clustering_column3d")) {
     unset border
     unset xlabel
     unset ylabel
-    splot dir."clustering_dam3d.csv" using 1:3:2:(sqrt($4**2 + $5**2 + $6**2)) every ::1 with points pointtype 7 pointsize 0.5 linecolor palette
+    splot dir."clustering_dam3d_box.csv" using 1:3:2:(sqrt($4**2 + $5**2 + $6**2)) every ::1 with points pointtype 7 pointsize 0.5 linecolor palette
     unset multiplot
     unset view
     set key
@@ -238,7 +238,7 @@ if (there("clustering_column3d")) {
     set grid linecolor rgb "#dddddd"
 }
 
-if (there("clustering_cavity")) {
+if (there("clustering_cavity_profiles")) {
     set output dir."clustering_cavity.png"
     set terminal pngcairo size 1700,600 font "sans,12"
     set multiplot layout 1,3
@@ -247,13 +247,13 @@ if (there("clustering_cavity")) {
     set xlabel "u"
     set ylabel "y"
     array cavity[2] = ["plain 32", "cleaned 32"]
-    plot for [k = 1:2] dir."clustering_cavity.csv" using (strcol(1) eq cavity[k] && strcol(2) eq "u" ? $4 : NaN):3 every ::1 with lines linewidth 2 dashtype k linecolor rgb color[k] title (k == 1 ? "32 x 32" : "32 x 32, cleaned"), \
+    plot for [k = 1:2] dir."clustering_cavity_profiles.csv" using (strcol(1) eq cavity[k] && strcol(2) eq "u" ? $4 : NaN):3 every ::1 with lines linewidth 2 dashtype k linecolor rgb color[k] title (k == 1 ? "32 x 32" : "32 x 32, cleaned"), \
         "" using (strcol(1) eq "ghia" && strcol(2) eq "u" ? $4 : NaN):3 every ::1 with points pointtype 6 pointsize 1.3 linecolor rgb color[3] title "Ghia, Ghia & Shin 1982" noenhanced
     set key bottom left
     set title "v on y = 1/2"
     set xlabel "x"
     set ylabel "v"
-    plot for [k = 1:2] dir."clustering_cavity.csv" using (strcol(1) eq cavity[k] && strcol(2) eq "v" ? $3 : NaN):4 every ::1 with lines linewidth 2 dashtype k linecolor rgb color[k] title (k == 1 ? "32 x 32" : "32 x 32, cleaned"), \
+    plot for [k = 1:2] dir."clustering_cavity_profiles.csv" using (strcol(1) eq cavity[k] && strcol(2) eq "v" ? $3 : NaN):4 every ::1 with lines linewidth 2 dashtype k linecolor rgb color[k] title (k == 1 ? "32 x 32" : "32 x 32, cleaned"), \
         "" using (strcol(1) eq "ghia" && strcol(2) eq "v" ? $3 : NaN):4 every ::1 with points pointtype 6 pointsize 1.3 linecolor rgb color[3] title "Ghia, Ghia & Shin 1982" noenhanced
     set title "Particles by speed at t = 12, cleaned"
     unset key

@@ -167,7 +167,7 @@ int main(int argc, char **argv)
     int g, k, i;
     options_parse(argc, argv, "The lid-driven cavity at Re = 100 against Ghia, Ghia & Shin 1982, with and without velocity cleaning.", specs, 5);
     report_open(&r, "clustering_cavity", c.out);
-    clustering_figure(&to, c.figures, "clustering_cavity");
+    clustering_figure(&to, c.figures, "clustering_cavity_profiles");
     fprintf(to.to, "run,line,position,velocity\n");
     for (i = 0; i < GHIA; i++) fprintf(to.to, "ghia,u,%g,%g\nghia,v,%g,%g\n", ghia_y[i], ghia_u[i], ghia_x[i], ghia_v[i]);
     report_section(&r, "Lid-driven cavity, Re = 100: against Ghia, Ghia & Shin 1982");

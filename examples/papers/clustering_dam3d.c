@@ -189,7 +189,7 @@ static void snapshot(const dam *d, const char *figures, const char *name)
 static void run(const clustering_options *c, int dim, int resolution, outcome *o)
 {
     const double end = 3.4 / column_T(1);
-    const char *const name = dim > 2 ? "clustering_dam3d" : "clustering_dam3d_plane";
+    const char *const name = dim > 2 ? "clustering_dam3d_box" : "clustering_dam3d_plane";
     const clock_t begin = clock();
     vtk_series series = {0};
     progress bar;
