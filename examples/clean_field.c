@@ -144,26 +144,12 @@ static int test(void)
     return failed != 0;
 }
 
-static char part[4096]; /* FILE.part, which is renamed when it is whole, so that no half of a file is left; a device is written as it is */
-static FILE *create(const char *name)
-{
-    snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
-    return fopen(part, "w");
-}
-static int finish(FILE *file, const char *name) /* the exit status; also where create failed */
-{
-    const int broken = !file || ferror(file);
-    if (file && fclose(file) == 0 && !broken && (rename(part, name) == 0 || (remove(name) == 0 && rename(part, name) == 0))) return 0;
-    perror(name);
-    if (strcmp(part, name) != 0) remove(part);
-    return 2;
-}
-
 int main(int argc, char **argv)
 {
     static const double times[] = {0, 0.2, 1};
     const int writes = argc == 3 && strcmp(argv[1], "-o") == 0;
-    FILE *const file = writes ? create(argv[2]) : stdout;
+    char part[4096]; /* renamed when it is whole, so that no half of a file is left; a device is written as it is */
+    FILE *file = stdout;
     int k, i;
     if (argc == 2 && strcmp(argv[1], "-t") == 0) return test();
     if (argc > 1 && !writes) {
@@ -172,7 +158,14 @@ int main(int argc, char **argv)
         fprintf(help ? stdout : stderr, "clean_field [-o FILE.csv | -t]   draw the divergence at three times, write it for a plot, or test the cleaning\n");
         return help ? 0 : 2;
     }
-    if (!file) return finish(file, argv[2]);
+    if (writes) {
+        snprintf(part, sizeof part, "%.4000s%s", argv[2], strncmp(argv[2], "/dev/", 5) ? ".part" : "");
+        file = fopen(part, "w");
+    }
+    if (!file) {
+        perror(argv[2]);
+        return 2;
+    }
     fill();
     if (writes) fprintf(file, "t,x,y,Bx,By,h_div_B\n");
     for (k = 0; k < 3; k++) {
@@ -184,5 +177,8 @@ int main(int argc, char **argv)
             report();
         }
     }
-    return writes ? finish(file, argv[2]) : 0;
+    if (!writes || (!ferror(file) && fclose(file) == 0 && (rename(part, argv[2]) == 0 || (remove(argv[2]) == 0 && rename(part, argv[2]) == 0)))) return 0;
+    perror(argv[2]);
+    if (strcmp(part, argv[2]) != 0) remove(part);
+    return 2;
 }

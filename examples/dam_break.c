@@ -14,9 +14,8 @@
 #include <string.h>
 #if defined(__unix__) || defined(__APPLE__)
 #include <unistd.h>
-#define TO_A_TERMINAL isatty(1)
 #else
-#define TO_A_TERMINAL 0
+#define isatty(file) 0
 #endif
 
 #include "sph.h"
@@ -104,8 +103,7 @@ static void step(void)
         y[i] += dt * (vy[i] += 0.5 * dt * (ay[i] - g));
     }
     rates();
-    for (i = 0; i < n_water; i++) vx[i] += 0.5 * dt * ax[i];
-    for (i = 0; i < n_water; i++) vy[i] += 0.5 * dt * (ay[i] - g);
+    for (i = 0; i < n_water; i++) vx[i] += 0.5 * dt * ax[i], vy[i] += 0.5 * dt * (ay[i] - g);
     t += dt;
 }
 
@@ -168,7 +166,8 @@ static int test(void)
 
 int main(int argc, char **argv)
 {
-    const int terminal = argc == 1 && TO_A_TERMINAL, csv = argc == 3 && strcmp(argv[1], "-o") == 0;
+    const int terminal = argc == 1 && isatty(1), csv = argc == 3 && strcmp(argv[1], "-o") == 0;
+    char part[4096]; /* renamed when it is whole, so that no half of a file is left; a device is written as it is */
     FILE *file;
     int frame, i;
     if (argc == 2 && strcmp(argv[1], "-t") == 0) return test();
@@ -178,7 +177,8 @@ int main(int argc, char **argv)
         fprintf(help ? stdout : stderr, "dam_break [-o FILE.csv | -t]   show the flow, write it at four times, or test it\n");
         return help ? 0 : 2;
     }
-    file = csv ? fopen(argv[2], "w") : stdout;
+    if (csv) snprintf(part, sizeof part, "%.4000s%s", argv[2], strncmp(argv[2], "/dev/", 5) ? ".part" : "");
+    file = csv ? fopen(part, "w") : stdout;
     if (!file) return perror(argv[2]), 2;
     if (csv) fprintf(file, "t,x,y,vx,vy,p,water\n");
     fill(20);
@@ -193,7 +193,7 @@ int main(int argc, char **argv)
             fflush(stdout);
         }
     }
-    if (!csv || (!ferror(file) && fclose(file) == 0)) return 0;
+    if (!csv || (!ferror(file) && fclose(file) == 0 && (rename(part, argv[2]) == 0 || (remove(argv[2]) == 0 && rename(part, argv[2]) == 0)))) return 0;
     perror(argv[2]);
-    return 2;
+    return strcmp(part, argv[2]) ? remove(part), 2 : 2;
 }

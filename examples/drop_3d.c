@@ -50,7 +50,6 @@ static void fill(int across) /* particles along a radius: not more than 9, for M
             }
     m = rho0 * 4 / 3 * 3.14159265358979324 / n;
 }
-
 static sph_vectors velocity(void) { return sph_vectors_separate(v[0], v[1], v[2]); }
 
 /* continuity for the density, then pressures, then forces */
@@ -84,7 +83,6 @@ static void add(double to, double rate[DIM][MOST], double value[DIM][MOST])
     for (k = 0; k < DIM; k++)
         for (i = 0; i < n; i++) value[k][i] += to * rate[k][i];
 }
-
 static double P(void) /* of the solution, at its centre */
 {
     const double a2 = axis[0] * axis[0], c2 = axis[1] * axis[1];
@@ -113,7 +111,6 @@ static double measured(int which)
     for (i = 0; i < n; i++) sum += which ? x[2][i] * x[2][i] : 0.5 * (x[0][i] * x[0][i] + x[1][i] * x[1][i]);
     return sqrt(5 * sum / n);
 }
-
 static void draw(void) /* seen from the side: the more particles behind each other, the darker */
 {
     int picture[ROWS][COLUMNS] = {{0}}, i, row;
@@ -151,7 +148,6 @@ static void write_vtk(const char *prefix, int frame)
     for (i = 0; i < n; i++) fprintf(file, "%g %g %g\n", v[0][i], v[1][i], v[2][i]);
     if (ferror(file) || fclose(file)) perror(name), exit(2);
 }
-
 static int failed;
 static void check(const char *what, double value, double expected, double tolerance)
 {
@@ -177,6 +173,7 @@ static int test(void)
 int main(int argc, char **argv)
 {
     const int csv = argc == 3 && strcmp(argv[1], "-o") == 0, vtk = argc == 3 && strcmp(argv[1], "-v") == 0;
+    char part[4096]; /* renamed when it is whole, so that no half of a file is left; a device is written as it is */
     FILE *file = stdout;
     int frame, i;
     if (argc == 2 && strcmp(argv[1], "-t") == 0) return test();
@@ -186,7 +183,8 @@ int main(int argc, char **argv)
         fprintf(help ? stdout : stderr, "drop_3d [-o FILE.csv | -v PREFIX | -t]   draw the drop, or write it, or frames, or test it\n");
         return help ? 0 : 2;
     }
-    if (csv) fprintf(file = create(argv[2]), "t,x,y,z,p,A,C\n");
+    if (csv) snprintf(part, sizeof part, "%.4000s%s", argv[2], strncmp(argv[2], "/dev/", 5) ? ".part" : "");
+    if (csv) fprintf(file = create(part), "t,x,y,z,p,A,C\n");
     fill(9);
     rates();
     for (frame = 0; frame <= 20; frame++) {
@@ -196,5 +194,7 @@ int main(int argc, char **argv)
             fprintf(file, "%g,%.4g,%.4g,%.4g,%.4g,%.5g,%.5g\n", 0.02 * frame, x[0][i], x[1][i], x[2][i], p[i], axis[0], axis[1]);
         if (argc == 1 && frame % 10 == 0) draw();
     }
-    return csv && (ferror(file) || fclose(file)) ? perror(argv[2]), 2 : 0;
+    if (!csv || (!ferror(file) && fclose(file) == 0 && (rename(part, argv[2]) == 0 || (remove(argv[2]) == 0 && rename(part, argv[2]) == 0)))) return 0;
+    perror(argv[2]);
+    return strcmp(part, argv[2]) ? remove(part), 2 : 2;
 }

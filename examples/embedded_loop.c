@@ -127,27 +127,13 @@ static int check(const float *g)
     return 0;
 }
 
-static char part[4096]; /* FILE.part, which is renamed when it is whole, so that no half of a file is left; a device is written as it is */
-static FILE *create(const char *name)
-{
-    snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
-    return fopen(part, "w");
-}
-static int finish(FILE *file, const char *name) /* the exit status; also where create failed */
-{
-    const int broken = !file || ferror(file);
-    if (file && fclose(file) == 0 && !broken && (rename(part, name) == 0 || (remove(name) == 0 && rename(part, name) == 0))) return 0;
-    perror(name);
-    if (strcmp(part, name) != 0) remove(part);
-    return 2;
-}
-
 int main(int argc, char **argv)
 {
     const int tests = argc == 2 && strcmp(argv[1], "-t") == 0, writes = argc == 3 && strcmp(argv[1], "-o") == 0;
     static const int shown[2] = {40, CALLS - 1}; /* of each turn: on the way, and at rest */
     char picture[2][SIDE][4 * (SIDE + 3)];
-    FILE *const file = writes ? create(argv[2]) : stdout;
+    char part[4096]; /* renamed when it is whole, so that no half of a file is left; a device is written as it is */
+    FILE *file = stdout;
     int turn, call, i, j, k, error = setup(), failed = 0;
     if (argc > 1 && !tests && !writes) {
         const int help = strcmp(argv[1], "-h") == 0;
@@ -155,7 +141,14 @@ int main(int argc, char **argv)
         fprintf(help ? stdout : stderr, "embedded_loop [-o FILE.csv | -t]   show the lights, write the particles for a plot, or test them\n");
         return help ? 0 : 2;
     }
-    if (!file) return finish(file, argv[2]);
+    if (writes) {
+        snprintf(part, sizeof part, "%.4000s%s", argv[2], strncmp(argv[2], "/dev/", 5) ? ".part" : "");
+        file = fopen(part, "w");
+    }
+    if (!file) {
+        perror(argv[2]);
+        return 2;
+    }
     if (writes) fprintf(file, "turn,x,y,p\n");
     memset(picture, ' ', sizeof picture);
     for (turn = 0; turn < 4 && !error; turn++) {
@@ -170,7 +163,11 @@ int main(int argc, char **argv)
     }
     if (error) printf("FAILED: %s\n", sph_status_text(error));
     if (tests && !failed && !error) printf("ok\n");
-    if (writes && finish(file, argv[2])) return 2;
+    if (writes && (ferror(file) || fclose(file) || (rename(part, argv[2]) && (remove(argv[2]) || rename(part, argv[2]))))) {
+        perror(argv[2]);
+        if (strcmp(part, argv[2]) != 0) remove(part);
+        return 2;
+    }
     if (tests || writes) return failed || error;
     for (k = 0; k < 2; k++) {
         printf(k ? "at rest:\n" : "gravity down, to the right, up, to the left; on the way:\n");

@@ -127,6 +127,7 @@ int main(int argc, char **argv)
 {
     static const double times[] = {0.002, 0.02, 0.2};
     const int tests = argc == 2 && strcmp(argv[1], "-t") == 0, writes = argc == 3 && strcmp(argv[1], "-o") == 0;
+    char part[4096]; /* renamed when it is whole, so that no half of a file is left; a device is written as it is */
     FILE *file = stdout;
     int k, i;
     if (argc > 1 && !tests && !writes) {
@@ -135,7 +136,10 @@ int main(int argc, char **argv)
         fprintf(help ? stdout : stderr, "heat_plate [-o FILE.csv | -t]   draw the plate at three times, write them for a plot, or test them\n");
         return help ? 0 : 2;
     }
-    if (writes) file = fopen(argv[2], "w");
+    if (writes) {
+        snprintf(part, sizeof part, "%.4000s%s", argv[2], strncmp(argv[2], "/dev/", 5) ? ".part" : "");
+        file = fopen(part, "w");
+    }
     if (!file) {
         perror(argv[2]);
         return 2;
@@ -151,7 +155,8 @@ int main(int argc, char **argv)
         if (!writes) draw();
     }
     if (!writes) printf("in the centre: %.4f; 0.25 in the end\n", temperature[SIDE / 2 * SIDE + SIDE / 2]);
-    if (!writes || (!ferror(file) && fclose(file) == 0)) return 0;
+    if (!writes || (!ferror(file) && fclose(file) == 0 && (rename(part, argv[2]) == 0 || (remove(argv[2]) == 0 && rename(part, argv[2]) == 0)))) return 0;
     perror(argv[2]);
+    if (strcmp(part, argv[2]) != 0) remove(part);
     return 2;
 }

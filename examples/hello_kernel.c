@@ -42,9 +42,12 @@ static void draw(sph_kernel k)
 static int write_csv(const char *name)
 {
     static const sph_kernel kernels[] = {SPH_CUBIC_SPLINE, SPH_QUINTIC_SPLINE, SPH_WENDLAND_C2, SPH_WENDLAND_C6};
-    FILE *const file = fopen(name, "w");
+    char part[4096]; /* renamed when it is whole, so that no half of a file is left; a device is written as it is */
+    FILE *file;
     size_t k;
     int i;
+    snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
+    file = fopen(part, "w");
     if (!file) {
         perror(name);
         return 2;
@@ -55,8 +58,9 @@ static int write_csv(const char *name)
             const double r = 3.0 * i / 120;
             fprintf(file, "%s,%g,%.9g,%.9g\n", sph_kernel_name(kernels[k]), r, sph_kernel_w(kernels[k], DIM, r, h), -sph_kernel_dwdr(kernels[k], DIM, r, h));
         }
-    if (!ferror(file) && fclose(file) == 0) return 0;
+    if (!ferror(file) && fclose(file) == 0 && (rename(part, name) == 0 || (remove(name) == 0 && rename(part, name) == 0))) return 0;
     perror(name);
+    if (strcmp(part, name) != 0) remove(part);
     return 2;
 }
 

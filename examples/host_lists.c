@@ -146,26 +146,12 @@ static double off(const double *a, const double *b) /* largest difference, relat
     return most / size;
 }
 
-static char part[4096]; /* FILE.part, which is renamed when it is whole, so that no half of a file is left; a device is written as it is */
-static FILE *create(const char *name)
-{
-    snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
-    return fopen(part, "w");
-}
-static int finish(FILE *file, const char *name) /* the exit status; also where create failed */
-{
-    const int broken = !file || ferror(file);
-    if (file && fclose(file) == 0 && !broken && (rename(part, name) == 0 || (remove(name) == 0 && rename(part, name) == 0))) return 0;
-    perror(name);
-    if (strcmp(part, name) != 0) remove(part);
-    return 2;
-}
-
 int main(int argc, char **argv)
 {
     const int tests = argc == 2 && strcmp(argv[1], "-t") == 0, writes = argc == 3 && strcmp(argv[1], "-o") == 0;
     double worst, along = 0, exact = 0, momentum = 0;
-    FILE *const file = writes ? create(argv[2]) : stdout;
+    char part[4096]; /* renamed when it is whole, so that no half of a file is left; a device is written as it is */
+    FILE *file = stdout;
     sph_index answer;
     int i;
     if (argc > 1 && !tests && !writes) {
@@ -174,7 +160,14 @@ int main(int argc, char **argv)
         fprintf(help ? stdout : stderr, "host_lists [-o FILE.csv | -t]   draw accelerations, write them for a plot, or test that both ways agree\n");
         return help ? 0 : 2;
     }
-    if (!file) return finish(file, argv[2]);
+    if (writes) {
+        snprintf(part, sizeof part, "%.4000s%s", argv[2], strncmp(argv[2], "/dev/", 5) ? ".part" : "");
+        file = fopen(part, "w");
+    }
+    if (!file) {
+        perror(argv[2]);
+        return 2;
+    }
     fill();
     find_pairs();
     by_pairs();
@@ -190,7 +183,10 @@ int main(int argc, char **argv)
     if (writes) {
         fprintf(file, "x,y,p,ax,ay\n");
         for (i = 0; i < N; i++) fprintf(file, "%.5g,%.5g,%.5g,%.5g,%.5g\n", x[i], y[i], p[i], ax1[i], ay1[i]);
-        return finish(file, argv[2]);
+        if (!ferror(file) && fclose(file) == 0 && (rename(part, argv[2]) == 0 || (remove(argv[2]) == 0 && rename(part, argv[2]) == 0))) return 0;
+        perror(argv[2]);
+        if (strcmp(part, argv[2]) != 0) remove(part);
+        return 2;
     }
     if (!tests) draw();
     if (!tests) printf("largest difference of the two ways: %.1e of the largest acceleration\n", worst);

@@ -140,8 +140,11 @@ static int test(void)
 
 static int write_csv(const char *name)
 {
-    FILE *const file = fopen(name, "w");
+    char part[4096]; /* renamed when it is whole, so that no half of a file is left; a device is written as it is */
+    FILE *file;
     int i;
+    snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
+    file = fopen(part, "w");
     if (!file) {
         perror(name);
         return 2;
@@ -150,8 +153,9 @@ static int write_csv(const char *name)
     for (i = 0; i < N; i++)
         fprintf(file, "%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,%d\n", hill[i].position[0], hill[i].position[1], hill[i].height, hill[i].slope[0], hill[i].slope[1],
                 hill[i].laplacian, status[i]);
-    if (!ferror(file) && fclose(file) == 0) return 0;
+    if (!ferror(file) && fclose(file) == 0 && (rename(part, name) == 0 || (remove(name) == 0 && rename(part, name) == 0))) return 0;
     perror(name);
+    if (strcmp(part, name) != 0) remove(part);
     return 2;
 }
 

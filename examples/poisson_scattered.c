@@ -128,16 +128,20 @@ static void draw(void)
 
 static int write_csv(const char *name)
 {
-    FILE *const file = fopen(name, "w");
+    char part[4096]; /* renamed when it is whole, so that no half of a file is left; a device is written as it is */
+    FILE *file;
     int i;
+    snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
+    file = fopen(part, "w");
     if (!file) {
         perror(name);
         return 2;
     }
     fprintf(file, "x,y,u,exact\n");
     for (i = 0; i < n; i++) fprintf(file, "%.6g,%.6g,%.6g,%.6g\n", x[i], y[i], u[i], exact(x[i], y[i]));
-    if (!ferror(file) && fclose(file) == 0) return 0;
+    if (!ferror(file) && fclose(file) == 0 && (rename(part, name) == 0 || (remove(name) == 0 && rename(part, name) == 0))) return 0;
     perror(name);
+    if (strcmp(part, name) != 0) remove(part);
     return 2;
 }
 

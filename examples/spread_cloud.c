@@ -152,32 +152,27 @@ static int test(void)
     return failed != 0;
 }
 
-static char part[4096]; /* FILE.part, which is renamed when it is whole, so that no half of a file is left; a device is written as it is */
-static FILE *create(const char *name)
-{
-    snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
-    return fopen(part, "w");
-}
-static int finish(FILE *file, const char *name) /* the exit status; also where create failed */
-{
-    const int broken = !file || ferror(file);
-    if (file && fclose(file) == 0 && !broken && (rename(part, name) == 0 || (remove(name) == 0 && rename(part, name) == 0))) return 0;
-    perror(name);
-    if (strcmp(part, name) != 0) remove(part);
-    return 2;
-}
 static int write_csv(const char *name)
 {
-    FILE *const file = create(name);
+    char part[4096]; /* renamed when it is whole, so that no half of a file is left; a device is written as it is */
+    FILE *file;
     int k, i;
-    if (!file) return finish(file, name);
+    snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
+    file = fopen(part, "w");
+    if (!file) {
+        perror(name);
+        return 2;
+    }
     fprintf(file, "state,x,y\n");
     for (k = 0; k < 3; k++) { /* at first, without collisions, with */
         fill();
         while (k > 0 && t < 1) step(k == 2);
         for (i = 0; i < N; i++) fprintf(file, "%d,%.5g,%.5g\n", k, x[i] - floor(x[i]), y[i] - floor(y[i]));
     }
-    return finish(file, name);
+    if (!ferror(file) && fclose(file) == 0 && (rename(part, name) == 0 || (remove(name) == 0 && rename(part, name) == 0))) return 0;
+    perror(name);
+    if (strcmp(part, name) != 0) remove(part);
+    return 2;
 }
 
 int main(int argc, char **argv)
