@@ -49,9 +49,9 @@ needs() {
 empty='int main(void) { return 0; }'
 compiles() {
     printf '%b\n' "$1" > "$scratch/has.c"
-    compiler=$2
+    with=$2
     shift 2
-    $compiler "$scratch/has.c" "$@" -o "$scratch/has" > /dev/null 2>&1
+    $with "$scratch/has.c" "$@" -o "$scratch/has" > /dev/null 2>&1
 }
 finish() {
     echo "$1: $passed passed, $failed failed"

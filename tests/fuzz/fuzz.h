@@ -2,7 +2,7 @@
 /*
  * fuzz.h - what the fuzz targets share: numbers out of bytes, memory of just the size that was asked for, and a condition that must hold whatever the bytes are.
  *
- * A target is a file with one LLVMFuzzerTestOneInput. Any of these makes a program of it (run.sh does):
+ * A target is a file with one LLVMFuzzerTestOneInput. Any of these makes a program of it (fuzz.sh does):
  *     clang -fsanitize=fuzzer,address,undefined target.c                       libFuzzer: runs until it is stopped, keeps what crashes
  *     afl-clang-fast -fsanitize=fuzzer target.c                                AFL++
  *     cc -fsanitize=address,undefined target.c replay.c                        replays the files that are named to it

@@ -2,16 +2,48 @@
 # SPDX-License-Identifier: MIT
 # The corpus of every fuzz target replayed with the address and undefined-behaviour sanitizers (double, and float where the headers are what is tested), then FUZZ_SECONDS (60) of libFuzzer for each.
 #     sh tests/fuzz/fuzz.sh [TARGET ...]
-# What crashes is kept as $BUILD/fuzz/crash-TARGET-...; put it into tests/fuzz/corpus/TARGET once it is mended. With AFL++ instead: afl-clang-fast -fsanitize=fuzzer -I. tests/fuzz/TARGET.c -lm
+#     FUZZER=afl sh tests/fuzz/fuzz.sh [TARGET ...]        AFL++ instead
+# What crashes is kept as $BUILD/fuzz/crash-TARGET-...; put it into tests/fuzz/corpus/TARGET once it is mended. TARGET-avx2 and -avx512 are the target with that inner loop of the search, where the processor
+# has it.
 . tests/check.sh
 seconds=${FUZZ_SECONDS:-60}
 work=$BUILD/fuzz
-all="kernels neighbors derivatives sweeps sparse spe10 restart commands"
+all="kernels neighbors neighbors-avx2 neighbors-avx512 derivatives sweeps sparse spe10 restart commands"
 sanitize="-g -fsanitize=address,undefined -fno-sanitize-recover=all"
 optimise=-O1 # takes three times as long to compile
 [ "$seconds" -lt 30 ] && optimise=-O0
 mkdir -p "$work/examples"
-has_sanitizers() { echo 'int main(void) { return 0; }' > "$scratch/has.c" && $1 -fsanitize="$2" "$scratch/has.c" -o "$scratch/has" > /dev/null 2>&1; }
+case ${FUZZER:-libfuzzer} in
+libfuzzer) compiler=clang ;;
+afl) compiler=afl-clang-fast ;;
+*) echo "FUZZER is libfuzzer or afl" >&2 && exit 2 ;;
+esac
+TMPDIR=$PWD/$scratch # what a target leaves behind when it is stopped
+case $BUILD in /*) TMPDIR=$scratch ;; esac
+export TMPDIR
+here=$($CC -march=native -dM -E -x c /dev/null 2> /dev/null)
+# path TARGET: the flags of its path, or fails, aloud, where the processor does not have it
+path() {
+    case $1 in
+    *-avx2) macros="__AVX2__ __BMI2__" flags="-mavx2 -mbmi2" ;;
+    *-avx512) macros="__AVX512F__ __AVX512VL__" flags=-march=native ;;
+    *) macros='' flags='' ;;
+    esac
+    for macro in $macros; do
+        case $here in *"#define $macro 1"*) ;; *) skip "$1" "not on this processor" && return 1 ;; esac
+    done
+}
+# fuzz TARGET COMMAND ...: one at a time, while the next one is compiled and replayed
+fuzz() {
+    target=$1
+    shift
+    wait
+    (
+        "$@" > "$work/log-$target" 2>&1
+        echo $? > "$work/status-$target"
+    ) &
+    started="$started $target"
+}
 
 # the command lines of the drivers that were built, and of the other examples, built here for the sake of speed without optimisation
 for f in examples/*.c; do
@@ -23,36 +55,34 @@ FUZZ_PROGRAMS=$BUILD/examples:$work/examples
 export FUZZ_PROGRAMS
 
 started=
-# kept TARGET: the files of a crash, with a name that says whose they are
-kept() { ls "$work"/crash-"$1"-* 2> /dev/null | sed 's/^/kept: /'; }
-
 for t in ${*:-$all}; do
-    corpus=tests/fuzz/corpus/$t
-    if has_sanitizers "$CC" address,undefined; then
+    path "$t" || continue
+    source=tests/fuzz/${t%-avx*}.c corpus=tests/fuzz/corpus/${t%-avx*}
+    if compiles "$empty" "$CC" -fsanitize=address,undefined; then
         for single in 0 1; do
             case $single$t in 1sparse | 1spe10 | 1restart | 1commands) continue ;; esac
             # shellcheck disable=SC2086
-            check "$t, SPH_SINGLE=$single, compiles" $CC -std=c99 -I. -O0 $sanitize -DSPH_SINGLE=$single "tests/fuzz/$t.c" tests/fuzz/replay.c -o "$scratch/$t" -lm
+            check "$t, SPH_SINGLE=$single, compiles" $CC -std=c99 -I. -O0 $sanitize $flags -DSPH_SINGLE=$single "$source" tests/fuzz/replay.c -o "$scratch/$t" -lm
             check "$t, SPH_SINGLE=$single, replays $corpus" "$scratch/$t" "$corpus"/*
         done
     else skip "replay of $t" "$CC has no sanitizers"; fi
-    if command -v clang > /dev/null 2>&1 && has_sanitizers clang fuzzer-no-link,address,undefined; then
-        mkdir -p "$work/corpus/$t"
-        rm -f "$work"/crash-"$t"-* "$work/status-$t"
+    mkdir -p "$work/corpus/$t"
+    rm -rf "$work"/crash-"$t"-* "$work/status-$t" "$work/afl/$t"
+    if compiles "$empty" "$compiler" -fsanitize=fuzzer-no-link,address,undefined; then
         # shellcheck disable=SC2086
-        check "$t with libFuzzer compiles" clang -std=c99 -I. -fsanitize=fuzzer $optimise $sanitize "tests/fuzz/$t.c" -o "$work/$t" -lm
-        wait # one at a time, while the next one is compiled and replayed
-        (
-            "$work/$t" -max_total_time="$seconds" -timeout=20 -len_control=0 -max_len=600 -verbosity=0 -artifact_prefix="$work/crash-$t-" "$work/corpus/$t" "$corpus" > "$work/log-$t" 2>&1
-            echo $? > "$work/status-$t"
-        ) &
-        started="$started $t"
-    else skip "fuzzing of $t" "no clang with libFuzzer"; fi
+        check "$t with $compiler compiles" "$compiler" -std=c99 -I. -fsanitize=fuzzer $optimise $sanitize $flags "$source" -o "$work/$t" -lm
+        if [ "$compiler" = clang ]; then
+            fuzz "$t" "$work/$t" -max_total_time="$seconds" -timeout=20 -len_control=0 -max_len=600 -verbosity=0 -artifact_prefix="$work/crash-$t-" "$work/corpus/$t" "$corpus"
+        else
+            fuzz "$t" env AFL_NO_UI=1 AFL_SKIP_CPUFREQ=1 AFL_I_DONT_CARE_ABOUT_MISSING_CRASHES=1 afl-fuzz -V "$seconds" -t 20000 -m none -G 600 -i "$corpus" -o "$work/afl/$t" -- "$work/$t"
+        fi
+    else skip "fuzzing of $t" "$compiler is not installed, or has no sanitizers"; fi
 done
 wait
 for t in $started; do
+    for f in "$work/afl/$t"/default/crashes/id* "$work/afl/$t"/default/hangs/id*; do [ -e "$f" ] && cp "$f" "$work/crash-$t-$(basename "$f" | tr -c 'A-Za-z0-9\n' _)"; done
     check "$t for $seconds s" grep -q -x 0 "$work/status-$t"
+    check "$t: nothing crashes" sh -c "! ls '$work'/crash-'$t'-*"
     grep -a -e "does not hold" -e "runtime error" -e "ERROR: " "$work/log-$t" | head -n 3
-    kept "$t"
 done
 finish fuzz
