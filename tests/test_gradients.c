@@ -2,6 +2,9 @@
 /*
  * test_gradients.c - Shepard sums and interpolation, first derivatives, two-point Laplacians; and that every way to hand over the same numbers gives the same answer.
  */
+#if defined(SPH_SINGLE) && SPH_SINGLE /* forced inline in double only: it is what takes the time to compile */
+#include "one_copy.h"
+#endif
 #include "../sph.h"
 #include "check.h"
 #include "clouds.h"
