@@ -620,6 +620,27 @@ static void test_components(void)
     state_free(&s);
 }
 
+/* one component alone that leaves the range of numbers: the whole vector is 0, and the particle counts as failed */
+static void test_overflow(void)
+{
+    const sph_real one = SPH_R(1), large = BY_PRECISION(SPH_R(1e300), SPH_R(1e38)), h = BY_PRECISION(SPH_R(1e-10), SPH_R(1e-3));
+    const sph_index start[3] = {0, 1, 2}, index[2] = {1, 0};
+    sph_list list;
+    int dim, axis, k;
+    list.start = start;
+    list.index = index;
+    for (dim = 1; dim <= 3; dim++)
+        for (axis = 0; axis < dim; axis++) {
+            sph_real x[3][2] = {{0, 0}, {0, 0}, {0, 0}}, out[3][2] = {{7, 7}, {7, 7}, {7, 7}};
+            sph_gas g;
+            x[axis][1] = h;
+            g.m = g.rho = g.omega = sph_scalars_same(&one);
+            CHECK(sph_gradient_symmetric(KERNEL, dim, 0, 2, sph_points_separate(2, x[0], x[1], x[2]), list, sph_scalars_same(&h), g, sph_scalars_same(&large),
+                                         sph_vector_out_separate(out[0], out[1], out[2])) == 2);
+            for (k = 0; k < dim; k++) CHECK((double)out[k][0] == 0.0 && (double)out[k][1] == 0.0);
+        }
+}
+
 int main(void)
 {
     test_conjugate();
@@ -632,5 +653,6 @@ int main(void)
     test_boundary();
     test_signal_speed();
     test_components();
+    test_overflow();
     return check_report("test_cleaning");
 }

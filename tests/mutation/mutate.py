@@ -17,6 +17,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 HEADERS = ("sph_kernels.h", "sph_ops.h", "sph.h")
 # cheap ones first; those that name the function, or are of its subject, come before all; that of the search is slow, and for sph.h only
@@ -135,6 +136,7 @@ def main():
     chosen = choose(a.n, a.only, random.Random(a.seed))
     dead = same = absent = 0
     survivors = []
+    began = time.time()
     for number, (header, name, start, end, new) in enumerate(chosen):
         text = open(header).read()
         mutant = text[:start] + new + text[end:]
@@ -152,8 +154,8 @@ def main():
                 survivors.append((name, line))
                 print("survives: %s | %s" % (name, line), flush=True)
         shutil.copy(header, folder)
-        if sys.stderr.isatty():
-            print("\r%d of %d" % (number + 1, len(chosen)), end="", file=sys.stderr)
+        if sys.stderr.isatty() or number % 20 == 19:
+            print("%d of %d, %d survive, %.0f s" % (number + 1, len(chosen), len(survivors), time.time() - began), end="\r" if sys.stderr.isatty() else "\n", file=sys.stderr, flush=True)
     shutil.rmtree(folder)
     judged = dead + len(survivors)
     print("%d mutants: %d killed, %d survive, %d equivalent, %d not compiled here: %.1f %% killed" % (len(chosen), dead, len(survivors), same, absent, 100.0 * dead / max(judged, 1)))
