@@ -66,7 +66,7 @@ for t in ${*:-$all}; do
             check "$t, SPH_SINGLE=$single, replays $corpus" "$scratch/$t" "$corpus"/*
         done
     else skip "replay of $t" "$CC has no sanitizers"; fi
-    mkdir -p "$work/corpus/$t"
+    mkdir -p "$work/corpus/$t" "$work/afl"
     rm -rf "$work"/crash-"$t"-* "$work/status-$t" "$work/afl/$t"
     if compiles "$empty" "$compiler" -fsanitize=fuzzer-no-link,address,undefined; then
         # shellcheck disable=SC2086
