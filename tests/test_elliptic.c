@@ -1021,6 +1021,26 @@ static void test_rest(void)
     }
 }
 
+/* sph_rows_growth looks at the positions that it needs and at no others, also where they are not in arrays of their own */
+static void test_growth_positions(void)
+{
+    const sph_real row[3] = {SPH_R(1), SPH_R(1), SPH_R(1)};
+    const sph_index start[4] = {0, 1, 2, 3};
+    sph_real xy[6] = {SPH_R(0), SPH_R(0), SPH_R(1), SPH_R(0), SPH_R(0), SPH_R(1)}, re, im;
+    sph_index index[3] = {1, 0, 0};
+    sph_vec wave;
+    sph_list list;
+    wave.x = wave.y = wave.z = SPH_R(1);
+    list.start = start;
+    list.index = index;
+    CHECK(sph_rows_growth(2, 2, sph_points_interleaved(3, 2, xy), list, row, SPH_R(0.1), wave, &re, &im) == 0);
+    xy[5] = SPH_R(NAN);
+    CHECK(sph_rows_growth(2, 0, sph_points_interleaved(3, 2, xy), list, row, SPH_R(0.1), wave, &re, &im) == 0);
+    CHECK(sph_rows_growth(2, 2, sph_points_interleaved(3, 2, xy), list, row, SPH_R(0.1), wave, &re, &im) == SPH_ERROR_POSITION);
+    index[0] = 2;
+    CHECK(sph_rows_growth(2, 0, sph_points_interleaved(3, 2, xy), list, row, SPH_R(0.1), wave, &re, &im) == SPH_ERROR_POSITION);
+}
+
 int main(void)
 {
     test_figures();
@@ -1039,5 +1059,6 @@ int main(void)
     test_promises();
     test_assembly();
     test_rest();
+    test_growth_positions();
     return check_report("test_elliptic");
 }
