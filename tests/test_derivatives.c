@@ -970,6 +970,22 @@ static void test_singular_kappa(void)
     cloud_free(&c);
 }
 
+/* pivots are chosen by their size, not by their sign */
+static void test_pivots(void)
+{
+    static const double A[3][3] = {{0, 2, 0.5}, {0, 0.25, -3}, {-4, 0, 0}};
+    sph_real b[3];
+    sphi_lu s;
+    int i, j;
+    for (i = 0; i < 3; i++) {
+        b[i] = SPH_R(A[i][0] + 2 * A[i][1] + 3 * A[i][2]);
+        for (j = 0; j < 3; j++) s.a[i][j] = SPH_R(A[i][j]);
+    }
+    sphi_lu_factor(3, &s);
+    sphi_lu_solve(3, &s, b);
+    for (i = 0; i < 3; i++) CHECK_CLOSE((double)b[i], i + 1.0, 16.0 * (double)SPH_EPSILON);
+}
+
 int main(void)
 {
     test_paper();
@@ -982,5 +998,6 @@ int main(void)
     test_rows();
     test_other_rows();
     test_singular_kappa();
+    test_pivots();
     return check_report("test_derivatives");
 }

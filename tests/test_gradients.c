@@ -656,6 +656,24 @@ static void test_small(void)
     CHECK(sph_solve_gradient(1, K, &C, &pivot) == SPH_SINGULAR);
 }
 
+/* positions up to half of the largest number: the difference of any two is one, too */
+static void test_far_positions(void)
+{
+    const sph_real half = SPH_R(0.5) * BY_PRECISION(SPH_R(1.7976931348623157e308), SPH_R(3.4028234663852886e38)), one = SPH_R(1);
+    const sph_index start[2] = {0, 0}, index[1] = {0};
+    sph_list list;
+    int over;
+    list.start = start;
+    list.index = index;
+    for (over = 0; over < 2; over++) {
+        const sph_real x = half * SPH_R(over ? 1.001 : 0.999);
+        sph_real out = SPH_R(7);
+        CHECK(sph_shepard_sum(SPH_CUBIC_SPLINE, 1, 0, 1, sph_points_separate(1, &x, 0, 0), list, sph_scalars_same(&one), sph_scalars_same(&one), &out) ==
+              (over ? SPH_ERROR_POSITION : 0));
+        CHECK((out == SPH_R(7)) == over);
+    }
+}
+
 int main(void)
 {
     test_shepard_sum();
@@ -668,5 +686,6 @@ int main(void)
     test_views();
     test_variable_h();
     test_small();
+    test_far_positions();
     return check_report("test_gradients");
 }
