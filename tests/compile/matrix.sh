@@ -119,8 +119,10 @@ fast="-O3 -march=native -ffast-math"
 has gcc && has g++ && pair "gcc C99 and g++ C++11, -O1" "gcc -std=c99 -O1 $basic" "g++ -x c++ -std=c++11 -O1 $basic" gcc
 has clang && has clang++ && pair "clang C2x and clang++ C++20, -O1" "clang -std=c2x -O1 $basic" "clang++ -x c++ -std=c++20 -O1 $basic" clang
 has tcc && pair "tcc" "tcc -Wall -Werror" "tcc -Wall -Werror" tcc
-has musl-gcc && pair "musl, -O0" "musl-gcc -std=c99 $basic" "musl-gcc -std=c99 $basic" "musl-gcc -static"
-has "gcc -m32" && pair "i686, x87, -O0" "gcc -m32 -std=c99 $basic" "gcc -m32 -std=c99 $basic" "gcc -m32"
+# without optimisation forced inlining is but more code to write: one copy of each function there
+once="'-DSPH_FN=static __attribute__((noinline, unused))'"
+has musl-gcc && pair "musl, -O0" "musl-gcc -std=c99 $basic $once" "musl-gcc -std=c99 $basic $once" "musl-gcc -static"
+has "gcc -m32" && pair "i686, x87, -O0" "gcc -m32 -std=c99 $basic $once" "gcc -m32 -std=c99 $basic $once" "gcc -m32"
 if [ "$full" ]; then
     for level in -O0 -O2 "$fast"; do
         for cc in gcc clang; do
