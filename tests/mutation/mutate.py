@@ -20,9 +20,9 @@ import tempfile
 import time
 
 HEADERS = ("sph_kernels.h", "sph_ops.h", "sph.h")
-# cheap ones first; those that name the function, or are of its subject, come before all; that of the search is slow, and for sph.h only
+# cheap ones first; those that name the function, or are of its subject, come before all; that of the search is slow, and for sph.h only (with those that call all functions)
 TESTS = "known_answers kernels collisions gravity density derivatives fluid invariance gradients contract degenerate elliptic cleaning periodic".split()
-SEARCH = ["neighbors", "periodic"]
+SEARCH = ["contract", "degenerate", "neighbors", "periodic"]
 SUBJECTS = {"mhd": "cleaning", "cleaning": "cleaning", "elliptic": "elliptic", "mobility": "elliptic", "row": "elliptic", "csr": "elliptic", "fluid": "fluid", "viscos": "fluid", "pressure": "fluid",
             "wall": "fluid", "colli": "collisions", "gravity": "gravity", "density": "density", "block": "derivatives", "cspm": "derivatives", "moment": "derivatives",
             "wls": "derivatives", "kernel": "kernels", "laplacian": "gradients"}
