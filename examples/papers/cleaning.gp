@@ -266,7 +266,7 @@ if (there("cleaning_collapse_fig5")) {
                         half = w == 0 ? 0.25 : 5
                         set xrange [-half:half]
                         set yrange [-half:half]
-                        if (q == 1) { if (w == 0) { set cbrange [0:4] } else { set cbrange [-2:2] } } else { set cbrange [-1:1] }
+                        if (q == 1) { if (w == 0) { set cbrange [0:4] } else { set cbrange [-2:2] } } else { set cbrange [-3:3] }
                         plot file every ::(1 + 14400 * w)::(14400 * (w + 1)) using 3:4:(q == 1 ? log10($5 + 1e-9) : $6) with image
                     }
                 }

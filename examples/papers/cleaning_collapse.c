@@ -485,7 +485,7 @@ static void compare(report *r, const char *size, const plan *pa, const outcome *
         const double ratio = x.error / y.error, robust = x.ratio / y.ratio;
         snprintf(text, sizeof text, "%.1f times at 7e-11 g/cm^3", ratio);
         claim(r, "Figure 5", size, "error before the sink, control / cleaned", "10 (an order of magnitude)", text, ratio >= 10,
-              "the control's error is smaller, the more particles there are; it grows steeply with the density just before the sink");
+              "the control's error falls faster with the number of particles than the cleaned one, which falls as h does");
         if (asserted) {
             report_range(r, "independent", size, "error before the sink (7e-11 g/cm^3), control / cleaned", 13, ratio, 5, HUGE_VAL);
             report_range(r, "independent", size, "ratio of means before the sink, control / cleaned", (double)NAN, robust, 6, HUGE_VAL);
@@ -500,7 +500,7 @@ static void compare(report *r, const char *size, const plan *pa, const outcome *
             else report_info(r, size, k ? pb->name : pa->name, "t_ff until the sink forms", both[k]->core.born / tff);
         snprintf(text, sizeof text, "%.2e / %.2e = %.3g within 5e-4 t_ff after the sink", peak_a, peak_b, peak_a / peak_b);
         claim(r, "Figure 6", size, "momentum made, control / cleaned", "100 (two orders of magnitude)", text, peak_a / peak_b >= 100,
-              "the control's momentum still rises when it stops; resistivity holds it back (less of it: -full)");
+              "the control's momentum still rises when it stops; resistivity and resolution hold it back");
         if (at_density(a, 1e-11 / unit_density(), &x)) {
             snprintf(text, sizeof text, "%.3g times what it was at 1e-11 g/cm^3", peak_a / x.moved);
             claim(r, "Figure 6", size, "control: a sharp increase at the peak of the density", "yes", text, peak_a / x.moved >= 5, "at this resolution");
