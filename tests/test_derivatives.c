@@ -970,6 +970,17 @@ static void test_singular_kappa(void)
     cloud_free(&c);
 }
 
+static void test_laplacian(void)
+{
+    int dim;
+    for (dim = 1; dim <= 3; dim++) {
+        const sph_jet d = sph_jet_laplacian(dim);
+        CHECK((double)d.hessian.xx == 1.0 && (double)d.hessian.yy == (dim > 1) && (double)d.hessian.zz == (dim > 2));
+        CHECK((double)d.hessian.xy == 0.0 && (double)d.hessian.xz == 0.0 && (double)d.hessian.yz == 0.0);
+        CHECK((double)d.gradient.x == 0.0 && (double)d.gradient.y == 0.0 && (double)d.gradient.z == 0.0);
+    }
+}
+
 /* pivots are chosen by their size, not by their sign */
 static void test_pivots(void)
 {
@@ -998,6 +1009,7 @@ int main(void)
     test_rows();
     test_other_rows();
     test_singular_kappa();
+    test_laplacian();
     test_pivots();
     return check_report("test_derivatives");
 }
