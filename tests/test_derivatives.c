@@ -202,8 +202,8 @@ static paper paper_at(int print, int n, const double *x, const double *V, const 
     p.icspm = p.cspm / p.kappa;
     p.bim = 0.0;
     if (i > 0 && i < n - 1) {
-        const double ends = (f[n - 1] - f[i]) / (x[n - 1] - x[i]) * sigma * paper_w((x[i] - x[n - 1]) / h) -
-                            (f[i] - f[0]) / (x[i] - x[0]) * sigma * paper_w((x[i] - x[0]) / h);
+        const double ends =
+            (f[n - 1] - f[i]) / (x[n - 1] - x[i]) * sigma * paper_w((x[i] - x[n - 1]) / h) - (f[i] - f[0]) / (x[i] - x[0]) * sigma * paper_w((x[i] - x[0]) / h);
         p.bim = print == BRACES_LOST ? 2.0 / gamma * slope + ends : 2.0 / gamma * (slope + ends);
     }
     return p;
@@ -436,7 +436,8 @@ static void check_exact(const cloud *c0)
         }
         if (c.dim < 3)
             for (i = 0; i < c.n; i++)
-                if (!isnan(got(&r, 2, i)) || !isnan(got(&r, 8, i)) || (c.dim < 2 && !isnan(got(&r, 4, i)))) break; /* components of higher dimensions are not written */
+                if (!isnan(got(&r, 2, i)) || !isnan(got(&r, 8, i)) || (c.dim < 2 && !isnan(got(&r, 4, i))))
+                    break; /* components of higher dimensions are not written */
         CHECK(i == c.n);
         derivatives_free(&r);
     }
@@ -478,13 +479,13 @@ static void test_square(void)
             CHECK_RELATIVE(h, known[size][method][1], BY_PRECISION(6e-4, 4e-2));
             if (method == ICSPM) {
                 const sph_index s = (sph_index)side;
-                CHECK(got(&r, CONDITIONING, 0) > 0.0);             /* corner */
-                CHECK(got(&r, CONDITIONING, 1) < 0.0);             /* its neighbours on the walls */
+                CHECK(got(&r, CONDITIONING, 0) > 0.0); /* corner */
+                CHECK(got(&r, CONDITIONING, 1) < 0.0); /* its neighbours on the walls */
                 CHECK(got(&r, CONDITIONING, s) < 0.0);
-                CHECK(got(&r, CONDITIONING, s / 2) < 0.0);         /* wall */
-                CHECK(got(&r, CONDITIONING, s + 1) > 0.0);         /* (1, 1) */
-                CHECK(got(&r, CONDITIONING, s + s / 2) > 0.0);     /* first layer */
-                CHECK(got(&r, CONDITIONING, 2 * s + s / 2) > 0.0); /* second layer */
+                CHECK(got(&r, CONDITIONING, s / 2) < 0.0);                          /* wall */
+                CHECK(got(&r, CONDITIONING, s + 1) > 0.0);                          /* (1, 1) */
+                CHECK(got(&r, CONDITIONING, s + s / 2) > 0.0);                      /* first layer */
+                CHECK(got(&r, CONDITIONING, 2 * s + s / 2) > 0.0);                  /* second layer */
                 CHECK_CLOSE(got(&r, CONDITIONING, s * (s / 2) + s / 2), 1.0, 1e-5); /* centre */
             }
             derivatives_free(&r);
@@ -500,7 +501,8 @@ static void test_square(void)
 /* ---- invariances ---- */
 
 /* Derivatives of the changed cloud must be those of the first one: component a times factor g (gradient) or g^2 (Hessian), axis a' = permutation[a] with its sign. */
-static void compare(const cloud *c, const derivatives *r, const derivatives *t, double g, const int *permutation, const int *sign, double tolerance, int same_pivots)
+static void compare(const cloud *c, const derivatives *r, const derivatives *t, double g, const int *permutation, const int *sign, double tolerance,
+                    int same_pivots)
 {
     static const int pair[3][3] = {{3, 4, 6}, {4, 5, 7}, {6, 7, 8}}; /* component of d_a d_b */
     double largest[2] = {0.0, 0.0}, off[2] = {0.0, 0.0}, conditioning = 0.0;
@@ -625,15 +627,24 @@ static int solve_by_hand(int method, int dim, const cloud *c, sph_index i, sph_j
 static double jet_component(const sph_jet *j, int a)
 {
     switch (a) {
-    case 0: return (double)j->gradient.x;
-    case 1: return (double)j->gradient.y;
-    case 2: return (double)j->gradient.z;
-    case 3: return (double)j->hessian.xx;
-    case 4: return (double)j->hessian.xy;
-    case 5: return (double)j->hessian.yy;
-    case 6: return (double)j->hessian.xz;
-    case 7: return (double)j->hessian.yz;
-    default: return (double)j->hessian.zz;
+    case 0:
+        return (double)j->gradient.x;
+    case 1:
+        return (double)j->gradient.y;
+    case 2:
+        return (double)j->gradient.z;
+    case 3:
+        return (double)j->hessian.xx;
+    case 4:
+        return (double)j->hessian.xy;
+    case 5:
+        return (double)j->hessian.yy;
+    case 6:
+        return (double)j->hessian.xz;
+    case 7:
+        return (double)j->hessian.yz;
+    default:
+        return (double)j->hessian.zz;
     }
 }
 static void jet_set(sph_jet *j, int a, double value)
@@ -832,7 +843,8 @@ static void check_applied(const cloud *c, const sph_real *row, const sph_real *v
 }
 
 #define OTHER_ROWS(dim) \
-    static void other_rows_##dim(const cloud *c, sph_real *row, sph_real *wx, sph_real *wy, sph_real *wz, sph_real *out, sph_real *gx, sph_real *gy, sph_real *gz) \
+    static void other_rows_##dim(const cloud *c, sph_real *row, sph_real *wx, sph_real *wy, sph_real *wz, sph_real *out, sph_real *gx, sph_real *gy, \
+                                 sph_real *gz) \
     { \
         const sph_points x = cloud_points(c); \
         const sph_list l = cloud_list(c); \
@@ -981,6 +993,31 @@ static void test_laplacian(void)
     }
 }
 
+/* the systems are scaled to unit diagonals: pivots, and so the conditioning that is reported, are relative to that */
+static void test_scales(void)
+{
+    int dim, i;
+    for (dim = 1; dim <= 3; dim++) {
+        cloud c = cloud_lattice(dim, dim == 1 ? 21 : 7, 1.3, 0.25, 5);
+        const sph_index middle = c.n / 2;
+        sph_moments m = sph_moments_zero();
+        sphi_blocks b;
+        sph_index p;
+        for (p = c.start[middle]; p < c.start[middle + 1]; p++) {
+            const sph_index j = c.index[p];
+            sph_vec e;
+            e.x = (c.x[j] - c.x[middle]) / c.h;
+            e.y = (c.y[j] - c.y[middle]) / c.h;
+            e.z = (c.z[j] - c.z[middle]) / c.h;
+            sph_moments_add(dim, &m, e, sph_test_weights_cspm(KERNEL, dim, sph_length(dim, e), c.V[j]));
+        }
+        CHECK(sphi_blocks_fill(dim, &m, &b) == 1);
+        for (i = 0; i < dim; i++) CHECK_CLOSE((double)b.K[i][i], 1.0, 8.0 * (double)SPH_EPSILON);
+        for (i = 0; i < dim * (dim + 1) / 2; i++) CHECK_CLOSE((double)b.M[i][i], 1.0, 8.0 * (double)SPH_EPSILON);
+        cloud_free(&c);
+    }
+}
+
 /* pivots are chosen by their size, not by their sign */
 static void test_pivots(void)
 {
@@ -1010,6 +1047,7 @@ int main(void)
     test_other_rows();
     test_singular_kappa();
     test_laplacian();
+    test_scales();
     test_pivots();
     return check_report("test_derivatives");
 }

@@ -127,7 +127,7 @@ static sph_index rows_boundary(int dim, sph_index first, sph_index last, const s
 }
 static sph_index diagnose(sph_index first, sph_index last, const setup *s, sph_elliptic_options o, sph_elliptic_report r)
 {
-    return sph_elliptic_diagnose(KERNEL, 2, first, last, s->x, cloud_list(&s->c), setup_h(s), cloud_V(&s->c), o, r);
+    return sph_elliptic_diagnose(KERNEL, s->c.dim, first, last, s->x, cloud_list(&s->c), setup_h(s), cloud_V(&s->c), o, r);
 }
 static sph_elliptic_options with(int gradient)
 {
@@ -1009,6 +1009,46 @@ static void test_assembly(void)
     setup_free(&s);
 }
 
+/* names of axes are only names: the eigenvalues of a disordered cloud in three dimensions */
+static void test_diagnose_axes(void)
+{
+    setup s = disordered(3, 1);
+    const sph_index n = s.c.n;
+    const sph_points x = s.x;
+    sph_real *const a = (sph_real *)cloud_memory(6 * (size_t)n, sizeof *a);
+    sph_elliptic_report r;
+    sph_index i;
+    int turn;
+    memset(&r, 0, sizeof r);
+    for (turn = 0; turn < 3; turn++) {
+        s.x.x = turn == 0 ? x.x : turn == 1 ? x.y : x.z;
+        s.x.y = turn == 0 ? x.y : turn == 1 ? x.z : x.x;
+        s.x.z = turn == 0 ? x.z : turn == 1 ? x.x : x.y;
+        r.eigenvalue_least = a + turn * n;
+        r.condition = a + (3 + turn) * n;
+        CHECK(diagnose(0, n, &s, with(SPH_GRADIENT_FULL), r) == 0);
+    }
+    for (turn = 1; turn < 3; turn++)
+        for (i = 0; i < n; i++) {
+            CHECK_CLOSE((double)a[turn * n + i], (double)a[i], BY_PRECISION(1e-9, 1e-2));
+            CHECK_RELATIVE((double)a[(3 + turn) * n + i], (double)a[3 * n + i], BY_PRECISION(1e-9, 1e-2));
+        }
+    free(a);
+    setup_free(&s);
+}
+
+/* Brookshaw's operator solves no system: its rows are as well conditioned as can be */
+static void test_conditioning(void)
+{
+    setup s = disordered(2, 0);
+    sph_row_out r = setup_rows(&s);
+    sph_index i;
+    r.conditioning = s.out;
+    CHECK(sph_elliptic_rows_brookshaw(KERNEL, 2, 0, s.c.n, s.x, cloud_list(&s.c), setup_h(&s), cloud_V(&s.c), sph_scalars_array(s.m), with(0), r) == 0);
+    for (i = 0; i < s.c.n; i++) CHECK(s.out[i] == SPH_R(1));
+    setup_free(&s);
+}
+
 /* only the full gradient has a part that does not lie along the pair */
 static void test_rest(void)
 {
@@ -1063,6 +1103,8 @@ int main(void)
     test_eigenvalues();
     test_promises();
     test_assembly();
+    test_diagnose_axes();
+    test_conditioning();
     test_rest();
     test_growth_positions();
     return check_report("test_elliptic");

@@ -466,8 +466,14 @@ typedef struct particle { /* an array of structs as a host might have it: sph_re
 
 enum { STRIDE = sizeof(particle) / sizeof(sph_real) };
 
-static sph_index derivatives_3d(const views *v, sph_derivative_out out) { return sph_derivatives_wls(KERNEL, 3, v->first, v->last, v->x, v->list, v->h, v->V, v->f, SPH_R(0), out); }
-static sph_index derivatives_2d(const views *v, sph_derivative_out out) { return sph_derivatives_wls(KERNEL, 2, v->first, v->last, v->x, v->list, v->h, v->V, v->f, SPH_R(0), out); }
+static sph_index derivatives_3d(const views *v, sph_derivative_out out)
+{
+    return sph_derivatives_wls(KERNEL, 3, v->first, v->last, v->x, v->list, v->h, v->V, v->f, SPH_R(0), out);
+}
+static sph_index derivatives_2d(const views *v, sph_derivative_out out)
+{
+    return sph_derivatives_wls(KERNEL, 2, v->first, v->last, v->x, v->list, v->h, v->V, v->f, SPH_R(0), out);
+}
 
 static sph_derivative_out arrays_out(sph_real *p, sph_index n)
 {
@@ -570,7 +576,8 @@ static void test_variable_h(void)
 {
     cloud c = cloud_lattice(1, 31, 2.0, 0.2, 9);
     views v = views_of(&c), one = v;
-    sph_real *const hs = (sph_real *)cloud_memory((size_t)c.n, sizeof *hs), *const out = (sph_real *)cloud_memory(2 * (size_t)c.n, sizeof *out), *const single = out + c.n;
+    sph_real *const hs = (sph_real *)cloud_memory((size_t)c.n, sizeof *hs), *const out = (sph_real *)cloud_memory(2 * (size_t)c.n, sizeof *out),
+                    *const single = out + c.n;
     sph_index i, differ = 0;
     cloud_set(&c, field_smooth);
     for (i = 0; i < c.n; i++) hs[i] = c.h * SPH_R(0.7 + 0.3 * (double)(i % 2));
@@ -674,6 +681,26 @@ static void test_far_positions(void)
     }
 }
 
+/* a gradient that leaves the range of numbers along one axis is 0 along all */
+static void test_overflow(void)
+{
+    const sph_index start[3] = {0, 1, 2}, index[2] = {1, 0};
+    const sph_real h = BY_PRECISION(SPH_R(1e-10), SPH_R(1e-3)), large = BY_PRECISION(SPH_R(1e300), SPH_R(1e37)), f[2] = {SPH_R(0), large};
+    sph_list list;
+    int dim, axis, k;
+    list.start = start;
+    list.index = index;
+    for (dim = 1; dim <= 3; dim++)
+        for (axis = 0; axis < dim; axis++) {
+            sph_real x[3][2] = {{0, 0}, {0, 0}, {0, 0}}, V = h * SPH_R(0.1), g[3][2] = {{7, 7}, {7, 7}, {7, 7}};
+            for (k = 1; k < dim; k++) V *= h;
+            x[axis][1] = h;
+            CHECK(sph_gradient_difference(SPH_CUBIC_SPLINE, dim, 0, 2, sph_points_separate(2, x[0], x[1], x[2]), list, sph_scalars_same(&h),
+                                          sph_scalars_same(&V), sph_scalars_array(f), g[0], g[1], g[2]) == 2);
+            for (k = 0; k < dim; k++) CHECK((double)g[k][0] == 0.0 && (double)g[k][1] == 0.0);
+        }
+}
+
 int main(void)
 {
     test_shepard_sum();
@@ -687,5 +714,6 @@ int main(void)
     test_variable_h();
     test_small();
     test_far_positions();
+    test_overflow();
     return check_report("test_gradients");
 }
