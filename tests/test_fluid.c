@@ -387,6 +387,17 @@ static void test_xsph(void)
     CHECK_CLOSE((double)q.momentum.x, 0.0, 50.0 * EPSILON * size);
     CHECK_CLOSE((double)q.momentum.y, 0.0, 50.0 * EPSILON * size);
     CHECK(drop < -0.1 * size * 0.1);
+    for (i = 0; i < f.c.n; i++) { /* one by one: dv_i = -epsilon sum m_j v_ij W / (mean density) */
+        double by_hand[2] = {0.0, 0.0};
+        sph_index p;
+        for (p = f.c.start[i]; p < f.c.start[i + 1]; p++) {
+            const sph_index j = f.c.index[p];
+            const double r = hypot((double)(f.c.x[i] - f.c.x[j]), (double)(f.c.y[i] - f.c.y[j]));
+            const double b = -0.5 * (double)f.m[j] / (0.5 * ((double)f.rho[i] + (double)f.rho[j])) * (double)sph_kernel_w(KERNEL, 2, SPH_R(r), f.c.h);
+            for (k = 0; k < 2; k++) by_hand[k] += b * ((double)f.v[k][i] - (double)f.v[k][j]);
+        }
+        for (k = 0; k < 2; k++) CHECK_CLOSE((double)f.a[k][i], by_hand[k], BY_PRECISION(1e-13, 1e-5));
+    }
     for (i = 0; i < f.c.n; i++) f.v[0][i] = SPH_R(3), f.v[1][i] = SPH_R(-2);
     CHECK(sph_velocity_xsph(KERNEL, 2, 0, f.c.n, cloud_points(&f.c), cloud_list(&f.c), cloud_h(&f.c), sph_scalars_array(f.m), sph_scalars_array(f.rho),
                             flow_v(&f), SPH_R(0.5), flow_a(&f)) == 0);
