@@ -1037,6 +1037,13 @@ static void test_diagnose_axes(void)
     setup_free(&s);
 }
 
+static void test_defaults(void)
+{
+    const sph_elliptic_options o = sph_elliptic_defaults();
+    CHECK(o.gradient == (int)SPH_GRADIENT_DIFFUSE && o.mean == (int)SPH_MOBILITY_ARITHMETIC && !o.gamma_star && !o.trace && !o.potential.p);
+    CHECK(!(o.conditioning_min > SPH_R(0)));
+}
+
 /* Brookshaw's operator solves no system: its rows are as well conditioned as can be */
 static void test_conditioning(void)
 {
@@ -1104,6 +1111,7 @@ int main(void)
     test_promises();
     test_assembly();
     test_diagnose_axes();
+    test_defaults();
     test_conditioning();
     test_rest();
     test_growth_positions();
