@@ -34,7 +34,7 @@ static inline int part_file_open(part_file *f, const char *dir, const char *name
     strcpy(f->path, f->part);
     f->path[length - (int)strlen(".part")] = '\0';
     errno = 0;
-    f->to = fopen(f->part, "w");
+    f->to = fopen(f->part, "wb"); /* restarts are binary */
     return f->to != NULL;
 }
 
