@@ -1018,6 +1018,19 @@ static void test_scales(void)
     }
 }
 
+/* what is no number in any derivative of this dimension is noticed, and what is of no dimension is not looked at */
+static void test_finite(void)
+{
+    static const int dimension[9] = {1, 2, 3, 1, 2, 2, 3, 3, 3}; /* of x, y, z, xx, xy, yy, xz, yz, zz */
+    int dim, a;
+    for (dim = 1; dim <= 3; dim++)
+        for (a = 0; a < 9; a++) {
+            sph_jet j = sph_jet_laplacian(3);
+            jet_set(&j, a, (double)NAN);
+            CHECK(sphi_jet_finite(dim, j) == (dimension[a] > dim));
+        }
+}
+
 /* pivots are chosen by their size, not by their sign */
 static void test_pivots(void)
 {
@@ -1048,6 +1061,7 @@ int main(void)
     test_singular_kappa();
     test_laplacian();
     test_scales();
+    test_finite();
     test_pivots();
     return check_report("test_derivatives");
 }
