@@ -681,6 +681,20 @@ static void test_far_positions(void)
     }
 }
 
+/* rows that begin before the list are refused, even if there is something that looks like an index */
+static void test_row_before_list(void)
+{
+    const sph_real x[2] = {SPH_R(0), SPH_R(1)}, one = SPH_R(1);
+    const sph_index start[3] = {-1, 0, 1}, index[3] = {1, 0, 0};
+    sph_real out[2] = {SPH_R(7), SPH_R(7)};
+    sph_list list;
+    list.start = start;
+    list.index = index + 1;
+    CHECK(sph_shepard_sum(SPH_CUBIC_SPLINE, 1, 0, 2, sph_points_separate(2, x, 0, 0), list, sph_scalars_same(&one), sph_scalars_same(&one), out) ==
+          SPH_ERROR_LIST);
+    CHECK((double)out[0] == 7.0 && (double)out[1] == 7.0);
+}
+
 /* a gradient that leaves the range of numbers along one axis is 0 along all */
 static void test_overflow(void)
 {
@@ -713,6 +727,7 @@ int main(void)
     test_views();
     test_variable_h();
     test_small();
+    test_row_before_list();
     test_far_positions();
     test_overflow();
     return check_report("test_gradients");
