@@ -4196,10 +4196,9 @@ SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k
                 const sph_real q =
                     SPH_R(0.25) * (alpha_i + sphi_at(s->alpha, j)) * speed * (w - SPHI_ABS(w)) * per_rho; /* alpha v_sig w / rho where they approach; <= 0 */
                 const sph_real eta = SPH_R(0.5) * (alpha_B_i + sphi_at(s->alpha_B, j)) * speed * per_rho * per_rho;
+                const sph_real push = q * G; /* times x: repels */
                 /* 0 beyond both supports; no comparison, which would keep gcc from vectorising */
                 v_sig[p - tile] = speed * (SPH_R(0.5) + SPHI_COPYSIGN(SPH_R(0.5), support * SPH_R(0.5) * (h_i + h_j + SPHI_ABS(h_i - h_j)) - c.r));
-                /* q G x / r: repels; the two tractions */
-                const sph_real push = q * G;
                 ax += m_j * (t_i.x * c.g_i + t_j.x * c.g_j + push * c.x.x);
                 ay += m_j * (t_i.y * c.g_i + t_j.y * c.g_j + push * c.x.y);
                 az += m_j * (t_i.z * c.g_i + t_j.z * c.g_j + push * c.x.z);

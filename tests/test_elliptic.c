@@ -1037,6 +1037,24 @@ static void test_diagnose_axes(void)
     setup_free(&s);
 }
 
+/* rounding counts as far as the weights are large: the diagonal of a row with the sum 0, a few units in the last place too small, of either sign and any size */
+static void test_monotone_rounding(void)
+{
+    static const double size[3] = {1e-6, 1, 1e6};
+    const sph_index start[2] = {0, 2}, index[2] = {1, 2};
+    sph_list list;
+    int sign, k;
+    list.start = start;
+    list.index = index;
+    for (sign = -1; sign <= 1; sign += 2)
+        for (k = 0; k < 3; k++) {
+            const sph_real row[2] = {SPH_R(0.5 * sign * size[k]), SPH_R(0.5 * sign * size[k])};
+            const sph_real within = SPH_R(-sign * size[k] * (1.0 - 32.0 * EPSILON)), beyond = SPH_R(-sign * size[k] * (1.0 - 128.0 * EPSILON));
+            CHECK(sph_rows_monotone(0, 1, 3, list, row, &within, 0) == 0);
+            CHECK(sph_rows_monotone(0, 1, 3, list, row, &beyond, 0) == 1);
+        }
+}
+
 static void test_defaults(void)
 {
     const sph_elliptic_options o = sph_elliptic_defaults();
@@ -1112,6 +1130,7 @@ int main(void)
     test_assembly();
     test_diagnose_axes();
     test_defaults();
+    test_monotone_rounding();
     test_conditioning();
     test_rest();
     test_growth_positions();

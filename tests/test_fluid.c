@@ -421,6 +421,8 @@ static void test_wall(void)
     sph_vec gravity = {SPH_R(0), SPH_R(0), SPH_R(0)};
     double worst_p = 0.0, worst_v = 0.0, slip = -1e9, across = 0.0;
     sph_index i, walls = 5 * 17;
+    sph_real before[2][5 * 17];
+    int slips;
     gravity.y = SPH_R(g);
     at_rest.x = at_rest.y = at_rest.z = sph_scalars_same(&zero);
     up.x = up.z = at_rest.x;
@@ -454,6 +456,26 @@ static void test_wall(void)
     }
     CHECK(slip < 0.0);
     CHECK_CLOSE(across, 0.0, BY_PRECISION(1e-12, 1e-5));
+    for (slips = 0; slips < 2; slips++) { /* seen by one who moves, everything moves */
+        const sph_real u[2] = {SPH_R(0.7), SPH_R(-0.4)};
+        sph_vectors moving = at_rest;
+        double worst = 0.0;
+        int k;
+        moving.x = sph_scalars_same(&u[0]);
+        moving.y = sph_scalars_same(&u[1]);
+        CHECK(sph_wall_adami(KERNEL, 2, 3 * 17, walls, cloud_points(&f.c), cloud_list(&f.c), cloud_h(&f.c), sph_scalars_array(share), sph_scalars_array(f.rho),
+                             sph_scalars_array(f.p), flow_v(&f), at_rest, gravity, slips ? up : none, f.rate, flow_a(&f), status) == 0);
+        for (i = 0; i < n; i++)
+            for (k = 0; k < 2; k++) {
+                f.v[k][i] += u[k];
+                if (i >= 3 * 17 && i < walls) before[k][i] = f.a[k][i];
+            }
+        CHECK(sph_wall_adami(KERNEL, 2, 3 * 17, walls, cloud_points(&f.c), cloud_list(&f.c), cloud_h(&f.c), sph_scalars_array(share), sph_scalars_array(f.rho),
+                             sph_scalars_array(f.p), flow_v(&f), moving, gravity, slips ? up : none, f.rate, flow_a(&f), status) == 0);
+        for (i = 3 * 17; i < walls; i++)
+            for (k = 0; k < 2; k++) worst = worse(worst, (double)f.a[k][i] - (double)before[k][i] - (double)u[k]);
+        CHECK_CLOSE(worst, 0.0, BY_PRECISION(1e-12, 1e-5));
+    }
     CHECK(sph_wall_adami(KERNEL, 2, 0, 17, cloud_points(&f.c), cloud_list(&f.c), cloud_h(&f.c), sph_scalars_array(share), sph_scalars_array(f.rho),
                          sph_scalars_array(f.p), flow_v(&f), at_rest, gravity, none, f.rate, flow_a(&f), status) == 17);
     CHECK(status[3] == SPH_TOO_FEW && f.rate[3] == SPH_R(0) && f.a[0][3] == SPH_R(0));

@@ -603,6 +603,7 @@ static void test_variable_h(void)
 
 static void test_small(void)
 {
+    int axis;
     sph_vec a, b;
     sph_sym K, C;
     sph_real pivot = SPH_R(-1);
@@ -657,6 +658,10 @@ static void test_small(void)
     CHECK(sph_solve_gradient(2, K, &C, &pivot) == SPH_SINGULAR);
     CHECK_CLOSE((double)C.xx, 7.0, 0.0);
     CHECK(sph_solve_gradient(3, K, &C, &pivot) == SPH_SINGULAR);
+    for (axis = 0; axis < 3; axis++) { /* one axis without a moment is enough */
+        const sph_sym axes = {SPH_R(axis != 0), SPH_R(0), SPH_R(axis != 1), SPH_R(0), SPH_R(0), SPH_R(axis != 2)};
+        CHECK(sph_solve_gradient(3, axes, &C, &pivot) == SPH_SINGULAR);
+    }
     K.xx = SPH_R(0);
     CHECK(sph_solve_gradient(1, K, &C, &pivot) == SPH_SINGULAR);
     K.xx = SPH_R(-1);
