@@ -623,7 +623,8 @@ static void test_components(void)
 /* one component alone that leaves the range of numbers: the whole vector is 0, and the particle counts as failed */
 static void test_overflow(void)
 {
-    const sph_real one = SPH_R(1), large = BY_PRECISION(SPH_R(1e300), SPH_R(1e38)), h = BY_PRECISION(SPH_R(1e-10), SPH_R(1e-3));
+    const sph_real one = SPH_R(1), large = BY_PRECISION(SPH_R(1e300), SPH_R(1e36)),
+                   h = BY_PRECISION(SPH_R(1e10), SPH_R(1e3)); /* a factor that is a number, times a length that is too much */
     const sph_index start[3] = {0, 1, 2}, index[2] = {1, 0};
     sph_list list;
     int dim, axis, k;
@@ -632,9 +633,12 @@ static void test_overflow(void)
     for (dim = 1; dim <= 3; dim++)
         for (axis = 0; axis < dim; axis++) {
             sph_real x[3][2] = {{0, 0}, {0, 0}, {0, 0}}, out[3][2] = {{7, 7}, {7, 7}, {7, 7}};
+            sph_real m = h * h * h;
             sph_gas g;
+            for (k = 1; k < dim; k++) m *= h;
             x[axis][1] = h;
-            g.m = g.rho = g.omega = sph_scalars_same(&one);
+            g.m = sph_scalars_same(&m);
+            g.rho = g.omega = sph_scalars_same(&one);
             CHECK(sph_gradient_symmetric(KERNEL, dim, 0, 2, sph_points_separate(2, x[0], x[1], x[2]), list, sph_scalars_same(&h), g, sph_scalars_same(&large),
                                          sph_vector_out_separate(out[0], out[1], out[2])) == 2);
             for (k = 0; k < dim; k++) CHECK((double)out[k][0] == 0.0 && (double)out[k][1] == 0.0);
