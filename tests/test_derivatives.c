@@ -624,34 +624,11 @@ static int solve_by_hand(int method, int dim, const cloud *c, sph_index i, sph_j
     return method == CSPM ? sph_solve_cspm(dim, &m, c->h, jet, conditioning) : sph_solve_block(dim, &m, c->h, jet, conditioning);
 }
 
-static double jet_component(const sph_jet *j, int a)
-{
-    switch (a) {
-    case 0:
-        return (double)j->gradient.x;
-    case 1:
-        return (double)j->gradient.y;
-    case 2:
-        return (double)j->gradient.z;
-    case 3:
-        return (double)j->hessian.xx;
-    case 4:
-        return (double)j->hessian.xy;
-    case 5:
-        return (double)j->hessian.yy;
-    case 6:
-        return (double)j->hessian.xz;
-    case 7:
-        return (double)j->hessian.yz;
-    default:
-        return (double)j->hessian.zz;
-    }
-}
-static void jet_set(sph_jet *j, int a, double value)
+static sph_real *jet_at(sph_jet *j, int a)
 {
     sph_real *const component[COMPONENTS] = {&j->gradient.x, &j->gradient.y, &j->gradient.z, &j->hessian.xx, &j->hessian.xy,
                                              &j->hessian.yy, &j->hessian.xz, &j->hessian.yz, &j->hessian.zz};
-    *component[a] = SPH_R(value);
+    return component[a];
 }
 
 static void test_pair_tier(void)
@@ -672,7 +649,7 @@ static void test_pair_tier(void)
                 sph_real k;
                 if (solve_by_hand(method, dim, &c, i, &j, &k) != SPH_OK) break;
                 for (a = 0; a < COMPONENTS; a++)
-                    if (in_dim(dim, a)) off[a > 2] = worse(off[a > 2], small * (jet_component(&j, a) - got(&r, a, i)));
+                    if (in_dim(dim, a)) off[a > 2] = worse(off[a > 2], small * ((double)*jet_at(&j, a) - got(&r, a, i)));
                 conditioning = worse(conditioning, (double)k - got(&r, CONDITIONING, i));
             }
             CHECK(i == c.n);
@@ -755,8 +732,8 @@ static void check_rows(int method, const cloud *c, const derivatives *r, sph_jet
         int a;
         for (a = 0; a < COMPONENTS; a++)
             if (in_dim(c->dim, a)) {
-                value += jet_component(&d, a) * got(r, a, i);
-                sizes += fabs(jet_component(&d, a) * got(r, a, i));
+                value += (double)*jet_at(&d, a) * got(r, a, i);
+                sizes += fabs((double)*jet_at(&d, a) * got(r, a, i));
             }
         scale = (magnitude + fabs((double)w->factor[i]) * sizes) / small;
         off = worse(off, (applied - (double)w->factor[i] * value) / scale);
@@ -792,7 +769,7 @@ static void test_rows(void)
             check_rows(method, &c, &r, sph_jet_laplacian(dim), &w);
             for (a = 0; a <= COMPONENTS; a++) { /* each derivative alone, and all at random */
                 sph_jet d;
-                for (b = 0; b < COMPONENTS; b++) jet_set(&d, b, a == COMPONENTS ? cloud_symmetric(&g) : a == b ? 1.0 : 0.0);
+                for (b = 0; b < COMPONENTS; b++) *jet_at(&d, b) = SPH_R(a == COMPONENTS ? cloud_symmetric(&g) : a == b ? 1.0 : 0.0);
                 if (a == COMPONENTS || in_dim(dim, a)) check_rows(method, &c, &r, d, &w);
             }
             {
@@ -1026,7 +1003,7 @@ static void test_finite(void)
     for (dim = 1; dim <= 3; dim++)
         for (a = 0; a < 9; a++) {
             sph_jet j = sph_jet_laplacian(3);
-            jet_set(&j, a, (double)NAN);
+            *jet_at(&j, a) = SPH_R(NAN);
             CHECK(sphi_jet_finite(dim, j) == (dimension[a] > dim));
         }
 }

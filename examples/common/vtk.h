@@ -83,6 +83,15 @@ static inline void vtk_series_begin(vtk_series *s, const char *dir, const char *
     s->count = 0;
 }
 
+/* Makes room for one picture more, of this time; it counts once it is written. */
+static inline int vtk_series_room(vtk_series *s, double time)
+{
+    double *const times = (double *)realloc(s->time, (size_t)(s->count + 1) * sizeof *times);
+    if (!times) return 0;
+    s->time = times;
+    s->time[s->count] = time;
+    return 1;
+}
 /* After vtk_series_begin: a run that goes on from this time keeps what its series has from before. */
 static inline void vtk_series_resume(vtk_series *s, double from_time)
 {
@@ -92,10 +101,8 @@ static inline void vtk_series_resume(vtk_series *s, double from_time)
     if (snprintf(path, sizeof path, "%s/%s.pvd", s->dir, s->name) >= (int)sizeof path || !(from = fopen(path, "r"))) return;
     while (fgets(line, sizeof line, from))
         if (sscanf(line, "<DataSet timestep=\"%lf\"", &time) == 1 && time < from_time - 1e-9 * fabs(from_time)) {
-            double *const times = (double *)realloc(s->time, (size_t)(s->count + 1) * sizeof *times);
-            if (!times) break;
-            s->time = times;
-            s->time[s->count++] = time;
+            if (!vtk_series_room(s, time)) break;
+            s->count++;
         }
     fclose(from);
 }
@@ -105,10 +112,7 @@ static inline int vtk_series_add(vtk_series *s, double time, int n, const double
     char name[PART_FILE_PATH];
     part_file f;
     int k;
-    double *const times = (double *)realloc(s->time, (size_t)(s->count + 1) * sizeof *times);
-    if (!times) return 0;
-    s->time = times;
-    s->time[s->count] = time;
+    if (!vtk_series_room(s, time)) return 0;
     errno = ENAMETOOLONG;
     if (snprintf(name, sizeof name, "%s_%04d", s->name, s->count) >= (int)sizeof name) return 0;
     if (!vtk_write_points(s->dir, name, n, x, y, z, fields, count)) return 0;

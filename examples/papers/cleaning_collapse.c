@@ -626,32 +626,29 @@ int main(int argc, char **argv)
     report_open(&r, "cleaning_collapse", s.out);
     figure_folder(s.figures);
     signal(SIGINT, interrupt);
-#define PLAN(title, clean, number, resistivity, longer, most) \
+#define PLAN(title, clean, number, same, resistivity, longer, most) \
     do { \
-        const plan p = {title, clean, number, everywhere, resistivity, end * free_fall(), (longer)*free_fall(), 0, most}; \
+        const plan p = {title, clean, number, same, resistivity, end * free_fall(), (longer)*free_fall(), 0, most}; \
         plans[count++] = p; \
         s.work += pow(p.particles, 4.0 / 3); \
     } while (0)
     if (particles > 0) {
-        if (strcmp(which, "cleaned") != 0) PLAN("control", 0, particles, alpha_B, after < 0 ? 5e-4 : after, 20000);
-        if (strcmp(which, "control") != 0) PLAN("cleaned", 1, particles, alpha_B, after < 0 ? 0.02 : after, 0);
+        if (strcmp(which, "cleaned") != 0) PLAN("control", 0, particles, everywhere, alpha_B, after < 0 ? 5e-4 : after, 20000);
+        if (strcmp(which, "control") != 0) PLAN("cleaned", 1, particles, everywhere, alpha_B, after < 0 ? 0.02 : after, 0);
     } else {
-        PLAN("control", 0, 2000, alpha_B, 5e-4, 800);
-        PLAN("cleaned", 1, 2000, alpha_B, s.full ? 0.02 : 0.01, 0);
+        PLAN("control", 0, 2000, everywhere, alpha_B, 5e-4, 800);
+        PLAN("cleaned", 1, 2000, everywhere, alpha_B, s.full ? 0.02 : 0.01, 0);
         if (s.full) {
-            const int both = everywhere;
-            PLAN("control with alpha_B = 0", 0, 2000, 0, 5e-4, 2000);
-            PLAN("cleaned with alpha_B = 0", 1, 2000, 0, 0.02, 0);
-            everywhere = 1;
-            PLAN("control with alpha_B = 0.1 everywhere", 0, 2000, 0.1, 5e-4, 2000);
-            PLAN("cleaned with alpha_B = 0.1 everywhere", 1, 2000, 0.1, 0.02, 0);
-            everywhere = both;
-            PLAN("control", 0, 10000, alpha_B, 5e-3, 2000);
-            PLAN("cleaned", 1, 10000, alpha_B, 1, 0);
-            PLAN("control with alpha_B = 0", 0, 10000, 0, 5e-4, 2000);
-            PLAN("cleaned with alpha_B = 0", 1, 10000, 0, 5e-4, 0);
-            PLAN("control", 0, 30000, alpha_B, 5e-4, 2000);
-            PLAN("cleaned", 1, 30000, alpha_B, 0.02, 0);
+            PLAN("control with alpha_B = 0", 0, 2000, everywhere, 0, 5e-4, 2000);
+            PLAN("cleaned with alpha_B = 0", 1, 2000, everywhere, 0, 0.02, 0);
+            PLAN("control with alpha_B = 0.1 everywhere", 0, 2000, 1, 0.1, 5e-4, 2000);
+            PLAN("cleaned with alpha_B = 0.1 everywhere", 1, 2000, 1, 0.1, 0.02, 0);
+            PLAN("control", 0, 10000, everywhere, alpha_B, 5e-3, 2000);
+            PLAN("cleaned", 1, 10000, everywhere, alpha_B, 1, 0);
+            PLAN("control with alpha_B = 0", 0, 10000, everywhere, 0, 5e-4, 2000);
+            PLAN("cleaned with alpha_B = 0", 1, 10000, everywhere, 0, 5e-4, 0);
+            PLAN("control", 0, 30000, everywhere, alpha_B, 5e-4, 2000);
+            PLAN("cleaned", 1, 30000, everywhere, alpha_B, 0.02, 0);
         }
     }
 #undef PLAN

@@ -33,7 +33,7 @@ typedef struct collapse_model {
     double theta;                     /* of the tree; 0: direct summation */
     double alpha_B;                   /* resistivity; with `switches` the most of it: alpha_B min(1, h |curl B| / |B|) */
     double alpha_min, alpha_max, sigma, tensile;
-    double radius, rho_sink; /* of the sink; rho_sink 0: never */
+    double radius, rho_sink;            /* of the sink; rho_sink 0: never */
     int cleans, zeta, switches, unused; /* a restart compares all bytes: no gaps */
 } collapse_model;
 
@@ -106,10 +106,7 @@ static inline void collapse_free(collapse *g)
 /* ---- views ---- */
 
 static inline sph_scalars collapse_field(const collapse *g, int which) { return sph_scalars_array(g->a[which]); }
-static inline sph_vectors collapse_vectors(const collapse *g, int which)
-{
-    return sph_vectors_separate(g->a[which], g->a[which + 1], g->a[which + 2]);
-}
+static inline sph_vectors collapse_vectors(const collapse *g, int which) { return sph_vectors_separate(g->a[which], g->a[which + 1], g->a[which + 2]); }
 static inline sph_vector_out collapse_into(double *const *a) { return sph_vector_out_separate(a[0], a[1], a[2]); }
 static inline sph_points collapse_open(const collapse *g) { return sph_points_separate(g->s.n, g->a[X], g->a[Y], g->a[Z]); }
 static inline sph_points collapse_points(const collapse *g) { return sph_points_periodic(collapse_open(g), g->model.box, g->model.box, g->model.box); }
@@ -155,6 +152,12 @@ static inline void collapse_vector_of(double *const *a, int which, sph_index i, 
     for (c = 0; c < 3; c++) v[c] = a[which + c][i];
 }
 static inline double collapse_length(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+static inline double collapse_length_of(double *const *a, int which, sph_index i)
+{
+    double v[3];
+    collapse_vector_of(a, which, i, v);
+    return collapse_length(v);
+}
 
 /* Sweeps over ranges of the gas, by the threads of the driver where it is compiled with them */
 typedef sph_index (*collapse_sweep)(collapse *g, sph_index first, sph_index last);
@@ -292,12 +295,8 @@ static inline sph_index collapse_resistivity_sweep(collapse *g, sph_index first,
     const sph_index failed = sph_curl_difference(COLLAPSE_KERNEL, 3, first, last, collapse_points(g), collapse_list(g), collapse_field(g, H), collapse_gas(g),
                                                  collapse_vectors(g, BX), collapse_into(&g->rate[BX]));
     sph_index i;
-    for (i = first; i < last; i++) {
-        double curl[3], B[3];
-        collapse_vector_of(g->rate, BX, i, curl);
-        collapse_vector_of(g->a, BX, i, B);
-        g->a[ALPHA_B][i] = sph_resistivity_switch(g->model.alpha_B, g->a[H][i], collapse_length(curl), collapse_length(B));
-    }
+    for (i = first; i < last; i++)
+        g->a[ALPHA_B][i] = sph_resistivity_switch(g->model.alpha_B, g->a[H][i], collapse_length_of(g->rate, BX, i), collapse_length_of(g->a, BX, i));
     return failed;
 }
 static inline sph_index collapse_rates_sweep(collapse *g, sph_index first, sph_index last)
@@ -360,7 +359,7 @@ static inline void collapse_errors(collapse *g)
     sph_index i;
     g->s.error = g->s.error_cloud = 0;
     for (i = 0; i < g->s.n; i++) {
-        const double B = sqrt(g->a[BX][i] * g->a[BX][i] + g->a[BY][i] * g->a[BY][i] + g->a[BZ][i] * g->a[BZ][i]), e = g->a[H][i] * fabs(g->a[DIV_B][i]);
+        const double B = collapse_length_of(g->a, BX, i), e = g->a[H][i] * fabs(g->a[DIV_B][i]);
         g->s.error += e / B;
         if (!(g->a[MEDIUM][i] > 0)) {
             g->s.error_cloud += e / B;
@@ -414,8 +413,7 @@ static inline double collapse_longest_step(const collapse *g, sph_index *shortes
     *shortest = 0;
     for (i = 0; i < g->s.n; i++) {
         const double speed = g->model.cleans ? fmax(g->a[SPEED][i], g->s.ch) : g->a[SPEED][i];
-        const double a = sqrt(g->rate[VX][i] * g->rate[VX][i] + g->rate[VY][i] * g->rate[VY][i] + g->rate[VZ][i] * g->rate[VZ][i]);
-        const double own = fmin(g->a[H][i] / speed, 0.8 * sqrt(g->a[H][i] / a));
+        const double own = fmin(g->a[H][i] / speed, 0.8 * sqrt(g->a[H][i] / collapse_length_of(g->rate, VX, i)));
         if (own < dt) {
             dt = own;
             *shortest = i;
