@@ -123,10 +123,14 @@ typedef struct sph_grid {
 } sph_grid;
 
 enum {
-    SPHI_FINE = 8,     /* cells along x per reach */
-    SPHI_PAD = 16,     /* slots beyond the last that whole lanes may read */
-    SPHI_FARTHEST = 32 /* largest radius / reach: bounds the number of cells that a row looks at */
+    SPHI_FINE = 8,      /* cells along x per reach */
+    SPHI_PAD = 16,      /* slots beyond the last that whole lanes may read */
+    SPHI_FARTHEST = 32, /* largest radius / reach: bounds the number of cells that a row looks at */
+    SPHI_CROWDS = 8     /* crowded cells whose bounds are remembered from one target to the next */
 };
+#ifndef SPHI_CROWDED
+#define SPHI_CROWDED 1024 /* a cell of so many particles is crowded; tests take fewer */
+#endif
 
 /* Bytes of a slot's coordinates: in this memory the buckets of the particles wait until all have their slots. */
 SPH_FN size_t sphi_place_size(int dim)
@@ -386,6 +390,17 @@ SPH_FN sph_index sph_grid_renumber(sph_grid *grid)
 
 /* ================================================================ lists */
 
+/* The particles of a crowded cell lie between these corners, and none of their radii is below the least one. */
+typedef struct sphi_crowd {
+    size_t bucket;
+    sph_vec low, high;
+    sph_real least;
+} sphi_crowd;
+typedef struct sphi_crowds {
+    sphi_crowd of[SPHI_CROWDS];
+    int count, next; /* how many are known; the one that the next will replace */
+} sphi_crowds;
+
 /* What a row asks for. */
 typedef struct sphi_search {
     sph_vec p;             /* the target, inside the box */
@@ -395,6 +410,7 @@ typedef struct sphi_search {
     sph_scalars source;    /* R_j */
     int criterion;         /* how own and source make the pair's radius */
     sph_index skip, least; /* not the particle skip; only particles from least on */
+    sphi_crowds *crowds;
 } sphi_search;
 
 /* Cells x0 ... x1 of a row along x, and the image they are seen in: `shift` is 0 or whole box lengths. */
@@ -654,6 +670,125 @@ SPH_FN int64_t sphi_image(int64_t cells, int64_t *c)
     return image;
 }
 
+/* ---- crowded cells: where many particles have collapsed into a small place, rows are as long as the cloud. A cell
+   that lies within the radius as a whole is then taken, or counted, without a look at its particles. The result is
+   the one that distances give. */
+
+/* the first slot of a ... b - 1 whose particle is not below j; the slots of a bucket are in the order of their particles */
+SPH_FN sph_index sphi_lower_bound(const sph_grid *g, sph_index a, sph_index b, sph_index j)
+{
+    while (a < b) {
+        const sph_index middle = a + (b - a) / 2;
+        if (g->member[middle] < j) a = middle + 1;
+        else b = middle;
+    }
+    return a;
+}
+SPH_FN sph_real sphi_source_radius(const sph_grid *g, const sphi_search *s, sph_index slot)
+{
+    return s->criterion == SPH_GATHER ? SPH_R(0) : sphi_at(s->source, g->member[slot]);
+}
+SPH_FN void sphi_crowd_add(int dim, const sph_grid *g, const sphi_search *s, sph_index slot, sphi_crowd *crowd)
+{
+    sph_vec p;
+    const sph_real R = sphi_source_radius(g, s, slot);
+    p.x = g->x[slot];
+    p.y = dim > 1 ? g->y[slot] : SPH_R(0);
+    p.z = dim > 2 ? g->z[slot] : SPH_R(0);
+    sphi_enclose(p, &crowd->low, &crowd->high);
+    if (R < crowd->least) crowd->least = R;
+}
+SPH_FN sphi_crowd sphi_crowd_of(int dim, const sph_grid *g, const sphi_search *s, size_t bucket, sph_index a, sph_index b, sph_index step)
+{
+    sphi_crowd crowd;
+    crowd.bucket = bucket;
+    crowd.low.x = crowd.high.x = g->x[a];
+    crowd.low.y = crowd.high.y = dim > 1 ? g->y[a] : SPH_R(0);
+    crowd.low.z = crowd.high.z = dim > 2 ? g->z[a] : SPH_R(0);
+    crowd.least = sphi_source_radius(g, s, a);
+    for (; a < b - step; a += step) sphi_crowd_add(dim, g, s, a, &crowd);
+    sphi_crowd_add(dim, g, s, b - 1, &crowd);
+    return crowd;
+}
+/* square of the distance to the farther end of an interval */
+SPH_FN sph_real sphi_farther2(sph_real p, sph_real low, sph_real high, sph_real shift)
+{
+    const sph_real l = SPHI_ABS((p - low) - shift), h = SPHI_ABS((p - high) - shift);
+    return l > h ? l * l : h * h;
+}
+/* Whether all of a crowd are in the run and nearer than their radii, by so much that no rounding of theirs can tell otherwise. */
+SPH_FN int sphi_crowd_near(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, const sphi_crowd *crowd)
+{
+    const sph_real R = sphi_lesser(sphi_pair_radius(s->criterion, s->own, crowd->least), s->widest);
+    const sph_vec shift = run->shift, low = crowd->low, high = crowd->high;
+    sph_real d2 = sphi_farther2(s->p.x, low.x, high.x, shift.x);
+    if (g->dim > 1) d2 += sphi_farther2(s->p.y, low.y, high.y, shift.y);
+    if (g->dim > 2) d2 += sphi_farther2(s->p.z, low.z, high.z, shift.z);
+    if (!(d2 < R * R * (SPH_R(1) - SPH_R(64) * SPH_EPSILON))) return 0;
+    if (kind != SPHI_HASHED) return 1;
+    if (sphi_cell(low.x, g->low.x, g->inverse_width.x, g->cells[0]) < run->x0) return 0;
+    if (sphi_cell(high.x, g->low.x, g->inverse_width.x, g->cells[0]) > run->x1) return 0;
+    if (g->dim > 1 && sphi_cell(low.y, g->low.y, g->inverse_width.y, g->cells[1]) != run->y) return 0;
+    if (g->dim > 1 && sphi_cell(high.y, g->low.y, g->inverse_width.y, g->cells[1]) != run->y) return 0;
+    if (g->dim > 2 && sphi_cell(low.z, g->low.z, g->inverse_width.z, g->cells[2]) != run->z) return 0;
+    return g->dim < 3 || sphi_cell(high.z, g->low.z, g->inverse_width.z, g->cells[2]) == run->z;
+}
+/* Whether all particles of a bucket are neighbours, as far as can be told without a look at each. */
+SPH_FN int sphi_crowd_taken(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, size_t bucket)
+{
+    const sph_index a = g->first[bucket], b = g->first[bucket + 1];
+    sphi_crowds *const known = s->crowds;
+    sphi_crowd crowd;
+    int i;
+    if (b - a < SPHI_CROWDED) return 0;
+    crowd = sphi_crowd_of(g->dim, g, s, bucket, a, b, (b - a) / 4 + 1); /* of a few: bounds of a wide crowd would be of no use */
+    if (!sphi_crowd_near(kind, g, s, run, &crowd)) return 0;
+    for (i = 0; i < known->count && known->of[i].bucket != bucket; i++) {}
+    if (i == known->count) {
+        i = known->next;
+        known->of[i] = sphi_crowd_of(g->dim, g, s, bucket, a, b, 1);
+        known->next = (i + 1) % SPHI_CROWDS;
+        if (i == known->count) known->count++;
+    }
+    return sphi_crowd_near(kind, g, s, run, &known->of[i]);
+}
+SPHI_LARGE int sphi_has_crowd(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, size_t from, size_t to)
+{
+    while (from < to && !sphi_crowd_taken(kind, g, s, run, from)) from++;
+    return from < to;
+}
+/* All of the slots a ... b - 1 of one bucket: as sphi_filter would, but for the distances. */
+SPHI_LARGE int64_t sphi_take(const sph_grid *g, const sphi_search *s, sph_index a, sph_index b, sph_index *out, int64_t room, int64_t count)
+{
+    sph_index m = sphi_lower_bound(g, a, b, s->least);
+    const sph_index own = sphi_lower_bound(g, m, b, s->skip);
+    const int64_t end = count + (b - m) - (own < b && g->member[own] == s->skip);
+    for (; m < b && count < room; m++) {
+        out[count] = g->member[m];
+        count += g->member[m] != s->skip;
+    }
+    return end;
+}
+/* A run with a crowd in it; not specialised, because what is not taken as a whole is little. */
+SPHI_LARGE int64_t sphi_filter_crowded(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, size_t from, size_t to, sph_index *out,
+                                       int64_t room, int64_t count)
+{
+    for (; from < to; from++) {
+        const sph_index a = g->first[from], b = g->first[from + 1];
+        if (sphi_crowd_taken(kind, g, s, run, from)) count = sphi_take(g, s, a, b, out, room, count);
+        else if (a < b) count = sphi_filter(g->dim, kind, g, s, run, a, b, out, room, count);
+    }
+    return count;
+}
+/* The buckets from ... to - 1, which follow each other. */
+SPH_FN int64_t sphi_buckets(int dim, int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, size_t from, size_t to, sph_index *out,
+                            int64_t room, int64_t count)
+{
+    const sph_index a = g->first[from], b = g->first[to];
+    if (b - a >= SPHI_CROWDED && sphi_has_crowd(kind, g, s, run, from, to)) return sphi_filter_crowded(kind, g, s, run, from, to, out, room, count);
+    return sphi_filter(dim, kind, g, s, run, a, b, out, room, count);
+}
+
 /* The neighbours of one target: filters, or with count_all just counts the candidates. Adds their number to *candidates. */
 SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search *s, int count_all, sph_index *out, int64_t room, int64_t *candidates)
 {
@@ -670,10 +805,9 @@ SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search 
         SPHI_OPEN) { /* the same as below, with nothing to wrap. Looking at rows near the rim over less of their length, or not at all, costs more than it saves. */
         for (z = z0; z <= z1; z++)
             for (y = y0; y <= y1; y++) {
-                const sph_index *const row = g->first + (z * g->cells[1] + y) * g->cells[0];
-                const sph_index a = row[x0], b = row[x1 + 1];
-                *candidates += b - a;
-                if (!count_all) count = sphi_filter(dim, kind, g, s, &run, a, b, out, room, count);
+                const size_t row = (size_t)((z * g->cells[1] + y) * g->cells[0]), from = row + (size_t)x0, to = row + (size_t)x1 + 1;
+                *candidates += g->first[to] - g->first[from];
+                if (!count_all) count = sphi_buckets(dim, kind, g, s, &run, from, to, out, room, count);
             }
         return count;
     }
@@ -698,7 +832,7 @@ SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search 
                     if (hashed) from &= g->buckets - 1;
                     to = from + left < g->buckets ? from + left : g->buckets;
                     *candidates += g->first[to] - g->first[from];
-                    if (!count_all) count = sphi_filter(dim, kind, g, s, &run, g->first[from], g->first[to], out, room, count);
+                    if (!count_all) count = sphi_buckets(dim, kind, g, s, &run, from, to, out, room, count);
                     left -= to - from;
                     from = to;
                 }
@@ -743,24 +877,28 @@ typedef struct sphi_job {
 
 /* SPHI_APPEND: rows one after the other to index[0 ... room - 1], lengths to start[i + 1]. In two passes: SPHI_LENGTHS to start[i + 1], and, once these are starts, SPHI_PLACE each row
    where it belongs: for targets stored in an order far from that of the cells, which are then visited by slots, where near targets follow each other. */
-enum { SPHI_APPEND, SPHI_LENGTHS, SPHI_PLACE, SPHI_BUFFER = 1024 };
+enum { SPHI_APPEND, SPHI_LENGTHS, SPHI_PLACE, SPHI_BUFFER = 768 };
 
-/* One compiled copy for all three, so that a row is placed with the roundings with which it was counted. Returns the sum of the lengths. Once that is beyond the room, 2^28 more candidates are looked at; for the rest the number of candidates stands for the number of neighbours: more
-   than enough, and no n^2 steps. */
-SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room)
+/* One compiled copy for all three, so that a row is placed with the roundings with which it was counted: start, which
+   PLACE reads, holds what LENGTHS or APPEND counted. Returns the sum of the lengths, none of them estimated, and adds
+   the number of candidates, which is never less, to *candidates. Only once the sum is more than sph_index can count,
+   where there will be no list, are candidates alone looked at. */
+SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room, int64_t *candidates)
 {
     const sph_grid *const g = job->g;
-    const int64_t most = room > 0 ? room : SPHI_INDEX_MAX;
-    int64_t total = 0, patience = (int64_t)1 << 28;
+    int64_t total = 0;
     sph_index buffer[SPHI_BUFFER], k;
+    sphi_crowds crowds;
     sphi_search s;
+    crowds.count = crowds.next = 0;
+    s.crowds = &crowds;
     s.widest = job->widest;
     s.source = job->source_radius;
     s.criterion = job->criterion;
     for (k = first; k < last; k++) {
         const sph_index i = job->by_slots ? g->member[k] : k;
         const int64_t left = mode == SPHI_APPEND && room > total ? room - total : 0;
-        int64_t candidates = 0, count;
+        int64_t count;
         sph_index *row = index, p;
         int64_t row_room = left;
         int buffered;
@@ -780,22 +918,22 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
         s.skip = job->flags & (SPH_LIST_SELF | SPH_LIST_FOREIGN) ? -1 : i;
         s.least = job->flags & SPH_LIST_HALF ? i : 0;
         buffered = mode == SPHI_PLACE && row_room <= SPHI_BUFFER / 2;
-        count = sphi_row(dim, kind, g, &s, patience <= 0, buffered ? buffer : row, buffered ? (int64_t)SPHI_BUFFER : row_room, &candidates);
+        count = sphi_row(dim, kind, g, &s, total > SPHI_INDEX_MAX, buffered ? buffer : row, buffered ? (int64_t)SPHI_BUFFER : row_room, candidates);
+        SPH_ASSERT(mode != SPHI_PLACE || count == row_room);
         for (p = 0; buffered && p < (sph_index)row_room; p++) row[p] = buffer[p];
-        if (patience <= 0) count = candidates;
         if (mode != SPHI_LENGTHS && (job->flags & SPH_LIST_SORTED) && count <= row_room) sphi_sort(row, (sph_index)count);
         if (mode != SPHI_PLACE) {
+            SPH_ASSERT(count <= g->n);
             total += count;
-            if (total > most) patience -= candidates;
-            job->start[i + 1] = (sph_index)(count < SPHI_INDEX_MAX ? count : SPHI_INDEX_MAX);
+            job->start[i + 1] = (sph_index)count;
         }
     }
     return total;
 }
 #define SPHI_PASS(name, dim, kind) \
-    SPHI_LARGE int64_t name(int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room) \
+    SPHI_LARGE int64_t name(int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room, int64_t *candidates) \
     { \
-        return sphi_pass(dim, kind, mode, job, first, last, index, room); \
+        return sphi_pass(dim, kind, mode, job, first, last, index, room, candidates); \
     }
 SPHI_PASS(sphi_pass_hashed_1, 1, SPHI_HASHED)
 SPHI_PASS(sphi_pass_hashed_2, 2, SPHI_HASHED)
@@ -810,57 +948,61 @@ SPHI_PASS(sphi_pass_open_1, 1, SPHI_OPEN)
 SPHI_PASS(sphi_pass_open_2, 2, SPHI_OPEN)
 SPHI_PASS(sphi_pass_open_3, 3, SPHI_OPEN)
 #undef SPHI_PASS
-SPH_FN int64_t sphi_pass_part(int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room)
+SPH_FN int64_t sphi_pass_part(int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room, int64_t *candidates)
 {
     switch (job->kind * 4 + job->g->dim) {
     case SPHI_HASHED * 4 + 1:
-        return sphi_pass_hashed_1(mode, job, first, last, index, room);
+        return sphi_pass_hashed_1(mode, job, first, last, index, room, candidates);
     case SPHI_HASHED * 4 + 2:
-        return sphi_pass_hashed_2(mode, job, first, last, index, room);
+        return sphi_pass_hashed_2(mode, job, first, last, index, room, candidates);
     case SPHI_HASHED * 4 + 3:
-        return sphi_pass_hashed_3(mode, job, first, last, index, room);
+        return sphi_pass_hashed_3(mode, job, first, last, index, room, candidates);
     case SPHI_RADII * 4 + 1:
-        return sphi_pass_radii_1(mode, job, first, last, index, room);
+        return sphi_pass_radii_1(mode, job, first, last, index, room, candidates);
     case SPHI_RADII * 4 + 2:
-        return sphi_pass_radii_2(mode, job, first, last, index, room);
+        return sphi_pass_radii_2(mode, job, first, last, index, room, candidates);
     case SPHI_RADII * 4 + 3:
-        return sphi_pass_radii_3(mode, job, first, last, index, room);
+        return sphi_pass_radii_3(mode, job, first, last, index, room, candidates);
     case SPHI_BOXED * 4 + 1:
-        return sphi_pass_boxed_1(mode, job, first, last, index, room);
+        return sphi_pass_boxed_1(mode, job, first, last, index, room, candidates);
     case SPHI_BOXED * 4 + 2:
-        return sphi_pass_boxed_2(mode, job, first, last, index, room);
+        return sphi_pass_boxed_2(mode, job, first, last, index, room, candidates);
     case SPHI_BOXED * 4 + 3:
-        return sphi_pass_boxed_3(mode, job, first, last, index, room);
+        return sphi_pass_boxed_3(mode, job, first, last, index, room, candidates);
     case SPHI_OPEN * 4 + 1:
-        return sphi_pass_open_1(mode, job, first, last, index, room);
+        return sphi_pass_open_1(mode, job, first, last, index, room, candidates);
     case SPHI_OPEN * 4 + 2:
-        return sphi_pass_open_2(mode, job, first, last, index, room);
+        return sphi_pass_open_2(mode, job, first, last, index, room, candidates);
     default:
-        return sphi_pass_open_3(mode, job, first, last, index, room);
+        return sphi_pass_open_3(mode, job, first, last, index, room, candidates);
     }
 }
 
 /* where a part's share of the room begins */
 SPH_FN int64_t sphi_from(int64_t room, int part, int parts) { return part < parts ? room / parts * part : room; }
 
-/* A pass by all threads. Each part appends to its own part of index, or places where start says. *spilt: a part of index proved too small. */
-SPHI_LARGE int64_t sphi_pass_threads(int mode, const sphi_job *job, int parts, int *spilt)
+/* A pass by all threads. Each part appends to its own part of index, or places where start says. *spilt: a part of
+   index proved too small; all rows are counted all the same. */
+SPHI_LARGE int64_t sphi_pass_threads(int mode, const sphi_job *job, int parts, int *spilt, int64_t *candidates)
 {
     const sph_index n = job->by_slots ? job->g->n : job->targets.n;
-    int64_t total = 0;
+    int64_t total = 0, seen = 0;
     int part, over = 0;
 #if SPH_OPENMP
-#pragma omp parallel for schedule(static, 1) reduction(+ : total) reduction(| : over)
+#pragma omp parallel for schedule(static, 1) reduction(+ : total, seen) reduction(| : over)
 #endif
     for (part = 0; part < parts; part++) {
         const int64_t from = mode == SPHI_APPEND ? sphi_from(job->capacity, part, parts) : 0;
         const int64_t room = mode == SPHI_APPEND ? sphi_from(job->capacity, part + 1, parts) - from : job->capacity;
-        const int64_t mine =
-            sphi_pass_part(mode, job, sphi_first(n, part, parts), sphi_first(n, part + 1, parts), job->capacity > 0 ? job->index + from : job->index, room);
+        int64_t looked_at = 0;
+        const int64_t mine = sphi_pass_part(mode, job, sphi_first(n, part, parts), sphi_first(n, part + 1, parts),
+                                            job->capacity > 0 ? job->index + from : job->index, room, &looked_at);
         total += mine;
+        seen += looked_at;
         over |= mine > room;
     }
     *spilt = over;
+    *candidates = seen;
     return total;
 }
 
@@ -886,18 +1028,23 @@ SPHI_LARGE void sphi_close_gap(sph_index *to, const sph_index *from, int64_t len
     }
 }
 
+/* Returns the number of pairs. Where that is more than sph_index can count, the number of candidates stands for it: no
+   less than the pairs, and the same however the targets were shared among threads. */
 SPHI_LARGE int64_t sphi_lists(const sphi_job *job)
 {
     const sph_index n = job->targets.n;
     const int parts = sphi_parts(), append = job->capacity > 0 && !job->by_slots;
     sph_index *const start = job->start, i;
+    int64_t candidates;
     int spilt, part;
-    const int64_t total = sphi_pass_threads(append ? SPHI_APPEND : SPHI_LENGTHS, job, parts, &spilt);
-    if (total > SPHI_INDEX_MAX || (job->capacity > 0 && total > job->capacity)) return total;
+    const int64_t total = sphi_pass_threads(append ? SPHI_APPEND : SPHI_LENGTHS, job, parts, &spilt, &candidates);
+    if (total > SPHI_INDEX_MAX) return candidates;
+    if (job->capacity > 0 && total > job->capacity) return total;
     start[0] = 0;
     for (i = 0; i < n; i++) start[i + 1] += start[i];
+    SPH_ASSERT(start[n] == total); /* every target was counted, once */
     if (job->capacity == 0) return total;
-    if (!append || spilt) sphi_pass_threads(SPHI_PLACE, job, parts, &spilt);
+    if (!append || spilt) sphi_pass_threads(SPHI_PLACE, job, parts, &spilt, &candidates);
     else
         for (part = 1; part < parts; part++) { /* each part down to the end of the one before */
             const sph_index begin = start[sphi_first(n, part, parts)], length = start[sphi_first(n, part + 1, parts)] - begin;
@@ -909,10 +1056,14 @@ SPHI_LARGE int64_t sphi_lists(const sphi_job *job)
 /* Neighbour lists of targets.n targets: start[0 ... n], and index[start[i]] ... index[start[i + 1] - 1] for target i. Unless flags has SPH_LIST_FOREIGN, target i is source i (the targets may
    be the first of the sources). Radii are support radii, one per target and source, or one for all (sph_scalars_same); only those that the criterion uses are read. index = 0 counts
    only; else it must have room for capacity entries (entries beyond *pairs may be overwritten). *pairs is the number of entries of the lists.
-   Returns 0 or a negative sph_error. SPH_ERROR_CAPACITY: index has room for fewer than *pairs entries (or sph_index is too small to count them); start and index then hold nothing of
-   use, and nothing beyond capacity was written. For a cloud so collapsed that counting would take n^2 steps *pairs is an upper bound. SPH_ERROR_RADIUS: a radius is more than 32 times
-   the reach that the grid was built for. SPH_ERROR_BOX: a radius is more than half of a periodic box. SPH_ERROR_H: a radius is
-   not within 1e-150 ... 1e150 (1e-18 ... 1e18 in float), so that its square is a number. On all errors but SPH_ERROR_CAPACITY nothing is written. */
+   Returns 0 or a negative sph_error.
+   SPH_ERROR_CAPACITY: index has room for fewer than *pairs entries, which is their exact number. start and index then
+   hold nothing of use, and nothing beyond capacity was written.
+   SPH_ERROR_PAIRS: there are more pairs than sph_index can count, so that no start can name them; *pairs is an upper
+   bound of their number. As above, start and index hold nothing of use.
+   SPH_ERROR_RADIUS: a radius is more than 32 times the reach that the grid was built for. SPH_ERROR_BOX: a radius is
+   more than half of a periodic box. SPH_ERROR_H: a radius is not within 1e-150 ... 1e150 (1e-18 ... 1e18 in float), so
+   that its square is a number. On these and all other errors nothing is written. */
 SPH_FN sph_index sph_grid_lists(int dim, const sph_grid *grid, sph_points targets, int criterion, sph_scalars target_radius, sph_scalars source_radius,
                                 int flags, sph_index *start, sph_index *index, int64_t capacity, int64_t *pairs)
 {
@@ -965,7 +1116,8 @@ SPH_FN sph_index sph_grid_lists(int dim, const sph_grid *grid, sph_points target
     job.start = start;
     job.index = index;
     *pairs = sphi_lists(&job);
-    return *pairs > SPHI_INDEX_MAX || (index && *pairs > capacity) ? SPH_ERROR_CAPACITY : 0;
+    if (*pairs > SPHI_INDEX_MAX) return SPH_ERROR_PAIRS;
+    return index && *pairs > capacity ? SPH_ERROR_CAPACITY : 0;
 }
 
 /* ================================================================ order, and lists kept for several steps */
@@ -994,6 +1146,20 @@ SPH_FN sph_index sph_permute_inverse(sph_index n, const sph_index *order, sph_in
     return 0;
 }
 
+/* |v| > length, for lengths whose squares over- or underflow, too */
+SPH_FN int sphi_longer(int dim, sph_vec v, sph_real length)
+{
+    const sph_real x = SPHI_ABS(v.x), y = dim > 1 ? SPHI_ABS(v.y) : SPH_R(0), z = dim > 2 ? SPHI_ABS(v.z) : SPH_R(0);
+    const sph_real xy = x > y ? x : y, most = xy > z ? xy : z;
+    if (!(most <= length)) return 1;
+    if (most == SPH_R(0)) return 0;
+    v.x = x / most;
+    v.y = y / most;
+    v.z = z / most;
+    length /= most; /* no less than 1, as is |v| now */
+    return sph_dot(dim, v, v) > length * length;
+}
+
 /* Lists that were built at the positions `then`, with the radius + skin, still hold all pairs within the radius unless this returns 1: a particle has moved by more than skin / 2
    (by the minimum image, if now.box is set). Negative: an sph_error. */
 SPH_FN int sph_rebuild_due(int dim, sph_points now, sph_points then, sph_real skin)
@@ -1007,7 +1173,7 @@ SPH_FN int sph_rebuild_due(int dim, sph_points now, sph_points then, sph_real sk
     if (sphi_check_box(dim, now, SPH_R(0)) || sphi_check_box(dim, then, SPH_R(0))) return SPH_ERROR_BOX;
     for (i = 0; i < now.n; i++) {
         const sph_vec moved = sphi_separation(dim, now, sphi_point(dim, now, i), sphi_point(dim, then, i));
-        if (SPH_R(4) * sph_dot(dim, moved, moved) > skin * skin) return 1;
+        if (sphi_longer(dim, moved, SPH_R(0.5) * skin)) return 1;
     }
     return 0;
 }

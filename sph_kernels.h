@@ -212,7 +212,8 @@ typedef enum sph_error {
     SPH_ERROR_SELF = -10,     /* a row holds its own particle, but this operator adds that term itself */
     SPH_ERROR_CAPACITY = -11, /* the caller's memory is too small; the size that is needed has been reported */
     SPH_ERROR_BOX = -12,      /* a box length is negative or not finite, or a support reaches beyond half the box */
-    SPH_ERROR_RADIUS = -13    /* a radius exceeds what the grid was built for */
+    SPH_ERROR_RADIUS = -13,   /* a radius exceeds what the grid was built for */
+    SPH_ERROR_PAIRS = -14     /* more pairs than sph_index can count */
 } sph_error;
 
 /* Answers per particle, where an array of them is asked for. */
@@ -809,6 +810,8 @@ SPH_FN const char *sph_status_text(int status)
         return "a box length is negative or not finite, or a support reaches beyond half the box";
     case SPH_ERROR_RADIUS:
         return "a radius exceeds the reach that the grid was built for";
+    case SPH_ERROR_PAIRS:
+        return "there are more pairs than sph_index can count: take a wider SPH_INDEX, or smaller radii";
     case SPH_OK:
         return "ok";
     case SPH_TOO_FEW:

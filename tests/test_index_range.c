@@ -59,9 +59,59 @@ static void test_search(void)
     n = MOST / 2 + 1; /* 2 (n - 1) is what there is room for, less 1 */
     CHECK(line_pairs(n, 0.75, &answer, &wrong) == 2 * (n - 1) && answer == 0 && wrong == 0);
     n = MOST / 2 + 2;
-    CHECK(line_pairs(n, 0.75, &answer, &wrong) == 2 * (n - 1) && answer == SPH_ERROR_CAPACITY);
+    CHECK(line_pairs(n, 0.75, &answer, &wrong) >= 2 * (n - 1) && answer == SPH_ERROR_PAIRS);
     n = MOST - TILE;
-    CHECK(line_pairs(n, 0.75, &answer, &wrong) == 2 * (n - 1) && answer == SPH_ERROR_CAPACITY);
+    CHECK(line_pairs(n, 0.75, &answer, &wrong) >= 2 * (n - 1) && answer == SPH_ERROR_PAIRS);
+}
+
+/* Random particles with more pairs than can be counted: the same bound whatever the room, the order and the number of threads. */
+static void test_too_many(void)
+{
+    enum { N = 2000 };
+    static const int rooms[] = {0, 1, 1000, MOST};
+    const sph_real R = SPH_R(0.2);
+    const size_t size = sph_grid_workspace(2, N);
+    sph_real *const x = (sph_real *)cloud_memory(N, sizeof *x), *const y = (sph_real *)cloud_memory(N, sizeof *y);
+    sph_index *const start = (sph_index *)cloud_memory(N + 1, sizeof *start), *const index = (sph_index *)cloud_memory(MOST, sizeof *index);
+    void *const work = cloud_memory(size, 1);
+    const sph_points p = sph_points_separate(N, x, y, 0);
+    int64_t bound = 0, pairs, counted = 0;
+    int i, j, k, turn;
+    pcg32 random;
+    pcg32_seed(&random, 15, 3);
+    for (i = 0; i < N; i++) {
+        x[i] = SPH_R(pcg32_uniform(&random));
+        y[i] = SPH_R(pcg32_uniform(&random));
+    }
+    for (i = 0; i < N; i++)
+        for (j = 0; j < N; j++) counted += i != j && hypot((double)x[i] - (double)x[j], (double)y[i] - (double)y[j]) < 0.2;
+    CHECK(counted > MOST);
+    for (turn = 0; turn < 2; turn++) {
+        sph_grid g;
+        CHECK(sph_grid_build(2, p, R, work, size, &g) == 0);
+        for (k = 0; k < 12; k++) {
+            pairs = -1;
+#if SPH_OPENMP
+            omp_set_num_threads(1 + k / 4 * 3);
+#endif
+            CHECK(sph_grid_lists(2, &g, p, SPH_GATHER, sph_scalars_same(&R), sph_scalars_same(&R), 0, start, rooms[k % 4] ? index : 0, rooms[k % 4], &pairs) ==
+                  SPH_ERROR_PAIRS);
+            if (bound == 0) bound = pairs;
+            CHECK(pairs == bound && pairs >= counted);
+        }
+        for (i = 0; i < N / 2; i++) { /* the other way round */
+            const sph_real kept_x = x[i], kept_y = y[i];
+            x[i] = x[N - 1 - i];
+            y[i] = y[N - 1 - i];
+            x[N - 1 - i] = kept_x;
+            y[N - 1 - i] = kept_y;
+        }
+    }
+    free(x);
+    free(y);
+    free(start);
+    free(index);
+    free(work);
 }
 
 /* ---- sweeps: one row that ends with the last index there is ---- */
@@ -100,6 +150,7 @@ static void test_sweep(sph_index length)
 int main(void)
 {
     test_search();
+    test_too_many();
     test_sweep(MOST);
     test_sweep(MOST - 1);
     test_sweep(1000); /* several tiles, the last one not full */

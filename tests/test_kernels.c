@@ -510,12 +510,12 @@ static void test_status_texts(void)
 {
     const char *unknown = sph_status_text(SPH_LIST_TOO_SHORT + 1);
     int a, b;
-    for (a = SPH_ERROR_RADIUS; a <= SPH_LIST_TOO_SHORT; a++) {
+    for (a = SPH_ERROR_PAIRS; a <= SPH_LIST_TOO_SHORT; a++) {
         CHECK(sph_status_text(a)[0] != '\0');
         CHECK(strcmp(sph_status_text(a), unknown) != 0);
-        for (b = SPH_ERROR_RADIUS; b < a; b++) CHECK(strcmp(sph_status_text(a), sph_status_text(b)) != 0);
+        for (b = SPH_ERROR_PAIRS; b < a; b++) CHECK(strcmp(sph_status_text(a), sph_status_text(b)) != 0);
     }
-    CHECK(strcmp(sph_status_text(SPH_ERROR_RADIUS - 1), unknown) == 0);
+    CHECK(strcmp(sph_status_text(SPH_ERROR_PAIRS - 1), unknown) == 0);
     CHECK(strcmp(sph_status_text(SPH_OK), "ok") == 0);
 }
 

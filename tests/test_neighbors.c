@@ -3,7 +3,6 @@
  * test_neighbors.c - the neighbour search against all pairs, on clouds of every kind, and nothing written where it must not be.
  *
  *     test_neighbors              the tests
- *     test_neighbors quick        without those that take seconds
  *     test_neighbors checksums    a line for each of some lists instead, to compare builds and numbers of threads by (tests/compile/paths.sh)
  *                                 -DCHECKSUMS_ONLY=1: nothing else, in a third of the time to compile
  *
@@ -21,7 +20,6 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 enum { CRITERIA = 4, FLAGS = 16, EDGE_ULPS = 8 };
 
@@ -1188,6 +1186,31 @@ static void test_rebuild(void)
 }
 
 /* Lists with a skin stay complete until sph_rebuild_due says so. */
+/* moved by far more, and by far less, than half the skin, where the squares of both over- or underflow */
+static void test_rebuild_extremes(void)
+{
+    const sph_real large = SPH_SINGLE ? SPH_R(1e30) : SPH_R(1e160), tiny = SPH_SINGLE ? SPH_R(1e-30) : SPH_R(1e-165);
+    const sph_real lengths[2] = {large, tiny};
+    int k, dim, axis;
+    for (dim = 1; dim <= 3; dim++)
+        for (axis = 0; axis < dim; axis++)
+            for (k = 0; k < 2; k++) {
+                sph_real then[3] = {SPH_R(0), SPH_R(0), SPH_R(0)}, now_at[3] = {SPH_R(0), SPH_R(0), SPH_R(0)};
+                const sph_points p = sph_points_separate(1, then, then + 1, then + 2), q = sph_points_separate(1, now_at, now_at + 1, now_at + 2);
+                now_at[axis] = lengths[k];
+                CHECK(sph_rebuild_due(dim, q, p, SPH_R(1e-5) * lengths[k]) == 1);
+                CHECK(sph_rebuild_due(dim, q, p, SPH_R(1.99) * lengths[k]) == 1);
+                CHECK(sph_rebuild_due(dim, q, p, SPH_R(2.01) * lengths[k]) == 0);
+                CHECK(sph_rebuild_due(dim, q, p, SPH_R(1e5) * lengths[k]) == 0);
+                CHECK(sph_rebuild_due(dim, q, p, SPH_R(0)) == 1);
+                CHECK(sph_rebuild_due(dim, p, p, SPH_R(0)) == 0);
+                if (dim < 2) continue; /* along the diagonal: 1.41 times as far */
+                now_at[(axis + 1) % dim] = -lengths[k];
+                CHECK(sph_rebuild_due(dim, q, p, SPH_R(2.82) * lengths[k]) == 1);
+                CHECK(sph_rebuild_due(dim, q, p, SPH_R(2.84) * lengths[k]) == 0);
+            }
+}
+
 static void test_skin(void)
 {
     enum { N = 150, STEPS = 40 };
@@ -1279,66 +1302,6 @@ static void test_views(void)
         }
 }
 
-/* ---- more pairs than any memory holds: an answer, and soon ---- */
-
-static double seconds_since(clock_t t) { return (double)(clock() - t) / CLOCKS_PER_SEC; }
-
-/* one call: it must refuse, and soon */
-static void check_refused(const cloud *c, const grid *g, sph_scalars R, sph_index crowd, sph_index *start, const guarded *index, int64_t capacity)
-{
-    const int64_t least = (int64_t)crowd * (crowd - 1);
-    const clock_t before = clock();
-    int64_t pairs = -1;
-    EXPECT(sph_grid_lists(c->dim, &g->g, points(c), now.criterion, R, R, now.flags, start, index ? (sph_index *)guarded_memory(index) : 0, capacity, &pairs) ==
-           SPH_ERROR_CAPACITY);
-    EXPECT(pairs >= least / (now.flags & SPH_LIST_HALF ? 2 : 1));
-    EXPECT(seconds_since(before) < (capacity > 0 ? 20.0 : 300.0));
-}
-
-static void check_crowd(const char *name, const cloud *c, sph_index crowd, sph_real radius)
-{
-    enum { CAPACITY = 1000 };
-    const sph_scalars R = sph_scalars_same(&radius);
-    sph_index *const start = (sph_index *)cloud_memory((size_t)c->n + 1, sizeof *start);
-    guarded index = guarded_new(2 * CAPACITY * sizeof(sph_index));
-    grid g;
-    now.name = name;
-    now.dim = c->dim;
-    now.sources = now.targets = (long)c->n;
-    now.criterion = c->dim == 3 ? SPH_GATHER : SPH_LARGER;
-    now.flags = c->dim == 2 ? SPH_LIST_HALF : 0;
-    g = grid_new(c->dim, points(c), radius);
-    check_refused(c, &g, R, crowd, start, &index, CAPACITY);
-    EXPECT(guarded_unwritten_from(&index, CAPACITY * sizeof(sph_index)));
-#if SPH_AVX512 || SPH_AVX2 /* no sph_index counts them; it looks at 2^31 pairs before it knows */
-    if (sizeof(sph_index) == 4 && c->n > 1000000) check_refused(c, &g, R, crowd, start, 0, 0);
-#endif
-    grid_free(&g);
-    free(index.base);
-    free(start);
-}
-
-static void test_crowds(void)
-{
-    pcg32 random;
-    int dim;
-    pcg32_seed(&random, 5, 1);
-    for (dim = 1; dim <= 3; dim++) {
-        enum { N = 200000 };
-        cloud c = make(COLLAPSED, dim, N, 0, &random);
-        sph_index i;
-        check_crowd("200000 collapsed", &c, N, SPH_R(0.1));
-        for (i = 0; i < N; i += 2) c.x[i] = SPH_R(pcg32_uniform(&random)); /* half of them still in one place */
-        if (dim == 2) check_crowd("100000 collapsed among others", &c, N / 2, SPH_R(0.02));
-        cloud_free(&c);
-    }
-    {
-        cloud c = make(COLLAPSED, 3, 2000000, 0, &random);
-        check_crowd("2000000 collapsed", &c, 2000000, SPH_R(0.1));
-        cloud_free(&c);
-    }
-}
-
 /* ---- checksums ---- */
 
 static uint64_t mix(uint64_t h)
@@ -1414,7 +1377,6 @@ static int print_checksums(void)
 
 int main(int count, char **word)
 {
-    const int quick = count > 1 && strcmp(word[1], "quick") == 0;
     if (CHECKSUMS_ONLY || (count > 1 && strcmp(word[1], "checksums") == 0)) return print_checksums();
     test_clouds();
     test_rounding();
@@ -1434,13 +1396,8 @@ int main(int count, char **word)
     test_renumber();
     test_locality();
     test_rebuild();
+    test_rebuild_extremes();
     test_skin();
     test_views();
-#if defined(__SANITIZE_ADDRESS__)
-    if (!quick) puts("skipped: the largest clouds, which take minutes under a sanitizer");
-    (void)test_crowds;
-#else
-    if (!quick) test_crowds();
-#endif
     return check_report("test_neighbors");
 }

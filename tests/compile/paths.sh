@@ -6,6 +6,21 @@
 . tests/check.sh
 warn="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror"
 
+# programs that run where these builds do
+add='#include <immintrin.h>
+int main(void) {
+    volatile int one = 1;
+    __m256i two = _mm256_add_epi32(_mm256_set1_epi32(one), _mm256_set1_epi32(one));
+    return _mm256_extract_epi32(two, 0) != 2;
+}'
+threads_of='#include <omp.h>
+int main(void) {
+    int n = 0;
+    #pragma omp parallel num_threads(2) reduction(+ : n)
+    n += omp_get_num_threads();
+    return n < 1;
+}'
+
 # sums NAME FLAGS...: builds and prints checksums; with no other test in it, where all that is asked of the build is these
 sums() {
     name=$1
@@ -18,30 +33,30 @@ sums() {
 same_pairs() { [ -s "$scratch/$1.sums" ] && [ "$(cut -d ' ' -f 1-7 "$scratch/$1.sums")" = "$(cut -d ' ' -f 1-7 "$scratch/$2.sums")" ]; }
 
 for cc in gcc clang; do
-    if ! command -v $cc > /dev/null 2>&1; then
-        skip "paths of $cc" "not installed"
-        continue
-    fi
+    usable "paths of $cc" "$empty" '' "$cc -std=c99 -O1 $warn" -lm || continue
     macros=$($cc -march=native -dM -E -x c /dev/null 2> /dev/null)
     has() { printf '%s\n' "$macros" | grep -q "^#define $1 "; }
+    native="-std=gnu99 -march=native"
+    usable "paths of $cc" "$empty" '' "$cc -O1 $warn $native" -lm || continue
+    avx2='' openmp=''
+    if ! has __AVX2__ || ! has __BMI2__; then
+        skip "AVX2 path of $cc" "not on this machine"
+    elif usable "AVX2 path of $cc" "$add" '' "$cc -std=c99 -O1 $warn -mavx2 -mbmi2" -lm; then avx2=1; fi
+    has __AVX512F__ && has __AVX512VL__ || skip "AVX-512 path of $cc" "not on this machine"
+    usable "OpenMP of $cc" "$threads_of" '' "$cc -O1 $warn $native -fopenmp" -lm && openmp=1
     for single in 0 1; do
-        portable=$cc-portable-$single best=$cc-best-$single flags="-DSPH_SINGLE=$single -std=gnu99 -march=native"
+        portable=$cc-portable-$single best=$cc-best-$single flags="-DSPH_SINGLE=$single $native"
         sums "$portable" -DCHECKSUMS_ONLY=1 -DSPH_SINGLE=$single -DSPH_AVX512=0 -DSPH_AVX2=0
-        if has __AVX2__ && has __BMI2__; then
+        if [ $avx2 ]; then
             sums $cc-avx2-$single -DCHECKSUMS_ONLY=1 -DSPH_SINGLE=$single -mavx2 -mbmi2
             check "$cc, AVX2, SPH_SINGLE=$single: the pairs of the portable path" same_pairs $cc-avx2-$single "$portable"
-        else skip "AVX2 path of $cc" "not on this machine"; fi
-        has __AVX512F__ && has __AVX512VL__ || skip "AVX-512 path of $cc" "not on this machine"
+        fi
         # shellcheck disable=SC2086
         sums "$best" $flags
         check "$cc, for this machine, SPH_SINGLE=$single: the pairs of the portable path" same_pairs "$best" "$portable"
-        check "$cc, for this machine, SPH_SINGLE=$single: all pairs" "$scratch/$best" quick
+        check "$cc, for this machine, SPH_SINGLE=$single: all pairs" "$scratch/$best"
 
-        printf '#include <omp.h>\nint main(void) { return omp_get_max_threads() < 1; }\n' > "$scratch/has.c"
-        if ! { $cc -fopenmp "$scratch/has.c" -o "$scratch/has" && "$scratch/has"; } > /dev/null 2>&1; then
-            skip "OpenMP of $cc" "not installed"
-            continue
-        fi
+        [ $openmp ] || continue
         only=1
         [ $single-$cc != 0-gcc ] || only=0
         # shellcheck disable=SC2086
@@ -50,8 +65,13 @@ for cc in gcc clang; do
             check "$cc, $threads threads" sh -c "OMP_NUM_THREADS=$threads '$scratch/openmp' checksums > '$scratch/threads.sums'"
             check "$cc, $threads threads: the lists of none" cmp "$scratch/threads.sums" "$scratch/$best.sums"
         done
+        for t in capacity index_range; do # these set the number of threads themselves
+            # shellcheck disable=SC2086
+            check "$t with OpenMP compiles" $cc -std=c99 -O1 -w -I. $flags -fopenmp -DSPH_OPENMP=1 tests/test_$t.c -o "$scratch/openmp-$t" -lm
+            check "$cc, $t with 1, 2, 3, 7 threads, SPH_SINGLE=$single" "$scratch/openmp-$t"
+        done
         # the lists are already known to be those of the build without threads: once is enough
-        [ $only = 1 ] || check "$cc, 3 threads: all pairs" env OMP_NUM_THREADS=3 "$scratch/openmp" quick
+        [ $only = 1 ] || check "$cc, 3 threads: all pairs" env OMP_NUM_THREADS=3 "$scratch/openmp"
     done
     for single in 0 1; do
         sums $cc-64-$single -DCHECKSUMS_ONLY=1 -DSPH_SINGLE=$single -DSPH_INDEX=int64_t -march=native

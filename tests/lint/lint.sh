@@ -60,9 +60,9 @@ fi
 # Threads: those of the search, and a host's in ranges of every sweep, whose results must not depend on how many they are. gcc's OpenMP runtime is not built for the sanitizer, clang's tells it what it does
 # (libarcher).
 if compiles "$empty" clang -fopenmp -fsanitize=thread; then
-    for t in neighbors invariance; do
+    for t in neighbors capacity invariance; do
         check "threads: $t" clang -std=c99 -w -O1 -g -fopenmp -DSPH_OPENMP=1 -fsanitize=thread -I. -o "$scratch/threads" tests/test_$t.c -lm
-        check "threads: run $t" env OMP_NUM_THREADS=4 TSAN_OPTIONS=ignore_noninstrumented_modules=1 "$scratch/threads" quick
+        check "threads: run $t" env OMP_NUM_THREADS=4 TSAN_OPTIONS=ignore_noninstrumented_modules=1 "$scratch/threads"
     done
 else
     skip "the thread sanitizer" "clang's OpenMP is not installed (libomp-dev)"

@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * test_capacity.c - lists on memory of every size: whatever the room, the number of threads and the order of the
+ * particles, the same lists and the same number of pairs come back, and what fits is never refused.
+ *
+ * Clouds whose particles have very different numbers of neighbours, so that the share of one thread overflows although
+ * the whole room suffices; and collapsed ones, whose rows are as long as the cloud. Compared with all pairs. Positions
+ * and radii are such that no distance is near to a radius: no pair depends on rounding. Compiled with -fopenmp
+ * -DSPH_OPENMP=1 it runs all of it with 1, 2, 3 and 7 threads.
+ */
+#define SPH_FN static inline /* one copy of each function is enough */
+#define SPHI_CROWDED 8       /* so that small clouds have crowded cells */
+#include <assert.h>
+#define SPH_ASSERT(x) assert(x) /* what one pass of the search guarantees to the next */
+
+#include "../sph.h"
+#include "check.h"
+#include "clouds.h"
+
+#include <string.h>
+#include <time.h>
+
+enum { CRITERIA = 4, GUARD = 64 };
+static const sph_index guard_value = 12345;
+
+typedef struct sample {
+    const char *name;
+    int dim;
+    sph_index n;
+    sph_real *x, *y, *z, *R;
+    sph_real box; /* 0: open */
+} sample;
+
+static sample sample_new(const char *name, int dim, sph_index n)
+{
+    sample s;
+    s.name = name;
+    s.dim = dim;
+    s.n = n;
+    s.x = (sph_real *)cloud_memory((size_t)n, sizeof *s.x);
+    s.y = (sph_real *)cloud_memory((size_t)n, sizeof *s.y);
+    s.z = (sph_real *)cloud_memory((size_t)n, sizeof *s.z);
+    s.R = (sph_real *)cloud_memory((size_t)n, sizeof *s.R);
+    s.box = SPH_R(0);
+    return s;
+}
+static void sample_free(sample *s)
+{
+    free(s->x);
+    free(s->y);
+    free(s->z);
+    free(s->R);
+}
+static sph_points sample_points(const sample *s)
+{
+    return sph_points_periodic(sph_points_separate(s->n, s->x, s->y, s->z), s->box, s->box, s->box);
+}
+/* Radii of each particle: squares of lattice distances are whole numbers (or sixteenths), and none of these squares is
+   near to one, nor is that of the mean of two of them. */
+static void sample_radii(sample *s)
+{
+    sph_index i;
+    for (i = 0; i < s->n; i++) s->R[i] = SPH_R(i % 3 == 0 ? 2.33 : i % 3 == 1 ? 2.6 : 2.73);
+}
+static void sample_swap(sph_real *a, sph_index i, sph_index j)
+{
+    const sph_real kept = a[i];
+    a[i] = a[j];
+    a[j] = kept;
+}
+static void sample_shuffle(sample *s, pcg32 *random)
+{
+    sph_index i;
+    for (i = s->n - 1; i > 0; i--) {
+        const sph_index j = (sph_index)(pcg32_uniform(random) * (double)(i + 1));
+        sample_swap(s->x, i, j);
+        sample_swap(s->y, i, j);
+        sample_swap(s->z, i, j);
+        sample_swap(s->R, i, j);
+    }
+}
+
+/* In lattice order a block of spacing 1 and above it one of spacing 2, of as many particles. */
+static sample two_spacings(int dim, int side)
+{
+    const sph_index block = (sph_index)(dim == 3 ? side * side * side : side * side);
+    sample s = sample_new("two spacings", dim, 2 * block);
+    sph_index i;
+    for (i = 0; i < s.n; i++) {
+        const int j = (int)(i % block), above = i >= block, spacing = above ? 2 : 1;
+        s.x[i] = SPH_R(spacing * (j % side));
+        s.y[i] = SPH_R(spacing * (j / side % side));
+        s.z[i] = SPH_R(spacing * (j / side / side));
+        if (above && dim == 3) s.z[i] += SPH_R(side + 1);
+        if (above && dim == 2) s.y[i] += SPH_R(side + 1);
+    }
+    sample_radii(&s);
+    return s;
+}
+
+/* A third of the particles collapsed into six places, the others on points of a lattice of spacing 1/4. */
+static sample collapsed(int dim, sph_index n, double box, pcg32 *random)
+{
+    sample s = sample_new(box > 0.0 ? "collapsed, periodic" : "collapsed", dim, n);
+    sph_index i;
+    s.box = SPH_R(box);
+    for (i = 0; i < n; i++) {
+        sph_real *const coordinate[3] = {s.x, s.y, s.z};
+        int a;
+        for (a = 0; a < dim; a++) {
+            const int places = i % 3 == 0 ? (int)(i % 6) * 7 : (int)(64.0 * pcg32_uniform(random));
+            coordinate[a][i] = SPH_R(0.25) * SPH_R(places % 64);
+        }
+    }
+    sample_radii(&s);
+    return s;
+}
+
+/* ---- all pairs ---- */
+
+static double component(sph_real a, sph_real b, sph_real box)
+{
+    const double d = fabs((double)a - (double)b), length = (double)box;
+    return length > 0.0 && d > 0.5 * length ? length - d : d;
+}
+static int near(const sample *s, int criterion, sph_index i, sph_index j)
+{
+    const double dx = component(s->x[i], s->x[j], s->box), dy = component(s->y[i], s->y[j], s->box);
+    const double dz = component(s->z[i], s->z[j], s->box);
+    const double a = (double)s->R[i], b = (double)s->R[j];
+    const double R = criterion == SPH_GATHER ? a : criterion == SPH_SCATTER ? b : criterion == SPH_LARGER ? (a > b ? a : b) : 0.5 * (a + b);
+    return dx * dx + dy * dy + dz * dz < R * R;
+}
+static int64_t all_pairs(const sample *s, int criterion, int flags, sph_index *start, sph_index *index)
+{
+    int64_t pairs = 0;
+    sph_index i, j;
+    start[0] = 0;
+    for (i = 0; i < s->n; i++) {
+        for (j = flags & SPH_LIST_HALF ? i + 1 : 0; j < s->n; j++)
+            if (near(s, criterion, i, j) && (i != j || flags & SPH_LIST_SELF)) index[pairs++] = j;
+        start[i + 1] = (sph_index)pairs;
+    }
+    return pairs;
+}
+
+/* ---- the search with any room and any number of threads ---- */
+
+static void threads(int count)
+{
+#if SPH_OPENMP
+    omp_set_num_threads(count);
+#else
+    (void)count;
+#endif
+}
+
+static void failure(const sample *s, int criterion, int flags, int count, int64_t capacity, int64_t pairs, const char *what)
+{
+    fprintf(stderr, "%s, %dD, criterion %d, flags %d, %d threads, room %lld for %lld pairs: %s\n", s->name, s->dim, criterion, flags,
+            count, (long long)capacity, (long long)pairs, what);
+}
+
+static void check_rooms(const sample *s, const sph_grid *g, int criterion, int flags)
+{
+    static const int counts[] = {1, 2, 3, 7};
+    const size_t n = (size_t)s->n, most = n * n;
+    sph_index *const wanted_start = (sph_index *)cloud_memory(n + 1, sizeof *wanted_start);
+    sph_index *const wanted = (sph_index *)cloud_memory(most, sizeof *wanted);
+    const int64_t pairs = all_pairs(s, criterion, flags & ~SPH_LIST_SORTED, wanted_start, wanted);
+    sph_index *const start = (sph_index *)cloud_memory(n + 1, sizeof *start);
+    const size_t room = (size_t)(pairs + pairs / 2) + 2 * GUARD;
+    sph_index *const index = (sph_index *)cloud_memory(room, sizeof *index), *const first = (sph_index *)cloud_memory(room, sizeof *first);
+    const sph_scalars R = sph_scalars_array(s->R);
+    int t, percent;
+    for (percent = 90; percent <= 140; percent += percent == 95 ? 4 : percent == 99 ? 1 : 5)
+        for (t = 0; t < (SPH_OPENMP ? 4 : 1); t++) {
+            const int64_t capacity = percent == 99 ? pairs - 1 : pairs * percent / 100;
+            const char *wrong = 0;
+            int64_t found = -1;
+            sph_index answer, i, q;
+            size_t p;
+            for (p = 0; p < room; p++) index[p] = guard_value;
+            threads(counts[t]);
+            answer = sph_grid_lists(s->dim, g, sample_points(s), criterion, R, R, flags, start, index, capacity, &found);
+            if (found != pairs) wrong = "the number of pairs is wrong";
+            else if (answer != (capacity < pairs ? SPH_ERROR_CAPACITY : 0)) wrong = "the answer is wrong";
+            for (p = (size_t)capacity; p < room; p++)
+                if (index[p] != guard_value) wrong = "written beyond the room";
+            if (answer == 0 && !wrong && memcmp(start, wanted_start, (n + 1) * sizeof *start) != 0) wrong = "a row of a wrong length";
+            if (answer == 0 && !wrong && flags & SPH_LIST_SORTED)
+                wrong = memcmp(index, wanted, (size_t)pairs * sizeof *index) != 0 ? "a row of wrong neighbours" : 0;
+            else if (answer == 0 && !wrong) { /* in any order, but always in the same */
+                if (percent == 100 && t == 0) {
+                    memcpy(first, index, (size_t)pairs * sizeof *index);
+                    for (i = 0; i < s->n; i++) {
+                        for (q = start[i]; q < start[i + 1]; q++)
+                            if (index[q] < 0 || index[q] >= s->n || !near(s, criterion, i, index[q])) wrong = "an entry that is no neighbour";
+                        sphi_sort(index + start[i], start[i + 1] - start[i]);
+                    }
+                    if (!wrong && memcmp(index, wanted, (size_t)pairs * sizeof *index) != 0) wrong = "a row of wrong neighbours";
+                } else if (memcmp(index, first, (size_t)pairs * sizeof *index) != 0) wrong = "another list than with just enough room and one thread";
+            }
+            if (!check_count(!wrong)) failure(s, criterion, flags, counts[t], capacity, pairs, wrong);
+        }
+    threads(1);
+    free(wanted_start);
+    free(wanted);
+    free(start);
+    free(index);
+    free(first);
+}
+
+static void check_sample(const sample *s)
+{
+    static const int flags[CRITERIA] = {0, SPH_LIST_SORTED, SPH_LIST_HALF, SPH_LIST_SELF | SPH_LIST_SORTED};
+    const size_t size = sph_grid_workspace(s->dim, s->n);
+    void *const work = cloud_memory(size, 1);
+    int criterion, same;
+    for (same = 0; same < 2; same++) {
+        sph_index i;
+        sph_grid g;
+        for (i = 0; same && i < s->n; i++) s->R[i] = SPH_R(2.6); /* one radius for all: other loops of the search */
+        CHECK(sph_grid_build(s->dim, sample_points(s), SPH_R(2.6), work, size, &g) == 0);
+        for (criterion = 0; criterion < CRITERIA; criterion++) check_rooms(s, &g, criterion, flags[(criterion + same) % CRITERIA]);
+    }
+    free(work);
+}
+
+/* in lattice order, in any order (rows are then placed in the order of the cells), and with one particle so far away that
+   the cells are hashed */
+static void check_orders(sample s, pcg32 *random)
+{
+    check_sample(&s);
+    sample_radii(&s);
+    sample_shuffle(&s, random);
+    check_sample(&s);
+    if (!(s.box > SPH_R(0))) {
+        sample_radii(&s);
+        s.x[s.n / 2] = SPH_R(1e5);
+        check_sample(&s);
+    }
+    sample_free(&s);
+}
+
+static void test_rooms(void)
+{
+    pcg32 random;
+    pcg32_seed(&random, 15, 1);
+    check_orders(two_spacings(2, 20), &random);
+    check_orders(two_spacings(3, 7), &random);
+    check_orders(collapsed(1, 300, 0.0, &random), &random);
+    check_orders(collapsed(2, 700, 0.0, &random), &random);
+    check_orders(collapsed(3, 700, 0.0, &random), &random);
+    check_orders(collapsed(2, 700, 16.0, &random), &random);
+    check_orders(collapsed(3, 700, 16.0, &random), &random);
+}
+
+/* ---- more pairs than any memory holds, or than sph_index can count: an answer, and soon ---- */
+
+/* coincident particles, `extra` of the others elsewhere */
+static void check_collapse(int dim, sph_index n, sph_index apart, int flags)
+{
+    enum { ROOM = 1000 };
+    sample s = sample_new("coincident", dim, n);
+    const sph_real radius = SPH_R(0.1);
+    const sph_scalars R = sph_scalars_same(&radius);
+    const size_t size = sph_grid_workspace(dim, n);
+    void *const work = cloud_memory(size, 1);
+    sph_index *const start = (sph_index *)cloud_memory((size_t)n + 1, sizeof *start);
+    sph_index *const index = (sph_index *)cloud_memory(ROOM + GUARD, sizeof *index);
+    const int64_t crowd = n - apart, full = crowd * (crowd - 1), pairs = flags & SPH_LIST_HALF ? full / 2 : full;
+    const int countable = pairs <= SPHI_INDEX_MAX;
+    const clock_t before = clock();
+    int64_t found[3] = {-1, -1, -1}, room;
+    sph_grid g;
+    sph_index i;
+    int k, written = 0;
+    for (i = 0; i < n; i++) {
+        s.x[i] = i < apart ? SPH_R(2 + i) : SPH_R(0.7);
+        s.y[i] = s.z[i] = SPH_R(0.3);
+    }
+    for (i = 0; i < ROOM + GUARD; i++) index[i] = guard_value;
+    CHECK(sph_grid_build(dim, sample_points(&s), radius, work, size, &g) == 0);
+    for (k = 0; k < 3; k++) {
+        const sph_index answer = countable ? SPH_ERROR_CAPACITY : SPH_ERROR_PAIRS;
+        room = k == 0 ? ROOM : k == 1 ? 1 : 0;
+        threads(k == 1 ? 3 : 1);
+        CHECK(sph_grid_lists(dim, &g, sample_points(&s), SPH_LARGER, R, R, flags, start, room > 0 ? index : 0, room, &found[k]) ==
+              (room == 0 && countable ? 0 : answer));
+    }
+    threads(1);
+    for (i = ROOM; i < ROOM + GUARD; i++) written |= index[i] != guard_value;
+    CHECK(!written);
+    CHECK(countable ? found[0] == pairs : found[0] >= pairs);
+    CHECK(found[1] == found[0] && found[2] == found[0]);
+    CHECK((double)(clock() - before) / CLOCKS_PER_SEC < 20.0); /* n^2 steps would take minutes */
+    free(work);
+    free(start);
+    free(index);
+    sample_free(&s);
+}
+
+static void test_collapses(void)
+{
+    int dim;
+    for (dim = 1; dim <= 3; dim++) {
+        check_collapse(dim, 30000, 0, 0);
+        check_collapse(dim, 30000, 5000, SPH_LIST_HALF);
+        check_collapse(dim, 200000, 0, 0);
+        check_collapse(dim, 200000, 100000, SPH_LIST_HALF);
+    }
+    check_collapse(3, 2000000, 0, 0);
+}
+
+int main(void)
+{
+    test_rooms();
+    test_collapses();
+    return check_report("test_capacity");
+}
