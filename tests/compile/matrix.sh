@@ -1,12 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# What compilers make of the headers, and of every test and example, with warnings as errors. Compilers that are not installed are skipped aloud.
+# What compilers make of the headers, and of every test and example, with warnings as errors.
+# Compilers that are not installed, or whose programs do not run here, are skipped aloud.
 #     tests/compile/matrix.sh [full]          from the repository root; JOBS=2: two at a time
 # headers    alone and all together, double and float, in the oldest and (full: every) newer standard of C and C++; OpenCL C 1.2
 # code       every function of the headers compiled, not only parsed, so that warnings that need the optimiser come up, too: -O2, and -O3 -march=native -ffast-math (full: -O0, and both
 #            precisions of all)
 # sources    every test and example under the same warnings
-# runs       the self-check of tests/embedded, one program of a float part in C and a double part in C or C++: gcc, clang, tcc, musl, i686, mingw-w64 (run by wine, where installed)
+# runs       the self-check of tests/embedded, one program of a float part in C and a double part in C or C++:
+#            gcc, clang, tcc, musl, i686 (by qemu-i386 where the kernel runs no 32-bit programs), mingw-w64
+#            (by wine, where installed)
 . tests/check.sh
 full=
 [ "${1:-}" = full ] && full=1
@@ -29,11 +32,33 @@ job() {
     shift
     echo "$@" | tr '\n' ' ' >> "$scratch/jobs/$jobs"
 }
-has() {
-    compiles "$empty" "$1" && return
-    skip "$1" "not installed"
+# the compilers that can be used at all
+c='' cxx=''
+for cc in gcc clang; do usable $cc "$empty" '' "$cc -std=c99 $basic" && c="$c $cc"; done
+for cc in g++ clang++; do usable $cc "$empty" '' "$cc -x c++ -std=c++11 $basic" && cxx="$cxx $cc"; done
+
+# what is skipped below depends on the probe: it must tell the ways apart in which it can fail
+# shellcheck disable=SC2317
+probed() { # WHY RUNNER THAT IS FOUND, RUNS' ARGUMENTS...: why it fails; empty: it does not
+    expected=$1 found=$2
+    shift 2
+    if runs "$@"; then [ -z "$expected" ] && [ "$runner" = "$found" ] && return; fi
+    case ${expected:+$why} in *"${expected:-.}"*) return ;; esac
+    echo "$runner, $why"
     return 1
 }
+for cc in $c; do
+    none="$cc is installed, but makes no program"
+    neither="does not run in false (status 1): it says nothing; no-such-qemu is not installed"
+    check "probe: one that runs" probed '' '' "$empty" '' $cc
+    check "probe: no such compiler" probed "no-such-cc is not installed" '' "$empty" '' "no-such-cc -O2"
+    check "probe: no such flag" probed "$none" '' "$empty" '' "$cc -fno-such-flag"
+    check "probe: it ends with 3" probed "does not run (status 3)" '' 'int main(void) { return 3; }' '' $cc
+    check "probe: no such emulator" probed "no-such-qemu is not installed" '' "$empty" no-such-qemu $cc
+    check "probe: the second" probed '' 'env A=1' "$empty" 'no-such-qemu|false|env A=1' $cc
+    check "probe: neither" probed "$neither" '' "$empty" 'false|no-such-qemu' $cc
+    break
+done
 
 for h in sph_kernels.h sph_ops.h sph.h; do printf '#include "%s"\nint main(void) { return 0; }\n' "$h" > "$scratch/only_$h.c"; done
 printf '#include "sph.h"\n#include "sph_kernels.h"\n#include "sph_ops.h"\n#include "sph.h"\nint main(void) { return 0; }\n' > "$scratch/only_all.c"
@@ -43,59 +68,73 @@ only="$scratch/only_sph_kernels.h.c $scratch/only_sph_ops.h.c $scratch/only_sph.
 
 # ---------------------------------------------------------------- headers
 
-for cc in gcc clang; do
-    has $cc || continue
+for cc in $c; do
     for std in c99 c11 c17 c2x; do
         case $full$std in c11 | c17) continue ;; esac
+        usable "headers, $cc, $std" "$empty" '' "$cc -std=$std $strict_c" || continue
         for single in 0 1; do job "headers, $cc, $std, SPH_SINGLE=$single" $cc -std=$std "$strict_c" -DSPH_SINGLE=$single -fsyntax-only "$only"; done
     done
     job "headers together, $cc" $cc -std=c99 "$strict_c" -fsyntax-only "$scratch/only_all.c"
-    if [ $cc = clang ] && [ "$full" ]; then
+    [ $cc = clang ] || continue
+    every="clang -std=c99 $strict_clang -Werror"
+    if [ "$full" ] && usable "headers, all warnings of clang" "$empty" '' "$every"; then
         for single in 0 1; do
-            job "headers, all warnings of clang, SPH_SINGLE=$single" clang -std=c99 "$strict_clang" -Werror -I. -DSPH_SINGLE=$single -fsyntax-only "$scratch/only_all.c"
-            job "OpenCL C 3.0, SPH_SINGLE=$single" clang -x cl -cl-std=CL3.0 -Xclang -finclude-default-header -Werror -DSPH_SINGLE=$single -I. -include sph_ops.h -fsyntax-only /dev/null
+            job "headers, all warnings of clang, SPH_SINGLE=$single" "$every" -I. -DSPH_SINGLE=$single \
+                -fsyntax-only "$scratch/only_all.c"
         done
     fi
+    for std in 1.2 3.0; do
+        case $full$std in 3.0) continue ;; esac
+        cl="clang -x cl -cl-std=CL$std -Xclang -finclude-default-header -Werror"
+        # not to be run: that takes a device, and is tests/hosts
+        usable "OpenCL C $std" 'kernel void f(global int *x) { x[0] = 1; }' - "$cl" -fsyntax-only || continue
+        for single in 0 1; do
+            job "OpenCL C $std, SPH_SINGLE=$single" "$cl" -DSPH_SINGLE=$single -I. -include sph_ops.h \
+                -fsyntax-only /dev/null
+        done
+    done
 done
-for cxx in g++ clang++; do
-    has $cxx || continue
+for cc in $cxx; do
     for std in c++11 c++14 c++17 c++20; do
         case $full$std in c++14 | c++17) continue ;; esac
-        for single in 0 1; do job "headers, $cxx, $std, SPH_SINGLE=$single" $cxx -x c++ -std=$std "$strict" -DSPH_SINGLE=$single -fsyntax-only "$only"; done
+        usable "headers, $cc, $std" "$empty" '' "$cc -x c++ -std=$std $strict" || continue
+        for single in 0 1; do
+            job "headers, $cc, $std, SPH_SINGLE=$single" $cc -x c++ -std=$std "$strict" -DSPH_SINGLE=$single \
+                -fsyntax-only "$only"
+        done
     done
-    job "headers together, $cxx" $cxx -x c++ -std=c++11 "$strict" -fsyntax-only "$scratch/only_all.c"
+    job "headers together, $cc" $cc -x c++ -std=c++11 "$strict" -fsyntax-only "$scratch/only_all.c"
 done
-if installed clang; then
-    for single in 0 1; do
-        job "OpenCL C 1.2, SPH_SINGLE=$single" clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -Werror -DSPH_SINGLE=$single -I. -include sph_ops.h -fsyntax-only /dev/null
-    done
-fi
 
 # ---------------------------------------------------------------- code
 
 # every function kept, once, called by none; clang's hint that a loop of calls was not vectorised says nothing then
 all="'-DSPH_FN=static __attribute__((noinline, used))'"
-for cc in gcc clang; do
-    installed $cc || continue
+fast="-O3 -march=native -ffast-math"
+for cc in $c; do
     if [ $cc = gcc ]; then more=$strict_gcc; else more=-Wno-pass-failed; fi
-    for single in 0 1; do
-        if [ "$full" ] || [ $single = 0 ]; then job "code, $cc -O2, SPH_SINGLE=$single" $cc -std=c99 "$strict_c" "$more" -O2 "$all" -DSPH_SINGLE=$single -c "$scratch/only_sph.h.c" -o /dev/null; fi
-        if [ "$full" ] || [ $single = 1 ]; then
-            job "code, $cc -O3 -march=native -ffast-math, SPH_SINGLE=$single" $cc -std=c99 "$strict_c" "$more" -O3 -march=native -ffast-math "$all" -DSPH_SINGLE=$single -c "$scratch/only_sph.h.c" -o /dev/null
-        fi
-        [ -z "$full" ] || job "code, $cc -O0, SPH_SINGLE=$single" $cc -std=c99 "$strict_c" "$more" -O0 "$all" -DSPH_SINGLE=$single -c "$scratch/only_sph.h.c" -o /dev/null
+    for level in -O2 "$fast" ${full:+-O0}; do
+        code="$cc -std=c99 $strict_c $more $level"
+        usable "code, $cc $level" "$empty" '' "$code" || continue
+        for single in 0 1; do
+            case $full$single$level in 1-O2 | 0-O3*) continue ;; esac
+            job "code, $cc $level, SPH_SINGLE=$single" "$code" "$all" -DSPH_SINGLE=$single \
+                -c "$scratch/only_sph.h.c" -o /dev/null
+        done
     done
 done
-[ "$full" ] && for cxx in g++ clang++; do
-    installed $cxx || continue
-    if [ $cxx = g++ ]; then more=$strict_gcc; else more=-Wno-pass-failed; fi
-    for level in -O0 -O2; do job "code, $cxx $level" $cxx -x c++ -std=c++11 "$strict" "$more" $level "$all" -c "$scratch/only_sph.h.c" -o /dev/null; done
+[ "$full" ] && for cc in $cxx; do
+    if [ $cc = g++ ]; then more=$strict_gcc; else more=-Wno-pass-failed; fi
+    for level in -O0 -O2; do
+        code="$cc -x c++ -std=c++11 $strict $more $level"
+        usable "code, $cc $level" "$empty" '' "$code" || continue
+        job "code, $cc $level" "$code" "$all" -c "$scratch/only_sph.h.c" -o /dev/null
+    done
 done
 
 # ---------------------------------------------------------------- sources
 
-for cc in gcc clang; do
-    installed $cc || continue
+for cc in $c; do
     for f in $(ls tests/test_*.c | grep -v -e test_gsl -e test_common); do
         for single in 0 1; do job "$f, $cc, SPH_SINGLE=$single" $cc -std=c99 "$basic" -DSPH_SINGLE=$single -fsyntax-only "$f"; done
     done
@@ -106,40 +145,51 @@ done
 
 # ---------------------------------------------------------------- runs
 
-# pair NAME 'COMPILER OF THE FLOAT PART' 'OF THE DOUBLE PART' 'LINKER' [RUNNER]
+# pair NAME 'COMPILER OF THE FLOAT PART' 'OF THE DOUBLE PART' LINKER 'ITS FLAGS' [RUNNERS]
 pairs=0
 pair() {
+    for compiler in "$2" "$3"; do
+        usable "runs, $1" "$empty" "${6-}" "$compiler" $5 -lm || return
+    done
     pairs=$((pairs + 1))
     part=$scratch/pair$pairs
-    job "runs, $1" $2 -I. "-I$scratch" -DSPH_SINGLE=1 -DSELFCHECK_MAIN=check_float -c tests/embedded/selfcheck.c -o "$part.f.o" "&&" \
-        $3 -I. "-I$scratch" -DSELFCHECK_MAIN=check_double -c tests/embedded/selfcheck.c -o "$part.d.o" "&&" $4 "$scratch/both.c" "$part.f.o" "$part.d.o" -o "$part.exe" -lm "&&" \
-        $5 "$part.exe" ">" "$part.out" "&&" test "\$(grep -c 'selfcheck: [0-9]* passed, 0 failed' $part.out)" = 2
+    flags="-I. -I$scratch -c tests/embedded/selfcheck.c"
+    both="test \$(grep -c 'selfcheck: [0-9]* passed, 0 failed' $part.out) = 2"
+    run="&& $bounded $runner $part.exe > $part.out && $both"
+    if [ "$runner" = - ]; then
+        skip "runs, $1: built, but not run" "$why"
+        run=
+    fi
+    job "runs, $1" "$2 -DSPH_SINGLE=1 -DSELFCHECK_MAIN=check_float $flags -o $part.f.o &&" \
+        "$3 -DSELFCHECK_MAIN=check_double $flags -o $part.d.o &&" \
+        "$4 $5 $scratch/both.c $part.f.o $part.d.o -o $part.exe -lm $run"
 }
-fast="-O3 -march=native -ffast-math"
-has gcc && has g++ && pair "gcc C99 and g++ C++11, -O1" "gcc -std=c99 -O1 $basic" "g++ -x c++ -std=c++11 -O1 $basic" gcc
-has clang && has clang++ && pair "clang C2x and clang++ C++20, -O1" "clang -std=c2x -O1 $basic" "clang++ -x c++ -std=c++20 -O1 $basic" clang
-has tcc && pair "tcc" "tcc -Wall -Werror" "tcc -Wall -Werror" tcc
+pair "gcc C99 and g++ C++11, -O1" "gcc -std=c99 -O1 $basic" "g++ -x c++ -std=c++11 -O1 $basic" gcc ''
+pair "clang C2x and clang++ C++20, -O1" \
+    "clang -std=c2x -O1 $basic" "clang++ -x c++ -std=c++20 -O1 $basic" clang ''
+pair "tcc" "tcc -Wall -Werror" "tcc -Wall -Werror" tcc ''
 # without optimisation forced inlining is but more code to write: one copy of each function there
-once="'-DSPH_FN=static __attribute__((noinline, unused))'"
-has musl-gcc && pair "musl, -O0" "musl-gcc -std=c99 $basic $once" "musl-gcc -std=c99 $basic $once" "musl-gcc -static"
-has "gcc -m32" && pair "i686, x87, -O0" "gcc -m32 -std=c99 $basic $once" "gcc -m32 -std=c99 $basic $once" "gcc -m32"
+echo '#define SPH_FN static __attribute__((noinline, unused))' > "$scratch/once.h"
+once="-include $scratch/once.h"
+musl="musl-gcc -std=c99 $basic"
+i686="gcc -m32 -std=c99 $basic"
+pair "musl, -O0" "$musl $once" "$musl $once" musl-gcc -static
+pair "i686, x87, -O0" "$i686 $once" "$i686 $once" gcc -m32 '|qemu-i386'
 if [ "$full" ]; then
     for level in -O0 -O2 "$fast"; do
         for cc in gcc clang; do
-            case $cc in gcc) cxx=g++ ;; clang) cxx=clang++ ;; esac
-            has $cc && has $cxx && pair "$cc C11 and $cxx C++17, $level" "$cc -std=c11 $level $basic" "$cxx -x c++ -std=c++17 $level $basic" $cc
+            case $cc in gcc) with_cxx=g++ ;; clang) with_cxx=clang++ ;; esac
+            pair "$cc C11 and $with_cxx C++17, $level" "$cc -std=c11 $level $basic" \
+                "$with_cxx -x c++ -std=c++17 $level $basic" $cc ''
         done
     done
-    has "gcc -m32" && pair "i686, SSE2, -O2" "gcc -m32 -msse2 -mfpmath=sse -std=c99 -O2 $basic" "gcc -m32 -msse2 -mfpmath=sse -std=c99 -O2 $basic" "gcc -m32"
-    has musl-gcc && pair "musl, -O2" "musl-gcc -std=c99 -O2 $basic" "musl-gcc -std=c99 -O2 $basic" "musl-gcc -static"
+    sse="$i686 -msse2 -mfpmath=sse -O2"
+    pair "i686, SSE2, -O2" "$sse" "$sse" gcc -m32 '|qemu-i386'
+    pair "musl, -O2" "$musl -O2" "$musl -O2" musl-gcc -static
 fi
-if has x86_64-w64-mingw32-gcc; then
-    wine=$(command -v wine64 || ls /usr/lib/wine/wine64 2> /dev/null)
-    if [ -z "$wine" ]; then skip "a run under Windows" "wine64 is not installed"; fi
-    windows="x86_64-w64-mingw32-gcc -std=c99 -O1 -D__USE_MINGW_ANSI_STDIO=1 $basic"
-    pair "mingw-w64${wine:+, by wine}" "$windows" "$windows" x86_64-w64-mingw32-gcc "${wine:+env WINEDEBUG=-all timeout 100 $wine}"
-    [ "$wine" ] || sed -i 's/ && [^&]*exe > .*//' "$scratch/jobs/$jobs"
-fi
+windows="x86_64-w64-mingw32-gcc -std=c99 -O1 -D__USE_MINGW_ANSI_STDIO=1 $basic"
+export WINEDEBUG=-all
+pair "mingw-w64" "$windows" "$windows" x86_64-w64-mingw32-gcc '' 'wine64|/usr/lib/wine/wine64|wine|-'
 
 # ---------------------------------------------------------------- all of them
 

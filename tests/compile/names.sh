@@ -27,7 +27,8 @@ seconds() { # of processor time
 
 echo "what an inclusion costs:          bytes, alone   with a 3D gradient   seconds, alone   with a 3D gradient"
 for cc in gcc clang; do
-    needs "names and sizes by $cc" $cc || continue
+    needs "names and sizes by $cc" nm size || continue
+    usable "names and sizes by $cc" "$empty" '' "$cc -std=c99" || continue
     macros $cc "$scratch/without.c" > "$scratch/without"
     for header in sph_kernels.h sph_ops.h sph.h; do
         printf '#include "%s"\n' "$header" > "$scratch/alone.c"

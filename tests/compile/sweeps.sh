@@ -45,13 +45,26 @@ count() {
 # every function obeys: awk condition on $2, $3, $4
 obeys() { awk "!($2) { print; bad = 1 } END { exit bad || NR == 0 }" "$1"; }
 
+cat > "$scratch/control.c" << 'END'
+#include "sph_ops.h"
+sph_real sweep_control(sph_kernel k, const sph_real *r, int n);
+sph_real sweep_control(sph_kernel k, const sph_real *r, int n)
+{
+    sph_real s = 0;
+    int i;
+    for (i = 0; i < n; i++) s += sph_kernel_f(k, 3, r[i], 1);
+    return s;
+}
+END
+
 for cc in gcc clang; do
-    if ! installed $cc || [ "$($cc -dumpmachine | cut -d- -f1)" != x86_64 ]; then
-        skip "assembly of the sweeps by $cc" "not installed, or not for x86-64"
-        continue
-    fi
     simd=
     [ $cc = gcc ] && simd="-fopenmp-simd -DSPH_SIMD=1"
+    usable "assembly of the sweeps by $cc" "$empty" '' "$cc -std=c99 -O2 $simd" || continue
+    if [ "$($cc -dumpmachine | cut -d- -f1)" != x86_64 ]; then
+        skip "assembly of the sweeps by $cc" "not for x86-64"
+        continue
+    fi
     check "$cc" $cc -std=c99 -O2 $simd -I. -S "$scratch/sweeps.c" -o "$scratch/sweeps.s"
     count "$scratch/sweeps.s" > "$scratch/counts"
     check "$cc: 36 sweeps" test "$(wc -l < "$scratch/counts")" -eq 36
@@ -63,10 +76,9 @@ for cc in gcc clang; do
     check "gcc -O3" gcc -std=c99 -O3 -DTILES_ALONE -I. -S "$scratch/sweeps.c" -o "$scratch/sweeps.s"
     count "$scratch/sweeps.s" | grep _tile > "$scratch/counts"
     check "gcc -O3: packed square roots of the tiles" obeys "$scratch/counts" '$4 > 0'
+    # the detector sees what it must object to: a kernel that is not constant
+    check "control" gcc -std=c99 -O2 -I. -S "$scratch/control.c" -o "$scratch/control.s"
+    count "$scratch/control.s" > "$scratch/counts"
+    check "the control jumps" obeys "$scratch/counts" '$2 + $3 > 0'
 done
-# the detector sees what it must object to: a kernel that is not constant
-printf '#include "sph_ops.h"\nsph_real sweep_control(sph_kernel k, const sph_real *r, int n);\nsph_real sweep_control(sph_kernel k, const sph_real *r, int n) { sph_real s = 0; int i; for (i = 0; i < n; i++) s += sph_kernel_f(k, 3, r[i], 1); return s; }\n' > "$scratch/control.c"
-check "control" gcc -std=c99 -O2 -I. -S "$scratch/control.c" -o "$scratch/control.s"
-count "$scratch/control.s" > "$scratch/counts"
-check "the control jumps" obeys "$scratch/counts" '$2 + $3 > 0'
 finish sweeps

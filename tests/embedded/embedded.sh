@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # The self-check (selfcheck.c) on machines without an operating system and on other processors, in emulators: what it finds there, what it takes of their memory.
 #     tests/embedded/embedded.sh          from the repository root; runs what is installed and says what it skipped
+# What is installed counts only if a trivial program of it runs in the emulator.
 # Bare-metal Cortex-M (QEMU), RISC-V (picolibc, QEMU), AVR (simavr; kernels alone), and AArch64, RISC-V and s390x (big-endian) under Linux (QEMU).
 . tests/check.sh
 here=tests/embedded
@@ -10,9 +11,12 @@ rows=$scratch/rows
 : > "$rows"
 awk -f $here/known.awk tests/known/kernels.csv > "$scratch/known_answers.h" || exit 2
 
+alive='#include "board.h"\nint main(void) { board_start(); board_text("alive"); return board_end(0); }'
+
 # target NAME PREFIX 'COMPILER FLAGS' 'EMULATOR'... where PREFIX names the tools: builds, runs, weighs. A NAME that ends in -linux stands on an operating system: not weighed.
 target() {
     name=$1 prefix=$2 program=$scratch/$1.elf output=$scratch/$1.out
+    usable "$name" "$alive" "$4" "$prefix-gcc $warn -I$here $3" -lm || return
     rm -f "$program"
     # shellcheck disable=SC2086
     check "$name compiles" $prefix-gcc $warn $3 $here/selfcheck.c -o "$program" -lm

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Builds and runs every host of examples/hosts whose tools are installed; each prints its numbers, and what it should have got. From the root of the repository.
+# Builds and runs every host of examples/hosts whose tools are installed, and work; each prints its numbers,
+# and what it should have got. From the root of the repository.
 . tests/check.sh
 hosts=examples/hosts
 export PYTHONDONTWRITEBYTECODE=1
@@ -35,54 +36,73 @@ if built "the shim, an object," "$scratch/sph_shim.o" $CC -std=c99 $warn -O2 -fP
         run "the shim, float" "$scratch/test_shim-float"
     fi
 
-    if needs Fortran gfortran; then
+    fortran="gfortran -std=f2018 -Wall -Wextra -Wno-integer-division -Werror -O2 -J $scratch"
+    if usable Fortran end '' "$fortran -x f95 -ffree-form" -lm; then
         # shellcheck disable=SC2086
-        built Fortran "$scratch/host_f90" gfortran -std=f2018 -Wall -Wextra -Wno-integer-division -Werror -O2 -J "$scratch" $hosts/sph.f90 $hosts/host.f90 "$scratch/sph_shim.o" -o "$scratch/host_f90" -lm &&
+        built Fortran "$scratch/host_f90" \
+            $fortran $hosts/sph.f90 $hosts/host.f90 "$scratch/sph_shim.o" -o "$scratch/host_f90" -lm &&
             run Fortran "$scratch/host_f90"
     fi
 
-    if needs Python python3; then
+    if needs Python python3 && works Python python3 -S -c ''; then
         run "Python, array module" python3 -S $hosts/host.py "$scratch/libsph_shim.so" # -S: without installed packages
         run "Python, what it refuses" python3 tests/hosts/test_python.py "$scratch/libsph_shim.so" without-numpy
         numpy=
-        for python in python3 /usr/bin/python3; do [ -z "$numpy" ] && "$python" -c 'import numpy' 2> /dev/null && numpy=$python; done
+        for python in python3 /usr/bin/python3; do
+            [ -z "$numpy" ] && "$python" -c 'import numpy' 2> "$scratch/why" && numpy=$python
+        done
         if [ -n "$numpy" ]; then
             run "Python, numpy" "$numpy" $hosts/host.py "$scratch/libsph_shim.so"
             run "Python, what it refuses of numpy" "$numpy" tests/hosts/test_python.py "$scratch/libsph_shim.so"
         else
-            skip "Python with numpy" "no numpy (Debian: python3-numpy)"
+            skip "Python with numpy (Debian: python3-numpy)" "$(tail -n 1 "$scratch/why")"
         fi
     fi
 fi
 
+flags="-std=c++11 -O2 -Wall -Wextra -Wpedantic -Wshadow -Werror -Wno-unknown-warning-option -Wno-pass-failed"
+one='#include <vector>\nint main() { return std::vector<int>(1)[0]; }' # there may be no library
 for cxx in g++ clang++; do
-    needs "C++ by $cxx" $cxx || continue
-    built "C++ by $cxx" "$scratch/host-$cxx" $cxx -std=c++11 -Wall -Wextra -Wpedantic -Wshadow -Werror -Wno-unknown-warning-option -Wno-pass-failed -O2 -I. $hosts/host.cpp -o "$scratch/host-$cxx" &&
+    usable "C++ by $cxx" "$one" '' "$cxx -x c++ $flags" || continue
+    # shellcheck disable=SC2086
+    built "C++ by $cxx" "$scratch/host-$cxx" $cxx $flags -I. $hosts/host.cpp -o "$scratch/host-$cxx" &&
         run "C++ by $cxx" "$scratch/host-$cxx"
 done
 
-if needs "WebAssembly (Debian: emscripten nodejs)" emcc node; then
+wasm="WebAssembly (Debian: emscripten nodejs)"
+if needs "$wasm" emcc node && works "$wasm" node -e 0; then
     fetch=
-    node --no-experimental-fetch -e 0 2> /dev/null && fetch=--no-experimental-fetch # the loader of older emscriptens takes a fetch for a browser's
-    # emscripten of Debian finds its node modules only if it is told; it must not wait for input
-    built WebAssembly "$scratch/sph_shim.js" sh -c "NODE_PATH=\${NODE_PATH:-/usr/share/nodejs} emcc -O2 -Wno-pass-failed -I. $hosts/sph_shim.c -o '$scratch/sph_shim.js' -sMODULARIZE=1 -sALLOW_MEMORY_GROWTH=1 -sEXPORTED_FUNCTIONS=_malloc,_free < /dev/null" &&
+    # the loader of older emscriptens takes a fetch for a browser's
+    node --no-experimental-fetch -e 0 2> /dev/null && fetch=--no-experimental-fetch
+    # emscripten of Debian finds its node modules only if it is told
+    emcc="env NODE_PATH=${NODE_PATH:-/usr/share/nodejs} emcc -O2 -Wno-pass-failed -sALLOW_MEMORY_GROWTH=1"
+    # it must not wait for input
+    # shellcheck disable=SC2086
+    usable "$wasm" "$empty" "node $fetch" "$emcc" &&
+        built WebAssembly "$scratch/sph_shim.js" $emcc -I. $hosts/sph_shim.c -o "$scratch/sph_shim.js" \
+            -sMODULARIZE=1 -sEXPORTED_FUNCTIONS=_malloc,_free < /dev/null &&
         run WebAssembly node $fetch $hosts/host.js "$scratch/sph_shim.js"
 fi
 
-if compiles '#define CL_TARGET_OPENCL_VERSION 120\n#include <CL/cl.h>\nint main(void) { return clGetPlatformIDs(0, 0, 0) == 1; }' "$CC" -lOpenCL; then
+platforms='#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+int main(void) { return clGetPlatformIDs(0, 0, 0) == 1; }' # there may be none: the host says so
+opencl="OpenCL (Debian: opencl-headers ocl-icd-opencl-dev, and pocl-opencl-icd for a device)"
+if usable "$opencl" "$platforms" '' "$CC -std=c99 $warn -O2" -lOpenCL -lm; then
     for single in 0 1; do
         # shellcheck disable=SC2086
         built OpenCL "$scratch/host_opencl-$single" $CC -std=c99 $warn -O2 -DSPH_SINGLE=$single -I. $hosts/host_opencl.c -o "$scratch/host_opencl-$single" -lOpenCL -lm || continue
         for version in CL1.2 CL3.0; do run "OpenCL, $version, SPH_SINGLE=$single" "$scratch/host_opencl-$single" $version; done
     done
-else
-    skip OpenCL "no headers or library (Debian: opencl-headers ocl-icd-opencl-dev, and pocl-opencl-icd for a device)"
 fi
 
 PATH=$PATH:/usr/local/cuda/bin
-if needs "CUDA (Debian: nvidia-cuda-toolkit)" nvcc; then # 128: a loop that SPH_CHECK=0 leaves out
+nvcc="nvcc -std=c++17 -O2 -Werror all-warnings -diag-suppress 128" # 128: a loop that SPH_CHECK=0 leaves out
+if usable "CUDA (Debian: nvidia-cuda-toolkit)" "$empty" '' "$nvcc -x cu"; then
     for single in 0 1; do
-        built "CUDA, SPH_SINGLE=$single" "$scratch/host_cuda-$single" nvcc -std=c++17 -O2 -Werror all-warnings -diag-suppress 128 -DSPH_SINGLE=$single -I. $hosts/host_cuda.cu -o "$scratch/host_cuda-$single" &&
+        # shellcheck disable=SC2086
+        built "CUDA, SPH_SINGLE=$single" "$scratch/host_cuda-$single" \
+            $nvcc -DSPH_SINGLE=$single -I. $hosts/host_cuda.cu -o "$scratch/host_cuda-$single" &&
             run "CUDA, SPH_SINGLE=$single" "$scratch/host_cuda-$single"
     done
 fi

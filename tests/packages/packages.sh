@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Every way to get the headers but copying them: installed by make, CMake, Meson, as a Debian package and as one file; a host is built from each and run. Skips aloud where a tool is not installed.
+# Every way to get the headers but copying them: installed by make, CMake, Meson, as a Debian package and as
+# one file; a host is built from each and run. Skips aloud where a tool is not installed, or does not work.
 #     make check-packages
 . tests/check.sh
 root=$PWD
@@ -26,7 +27,7 @@ check "make install" make -s install PREFIX=/usr DESTDIR="$scratch/installed"
 check "what is installed" test "$(cd "$scratch/installed" && find . -type f | LC_ALL=C sort | tr '\n' ' ')" = \
     "./usr/include/sph.h ./usr/include/sph_kernels.h ./usr/include/sph_ops.h ./usr/share/pkgconfig/sph.pc "
 check "host of installed headers" host "$scratch/plain" $CC -std=c99 -o "$scratch/plain" -I"$scratch/installed/usr/include" "$here/consumer/main.c" -lm
-if needs pkg-config pkg-config; then
+if needs pkg-config pkg-config && works pkg-config pkg-config --version; then
     export PKG_CONFIG_SYSROOT_DIR="$scratch/installed" PKG_CONFIG_PATH="$scratch/installed/usr/share/pkgconfig"
     check "pkg-config: version" test "$(pkg-config --modversion sph)" = "$version"
     # shellcheck disable=SC2046
@@ -53,23 +54,31 @@ for t in known_answers gradients; do
 done
 
 # ---- make dist ----
-if git -C "$root" rev-parse > /dev/null 2>&1; then
+tarball=
+if needs "make dist" git && works "make dist" git -C "$root" rev-parse HEAD; then
     check "make dist" make -s dist DIST="$scratch/dist"
     tarball=$scratch/dist/sph-$version.tar.gz
     check "the tarball has the headers" sh -c "tar -tzf '$tarball' | grep -q '^sph-$version/sph_ops.h'"
     check "sph_all.h beside it" test -s "$scratch/dist/sph_all.h"
-else
-    skip "make dist" "not a git repository"
-    tarball=
 fi
 
+# a program that the tools below have to build before they count
+trivial=$scratch/trivial
+mkdir -p "$trivial"
+echo "$empty" > "$trivial/trivial.c"
+
 # ---- CMake ----
+printf 'cmake_minimum_required(VERSION 3.14)\nproject(trivial C)\nadd_executable(trivial trivial.c)\n' \
+    > "$trivial/CMakeLists.txt"
+cmake_trivial() {
+    cmake -S "$trivial" -B "$trivial/cmake" && cmake --build "$trivial/cmake" && "$trivial/cmake/trivial"
+}
 cmake_host() { # name, options ...
     build=$scratch/cmake-$1
     shift
     cmake -S "$here/consumer" -B "$build" "$@" && cmake --build "$build"
 }
-if needs CMake cmake; then
+if needs CMake cmake && works CMake cmake_trivial; then
     check "cmake: install" sh -c "cmake -S '$root' -B '$scratch/cmake' -DCMAKE_INSTALL_PREFIX='$scratch/prefix' > '$scratch/output' 2>&1 && cmake --install '$scratch/cmake' >> '$scratch/output'"
     check "cmake: find_package" host "$scratch/cmake-package/consumer" cmake_host package -DVIA=package -DCMAKE_PREFIX_PATH="$scratch/prefix"
     check "cmake: add_subdirectory" host "$scratch/cmake-subdirectory/consumer" cmake_host subdirectory -DVIA=subdirectory -DSOURCE="$root"
@@ -77,10 +86,12 @@ if needs CMake cmake; then
 fi
 
 # ---- Meson ----
+printf "project('trivial', 'c')\nexecutable('trivial', 'trivial.c')\n" > "$trivial/meson.build"
 meson_host() { # project folder, build folder
     meson setup "$2" "$1" && meson compile -C "$2"
 }
-if needs Meson meson ninja; then
+meson_trivial() { meson_host "$trivial" "$trivial/meson" && "$trivial/meson/trivial"; }
+if needs Meson meson ninja && works Meson meson_trivial; then
     mkdir -p "$scratch/meson/subprojects/sph"
     cp "$here/consumer/main.c" "$here/consumer/meson.build" "$scratch/meson"
     cp sph.h sph_ops.h sph_kernels.h meson.build "$scratch/meson/subprojects/sph"
@@ -96,7 +107,14 @@ debian_package() {
         (cd "$scratch/debian" && dpkg-buildpackage -us -uc -b) && dpkg-deb -x "$scratch/libsph-dev_${version}_all.deb" "$scratch/deb" &&
         $CC -std=c99 -o "$scratch/deb/host" -I"$scratch/deb/usr/include" "$here/consumer/main.c" -lm
 }
-if needs "the Debian package" dpkg-buildpackage dh; then check "debian: libsph-dev" host "$scratch/deb/host" debian_package; fi
-if needs "the Conan recipe" conan; then check "conan: create" conan create "$here/conan"; fi
-if needs "the vcpkg port" vcpkg; then check "vcpkg: install" vcpkg install sph --overlay-ports="$here"; fi
+package="the Debian package"
+if needs "$package" dpkg-buildpackage dh && works "$package" dpkg-checkbuilddeps "$here/debian/control"; then
+    check "debian: libsph-dev" host "$scratch/deb/host" debian_package
+fi
+if needs "the Conan recipe" conan && works "the Conan recipe" conan profile show; then
+    check "conan: create" conan create "$here/conan"
+fi
+if needs "the vcpkg port" vcpkg && works "the vcpkg port" vcpkg version; then
+    check "vcpkg: install" vcpkg install sph --overlay-ports="$here"
+fi
 finish packages
