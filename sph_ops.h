@@ -1280,6 +1280,7 @@ SPH_FN sph_scalars sph_scalars_strided(const SPH_GLOBAL sph_real *p, size_t stri
 }
 SPH_FN sph_scalars sph_scalars_array(const SPH_GLOBAL sph_real *p) { return sph_scalars_strided(p, 1); }
 SPH_FN sph_scalars sph_scalars_same(const SPH_GLOBAL sph_real *value) { return sph_scalars_strided(value, 0); }
+SPH_FN sph_scalars sph_scalars_none(void) { return sph_scalars_strided(0, 0); } /* what is not there */
 
 /* One vector per particle: three component arrays, of which dim are read (or written) */
 typedef struct sph_vectors {
@@ -1303,6 +1304,35 @@ SPH_FN sph_vector_out sph_vector_out_separate(SPH_GLOBAL sph_real *x, SPH_GLOBAL
     v.y = y;
     v.z = z;
     return v;
+}
+
+/* Who interacts: sources with their volumes (m / rho; an area in 2D, a length in 1D), the targets first ... last - 1 among
+   them, the smoothing length of each and its neighbours. It travels by value, as one argument, and owns nothing. */
+typedef struct sph_cloud {
+    sph_points points;
+    sph_list list;
+    sph_scalars h, volume;
+    sph_index first, last;
+} sph_cloud;
+/* All particles as targets. What a sweep does not need may be left out with sph_scalars_none(): volumes where it takes
+   masses, h where there is no kernel. */
+SPH_FN sph_cloud sph_cloud_of(sph_points points, sph_list list, sph_scalars h, sph_scalars volume)
+{
+    sph_cloud c;
+    c.points = points;
+    c.list = list;
+    c.h = h;
+    c.volume = volume;
+    c.first = 0;
+    c.last = points.n;
+    return c;
+}
+/* The same cloud with the targets first ... last - 1 only: for a host's threads, and for ghosts, which are sources alone. */
+SPH_FN sph_cloud sph_cloud_range(sph_cloud cloud, sph_index first, sph_index last)
+{
+    cloud.first = first;
+    cloud.last = last;
+    return cloud;
 }
 
 /* Where the derivatives go: separate arrays or members of structs, `stride` sph_real apart (0 counts as 1); a null pointer is not wanted. */
