@@ -1462,13 +1462,18 @@ SPH_FN int sphi_check_box(int dim, sph_points x, sph_real largest)
     return error;
 }
 
+/* positions and a list alone */
+SPH_FN sph_cloud sphi_frame(sph_index first, sph_index last, sph_points x, sph_list list)
+{
+    return sph_cloud_range(sph_cloud_of(x, list, sph_scalars_none(), sph_scalars_none()), first, last);
+}
 /* The arguments that all sweeps over lists share. */
-SPH_FN int sphi_check_frame(int dim, sph_index first, sph_index last, sph_points x, sph_list list)
+SPH_FN int sphi_check_frame(int dim, sph_cloud cloud)
 {
     if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
-    if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z) || !list.start) return SPH_ERROR_NULL;
-    if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
-    return first < 0 || first > last || last > x.n ? SPH_ERROR_RANGE : 0;
+    if (!cloud.points.x || (dim > 1 && !cloud.points.y) || (dim > 2 && !cloud.points.z) || !cloud.list.start) return SPH_ERROR_NULL;
+    if (cloud.points.n < 1 || cloud.points.stride < 1) return SPH_ERROR_COUNT;
+    return cloud.first < 0 || cloud.first > cloud.last || cloud.last > cloud.points.n ? SPH_ERROR_RANGE : 0;
 }
 /* finite, and so is the difference of any two */
 SPH_FN int sphi_all_places(const SPH_GLOBAL sph_real *x, size_t stride, sph_index n)
@@ -1506,38 +1511,39 @@ SPH_FN int sphi_check_entries(sph_index first, sph_index last, sph_list list, sp
     return self && !foreign ? SPH_ERROR_SELF : 0;
 }
 /* The positions, the box for sums that reach as far as `largest`, and the rows first ... last - 1. */
-SPH_FN int sphi_check_scan(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real largest)
+SPH_FN int sphi_check_scan(int dim, sph_cloud cloud, sph_real largest)
 {
-    int error = sphi_check_positions(dim, x);
-    if (!error) error = sphi_check_box(dim, x, largest);
-    return error ? error : sphi_check_entries(first, last, list, x.n, 0);
+    int error = sphi_check_positions(dim, cloud.points);
+    if (!error) error = sphi_check_box(dim, cloud.points, largest);
+    return error ? error : sphi_check_entries(cloud.first, cloud.last, cloud.list, cloud.points.n, 0);
 }
 /* Sweeps without a kernel: lists that reach as far as `distance`. */
-SPH_FN int sphi_check_list(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance)
+SPH_FN int sphi_check_list(int dim, sph_cloud cloud, sph_real distance)
 {
-    const int error = sphi_check_frame(dim, first, last, x, list);
-    return error ? error : sphi_check_scan(dim, first, last, x, list, distance);
+    const int error = sphi_check_frame(dim, cloud);
+    return error ? error : sphi_check_scan(dim, cloud, distance);
 }
 /* Sweeps with one: h and V, too. The sums reach as far as support * h. */
-SPH_FN int sphi_check_reach(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_real support, sph_scalars V)
+SPH_FN int sphi_check_reach(sph_kernel k, int dim, sph_cloud cloud, sph_real support, sph_scalars V)
 {
     sph_real largest = SPH_R(0);
-    const int error = sphi_check_frame(dim, first, last, x, list);
+    const int error = sphi_check_frame(dim, cloud);
     sph_index i;
     if (error == SPH_ERROR_DIM) return error;
     if ((unsigned)k >= (unsigned)SPH_KERNEL_COUNT) return SPH_ERROR_KERNEL;
-    if (!h.p || !V.p) return SPH_ERROR_NULL;
+    if (!cloud.h.p || !V.p) return SPH_ERROR_NULL;
     if (error) return error;
-    for (i = 0; SPH_CHECK && i < (h.stride ? x.n : 1); i++) {
-        if (!sphi_finite(sphi_at(h, i)) || !(sphi_at(h, i) > SPH_R(0))) return SPH_ERROR_H;
-        if (sphi_at(h, i) > largest) largest = sphi_at(h, i);
+    for (i = 0; SPH_CHECK && i < (cloud.h.stride ? cloud.points.n : 1); i++) {
+        if (!sphi_finite(sphi_at(cloud.h, i)) || !(sphi_at(cloud.h, i) > SPH_R(0))) return SPH_ERROR_H;
+        if (sphi_at(cloud.h, i) > largest) largest = sphi_at(cloud.h, i);
     }
-    if (SPH_CHECK && !sphi_all_finite(V, x.n)) return SPH_ERROR_VALUE;
-    return sphi_check_scan(dim, first, last, x, list, support * largest);
+    if (SPH_CHECK && !sphi_all_finite(V, cloud.points.n)) return SPH_ERROR_VALUE;
+    return sphi_check_scan(dim, cloud, support * largest);
 }
-SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V)
+/* V: what weighs the neighbours, volumes or masses. */
+SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_cloud cloud, sph_scalars V)
 {
-    return sphi_check_reach(k, dim, first, last, x, list, h, sph_kernel_support(k), V);
+    return sphi_check_reach(k, dim, cloud, sph_kernel_support(k), V);
 }
 SPH_FN int sphi_check_field(sph_scalars f, sph_index n)
 {
@@ -1568,21 +1574,20 @@ SPH_FN int sphi_singular_status(sph_kernel k, int dim, sph_index i, sph_points x
 /* ================================================================ list tier: interpolation */
 
 /* gamma_i = sum_j V_j W_ij, the particle itself included: 1 in the interior of a regular cloud, about 1/2 at a plane boundary. Shepard 1968; (4.10) of the ICSPM paper. */
-SPH_FN sph_index sph_shepard_sum(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                 SPH_GLOBAL sph_real *out)
+SPH_FN sph_index sph_shepard_sum(sph_kernel k, int dim, sph_cloud cloud, SPH_GLOBAL sph_real *out)
 {
-    const int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    const int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
     sph_index i, p, failed = 0;
     if (error) return error;
     if (!out) return SPH_ERROR_NULL;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
-        const sph_real h_i = sphi_at(h, i);
-        sph_real sum = sphi_at(V, i) * sph_kernel_w(k, dim, SPH_R(0), h_i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        sph_real sum = sphi_at(cloud.volume, i) * sph_kernel_w(k, dim, SPH_R(0), h_i);
         SPH_SUM(sum)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            sum += sphi_at(V, j) * sph_kernel_w(k, dim, sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, j))), h_i);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            sum += sphi_at(cloud.volume, j) * sph_kernel_w(k, dim, sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j))), h_i);
         }
         failed += sphi_store_finite(out, i, sum);
     }
@@ -1591,23 +1596,22 @@ SPH_FN sph_index sph_shepard_sum(sph_kernel k, int dim, sph_index first, sph_ind
 
 /* f_i = sum_j V_j f_j W_ij / sum_j V_j W_ij, the particle itself included: exact for constants, O(h^2) in the interior, O(h) at a boundary.
    A target of volume 0 is a probe. SPH_TOO_FEW where the sum of weights is not positive. */
-SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                         sph_scalars f, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
 {
-    int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_field(f, x.n);
+    if (!error) error = sphi_check_field(f, cloud.points.n);
     if (!error && !out) error = SPH_ERROR_NULL;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
-        const sph_real h_i = sphi_at(h, i), own = sphi_at(V, i) * sph_kernel_w(k, dim, SPH_R(0), h_i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i), own = sphi_at(cloud.volume, i) * sph_kernel_w(k, dim, SPH_R(0), h_i);
         sph_real sum = own, sum_f = own * sphi_at(f, i);
         int state = SPH_OK;
         SPH_SUM(sum, sum_f)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            const sph_real w = sphi_at(V, j) * sph_kernel_w(k, dim, sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, j))), h_i);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            const sph_real w = sphi_at(cloud.volume, j) * sph_kernel_w(k, dim, sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j))), h_i);
             sum += w;
             sum_f += w * sphi_at(f, j);
         }
@@ -1624,10 +1628,10 @@ SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_index first,
 
 /* rho_i = sum_j m_j W_ij(h_i), the particle itself included (its mass counts; 0 for a probe): error O(h^2) in the interior of a regular cloud, about rho/2 at a free
    surface. h is given: for one that follows rho see below. */
-SPH_FN sph_index sph_density_summation(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars m,
-                                       SPH_GLOBAL sph_real *rho)
+SPH_FN sph_index sph_density_summation(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, SPH_GLOBAL sph_real *rho)
 {
-    return sph_shepard_sum(k, dim, first, last, x, list, h, m, rho); /* the same sum, with m for V */
+    cloud.volume = m; /* the same sum, with m for V */
+    return sph_shepard_sum(k, dim, cloud, rho);
 }
 
 SPH_FN sph_density_sums sphi_density_sums(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list, sph_real h_i, sph_scalars m)
@@ -1749,33 +1753,33 @@ SPH_FN int sphi_density_longer(sph_kernel k, int dim, sph_index i, sph_points x,
    SPH_NOT_FINITE       the sums overflowed: rho and omega 0, h[i] where that happened.
    Besides the errors of all sweeps: SPH_ERROR_H for a guess or a reach that is not finite and positive, SPH_ERROR_VALUE for eta or tolerance out of range, SPH_ERROR_BOX for a reach
    beyond half the box. Ranges may run in parallel: of h only the range's own entries are read. */
-SPH_FN sph_index sph_density_adaptive(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars reach, sph_scalars m,
-                                      sph_real eta, sph_real tolerance, SPH_GLOBAL sph_real *h, SPH_GLOBAL sph_real *rho, SPH_GLOBAL sph_real *omega,
-                                      SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_density_adaptive(sph_kernel k, int dim, sph_cloud cloud, sph_scalars reach, sph_scalars m, sph_real eta, sph_real tolerance, SPH_GLOBAL sph_real *h, SPH_GLOBAL sph_real *rho, SPH_GLOBAL sph_real *omega, SPH_GLOBAL unsigned char *status)
 {
     const sph_real least = SPH_R(64) * SPH_EPSILON, accepted = tolerance > least ? tolerance : least;
-    const int error = sphi_check_reach(k, dim, first, last, x, list, reach, SPH_R(1), m);
     sph_index i, failed = 0;
+    int error;
+    cloud.h = reach; /* the longest h times the support */
+    error = sphi_check_reach(k, dim, cloud, SPH_R(1), m);
     if (error) return error;
     if (!h || !rho) return SPH_ERROR_NULL;
     if (!sphi_finite(eta) || !(eta > SPH_R(0)) || !sphi_finite(tolerance) || tolerance < SPH_R(0) || !(tolerance < SPH_R(1))) return SPH_ERROR_VALUE;
     if (SPH_CHECK)
-        for (i = first; i < last; i++)
+        for (i = cloud.first; i < cloud.last; i++)
             if (!sphi_finite(h[i]) || !(h[i] > SPH_R(0))) return SPH_ERROR_H;
-    for (i = first; i < last; i++) {
+    for (i = cloud.first; i < cloud.last; i++) {
         const sph_real longest = sphi_at(reach, i) / sph_kernel_support(k);
         sph_density_sums sums = sph_density_pair(k, dim, SPH_R(0), SPH_R(0));
         sph_real density = SPH_R(0), factor = SPH_R(0);
         int state = SPH_NOT_AVAILABLE;
         if (sphi_at(m, i) > SPH_R(0)) {
             /* a reach that is a denormal number may leave no h at all */
-            state = longest > SPH_R(0) ? sphi_density_solve(k, dim, i, x, list, longest, m, eta, accepted, &h[i], &sums) : (int)SPH_NOT_FINITE;
+            state = longest > SPH_R(0) ? sphi_density_solve(k, dim, i, cloud.points, cloud.list, longest, m, eta, accepted, &h[i], &sums) : (int)SPH_NOT_FINITE;
             if (state == SPH_OK || state == SPH_ILL_CONDITIONED || state == SPH_LIST_TOO_SHORT) {
                 density = sph_density_value(k, dim, sums, h[i]);
                 factor = sums.S > SPH_R(0) ? sph_density_omega(dim, sums) : SPH_R(0);
                 if (!sphi_finite(density) || !sphi_finite(factor)) state = SPH_NOT_FINITE;
             }
-            if (state == SPH_LIST_TOO_SHORT) state = sphi_density_longer(k, dim, i, x, list, m, eta, sums, &h[i]);
+            if (state == SPH_LIST_TOO_SHORT) state = sphi_density_longer(k, dim, i, cloud.points, cloud.list, m, eta, sums, &h[i]);
         }
         if (state == SPH_TOO_FEW || state == SPH_NOT_FINITE) density = factor = SPH_R(0);
         rho[i] = density;
@@ -1789,23 +1793,22 @@ SPH_FN sph_index sph_density_adaptive(sph_kernel k, int dim, sph_index first, sp
 /* ================================================================ list tier: gradients */
 
 /* grad f_i = sum_j V_j (f_j - f_i) grad_i W_ij, not corrected */
-SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                         sph_scalars f, SPH_GLOBAL sph_real *gx, SPH_GLOBAL sph_real *gy, SPH_GLOBAL sph_real *gz)
+SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f, SPH_GLOBAL sph_real *gx, SPH_GLOBAL sph_real *gy, SPH_GLOBAL sph_real *gz)
 {
-    int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_field(f, x.n);
+    if (!error) error = sphi_check_field(f, cloud.points.n);
     if (!error) error = sphi_check_vector(dim, gx, gy, gz);
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
-        const sph_real h_i = sphi_at(h, i), f_i = sphi_at(f, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i), f_i = sphi_at(f, i);
         sph_real sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
         SPH_SUM(sx, sy, sz)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
-            const sph_vec g = sph_gradient_pair_difference(k, dim, x_ij, sph_length(dim, x_ij), h_i, sphi_at(V, j), f_i, sphi_at(f, j));
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_vec g = sph_gradient_pair_difference(k, dim, x_ij, sph_length(dim, x_ij), h_i, sphi_at(cloud.volume, j), f_i, sphi_at(f, j));
             sx += g.x;
             sy += g.y;
             sz += g.z;
@@ -1865,25 +1868,23 @@ SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points
 /* grad f_i = K^-1 sum_j V_j (-F_ij) e (f_j - f_i), K = sum_j V_j (-F_ij) e e^T, e = x_j - x_i: exact for linear fields at any particle; error O(h^2) inside, O(h) at a
    boundary. Randles & Libersky 1996, CMAME 139, 375; CSPM (3.5) of the ICSPM paper in 1D (with W', where its list under (5.17) prints W).
    conditioning (may be null): smallest pivot of K scaled to a unit diagonal. Needs dim neighbours that are not on a line or in a plane. */
-SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                   sph_scalars f, SPH_GLOBAL sph_real *gx, SPH_GLOBAL sph_real *gy, SPH_GLOBAL sph_real *gz, SPH_GLOBAL sph_real *conditioning,
-                                   SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f, SPH_GLOBAL sph_real *gx, SPH_GLOBAL sph_real *gy, SPH_GLOBAL sph_real *gz, SPH_GLOBAL sph_real *conditioning, SPH_GLOBAL unsigned char *status)
 {
-    int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
     sph_index i, failed = 0;
-    if (!error) error = sphi_check_field(f, x.n);
+    if (!error) error = sphi_check_field(f, cloud.points.n);
     if (!error) error = sphi_check_vector(dim, gx, gy, gz);
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_real h_i = sphi_at(h, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_real h_i = sphi_at(cloud.h, i);
         sph_sym K, C = {SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0)};
         sph_vec D;
         sph_real pivot = SPH_R(0);
         int state;
-        sphi_gradient_moments(k, dim, i, x, list, h_i, V, 1, f, &K, &D);
+        sphi_gradient_moments(k, dim, i, cloud.points, cloud.list, h_i, cloud.volume, 1, f, &K, &D);
         state = sph_solve_gradient(dim, K, &C, &pivot);
         if (state) {
-            state = sphi_singular_status(k, dim, i, x, list, h_i, dim);
+            state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i, dim);
             D = sph_scale(SPH_R(0), D);
         } else {
             D = sphi_sym_times(dim, C, D);
@@ -1900,38 +1901,36 @@ SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_index first, sph_i
 }
 
 /* The same as rows: grad f_i = sum_p (wx[p], wy[p], wz[p]) (f_j - f_i), p along the list. */
-SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                        SPH_GLOBAL sph_real *SPH_RESTRICT wx, SPH_GLOBAL sph_real *SPH_RESTRICT wy, SPH_GLOBAL sph_real *SPH_RESTRICT wz,
-                                        SPH_GLOBAL sph_real *conditioning, SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, SPH_GLOBAL sph_real *SPH_RESTRICT wx, SPH_GLOBAL sph_real *SPH_RESTRICT wy, SPH_GLOBAL sph_real *SPH_RESTRICT wz, SPH_GLOBAL sph_real *conditioning, SPH_GLOBAL unsigned char *status)
 {
-    int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
     sph_index i, p, failed = 0;
     if (!error) error = sphi_check_vector(dim, wx, wy, wz);
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
-        const sph_real h_i = sphi_at(h, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
         sph_sym K, C = {SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0)};
         sph_vec D;
         sph_real pivot = SPH_R(0);
         int state;
-        sphi_gradient_moments(k, dim, i, x, list, h_i, V, 0, V, &K, &D);
+        sphi_gradient_moments(k, dim, i, cloud.points, cloud.list, h_i, cloud.volume, 0, cloud.volume, &K, &D);
         state = sph_solve_gradient(dim, K, &C, &pivot);
-        if (state) state = sphi_singular_status(k, dim, i, x, list, h_i, dim);
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_vec e = sphi_separation(dim, x, sphi_point(dim, x, list.index[p]), x_i);
+        if (state) state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i, dim);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_vec e = sphi_separation(dim, cloud.points, sphi_point(dim, cloud.points, cloud.list.index[p]), x_i);
             sph_vec w = sph_scale(SPH_R(0), e);
-            if (!state) w = sphi_sym_times(dim, C, sph_scale(sph_moment_weight_gradient(k, dim, sph_length(dim, e), h_i, sphi_at(V, list.index[p])), e));
+            if (!state) w = sphi_sym_times(dim, C, sph_scale(sph_moment_weight_gradient(k, dim, sph_length(dim, e), h_i, sphi_at(cloud.volume, cloud.list.index[p])), e));
             wx[p] = w.x;
             if (dim > 1) wy[p] = w.y;
             if (dim > 2) wz[p] = w.z;
         }
         {
-            int lost = sphi_row_finite(wx, list.start[i], list.start[i + 1]);
-            if (dim > 1) lost |= sphi_row_finite(wy, list.start[i], list.start[i + 1]);
-            if (dim > 2) lost |= sphi_row_finite(wz, list.start[i], list.start[i + 1]);
+            int lost = sphi_row_finite(wx, cloud.list.start[i], cloud.list.start[i + 1]);
+            if (dim > 1) lost |= sphi_row_finite(wy, cloud.list.start[i], cloud.list.start[i + 1]);
+            if (dim > 2) lost |= sphi_row_finite(wz, cloud.list.start[i], cloud.list.start[i + 1]);
             if (lost) state = SPH_NOT_FINITE;
-            for (p = list.start[i]; lost && p < list.start[i + 1]; p++) {
+            for (p = cloud.list.start[i]; lost && p < cloud.list.start[i + 1]; p++) {
                 wx[p] = SPH_R(0);
                 if (dim > 1) wy[p] = SPH_R(0);
                 if (dim > 2) wz[p] = SPH_R(0);
@@ -1951,70 +1950,64 @@ SPH_FN sph_real sphi_laplacian_weight(int which, sph_kernel k, int dim, sph_real
 {
     return which == SPHI_BROOKSHAW ? sph_laplacian_weight_brookshaw(k, dim, r, h, V_j) : sph_laplacian_weight_kernel(k, dim, r, h, V_j);
 }
-SPH_FN sph_index sphi_laplacian(int which, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                sph_scalars f, SPH_GLOBAL sph_real *out)
+SPH_FN sph_index sphi_laplacian(int which, sph_kernel k, int dim, sph_cloud cloud, sph_scalars f, SPH_GLOBAL sph_real *out)
 {
-    int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_field(f, x.n);
+    if (!error) error = sphi_check_field(f, cloud.points.n);
     if (!error && !out) error = SPH_ERROR_NULL;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
-        const sph_real h_i = sphi_at(h, i), f_i = sphi_at(f, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i), f_i = sphi_at(f, i);
         sph_real sum = SPH_R(0);
         SPH_SUM(sum)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            sum += sphi_laplacian_weight(which, k, dim, sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, j))), h_i, sphi_at(V, j)) *
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            sum += sphi_laplacian_weight(which, k, dim, sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j))), h_i, sphi_at(cloud.volume, j)) *
                    (sphi_at(f, j) - f_i);
         }
         failed += sphi_store_finite(out, i, sum);
     }
     return failed;
 }
-SPH_FN sph_index sphi_laplacian_rows(int which, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
-                                     sph_scalars V, SPH_GLOBAL sph_real *SPH_RESTRICT row)
+SPH_FN sph_index sphi_laplacian_rows(int which, sph_kernel k, int dim, sph_cloud cloud, SPH_GLOBAL sph_real *SPH_RESTRICT row)
 {
-    const int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    const int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
     sph_index i, p, failed = 0;
     if (error) return error;
     if (!row) return SPH_ERROR_NULL;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
-        const sph_real h_i = sphi_at(h, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
         SPH_EACH
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            row[p] = sphi_laplacian_weight(which, k, dim, sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, j))), h_i, sphi_at(V, j));
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            row[p] = sphi_laplacian_weight(which, k, dim, sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j))), h_i, sphi_at(cloud.volume, j));
         }
-        failed += sphi_row_finite(row, list.start[i], list.start[i + 1]);
+        failed += sphi_row_finite(row, cloud.list.start[i], cloud.list.start[i + 1]);
     }
     return failed;
 }
 
 /* L f_i = sum_j 2 V_j (f_i - f_j) F_ij; see sph_laplacian_weight_brookshaw */
-SPH_FN sph_index sph_laplacian_brookshaw(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                         sph_scalars f, SPH_GLOBAL sph_real *out)
+SPH_FN sph_index sph_laplacian_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f, SPH_GLOBAL sph_real *out)
 {
-    return sphi_laplacian(SPHI_BROOKSHAW, k, dim, first, last, x, list, h, V, f, out);
+    return sphi_laplacian(SPHI_BROOKSHAW, k, dim, cloud, f, out);
 }
-SPH_FN sph_index sph_laplacian_rows_brookshaw(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                              SPH_GLOBAL sph_real *SPH_RESTRICT row)
+SPH_FN sph_index sph_laplacian_rows_brookshaw(sph_kernel k, int dim, sph_cloud cloud, SPH_GLOBAL sph_real *SPH_RESTRICT row)
 {
-    return sphi_laplacian_rows(SPHI_BROOKSHAW, k, dim, first, last, x, list, h, V, row);
+    return sphi_laplacian_rows(SPHI_BROOKSHAW, k, dim, cloud, row);
 }
 
 /* L f_i = sum_j V_j (f_j - f_i) lap W_ij, for comparison; see sph_laplacian_weight_kernel */
-SPH_FN sph_index sph_laplacian_kernel(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                      sph_scalars f, SPH_GLOBAL sph_real *out)
+SPH_FN sph_index sph_laplacian_kernel(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f, SPH_GLOBAL sph_real *out)
 {
-    return sphi_laplacian(SPHI_KERNEL_LAPLACIAN, k, dim, first, last, x, list, h, V, f, out);
+    return sphi_laplacian(SPHI_KERNEL_LAPLACIAN, k, dim, cloud, f, out);
 }
-SPH_FN sph_index sph_laplacian_rows_kernel(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                           SPH_GLOBAL sph_real *SPH_RESTRICT row)
+SPH_FN sph_index sph_laplacian_rows_kernel(sph_kernel k, int dim, sph_cloud cloud, SPH_GLOBAL sph_real *SPH_RESTRICT row)
 {
-    return sphi_laplacian_rows(SPHI_KERNEL_LAPLACIAN, k, dim, first, last, x, list, h, V, row);
+    return sphi_laplacian_rows(SPHI_KERNEL_LAPLACIAN, k, dim, cloud, row);
 }
 
 /* ================================================================ list tier: second derivatives */
@@ -2121,30 +2114,29 @@ SPH_FN int sphi_solve(int method, int dim, const sph_moments *m, sph_real h, sph
     return method == SPHI_CSPM ? sph_solve_cspm(dim, m, h, jet, conditioning) : sph_solve_block(dim, m, h, jet, conditioning);
 }
 
-SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                  sph_scalars f, sph_real conditioning_min, int fallback_wls, sph_derivative_out out)
+SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_cloud cloud, sph_scalars f, sph_real conditioning_min, int fallback_wls, sph_derivative_out out)
 {
     const size_t stride = out.stride ? out.stride : 1;
     const int want_conditioning = out.conditioning || conditioning_min > SPH_R(0);
-    int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
     sph_index i, failed = 0;
-    if (!error) error = sphi_check_field(f, x.n);
+    if (!error) error = sphi_check_field(f, cloud.points.n);
     if (!error && (!sphi_finite(conditioning_min) || conditioning_min < SPH_R(0))) error = SPH_ERROR_VALUE;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_real h_i = sphi_at(h, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_real h_i = sphi_at(cloud.h, i);
         sph_moments m;
         sph_jet j;
         sph_real conditioning = SPH_R(0);
         int state, solved;
-        sphi_moments(method, k, dim, 1, i, x, list, h_i, V, f, &m);
+        sphi_moments(method, k, dim, 1, i, cloud.points, cloud.list, h_i, cloud.volume, f, &m);
         state = sphi_solve(method, dim, &m, h_i, &j, want_conditioning ? &conditioning : 0);
         solved = state == SPH_OK;
         if (!sphi_finite(conditioning)) conditioning = SPH_R(0); /* moments that overflowed */
-        if (!solved) state = sphi_singular_status(k, dim, i, x, list, h_i, sphi_neighbours_needed(method, dim));
+        if (!solved) state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i, sphi_neighbours_needed(method, dim));
         else if (want_conditioning && SPHI_ABS(conditioning) < conditioning_min) state = SPH_ILL_CONDITIONED;
         if (fallback_wls && (state == SPH_SINGULAR || state == SPH_ILL_CONDITIONED)) {
-            sphi_moments(SPHI_WLS, k, dim, 1, i, x, list, h_i, V, f, &m);
+            sphi_moments(SPHI_WLS, k, dim, 1, i, cloud.points, cloud.list, h_i, cloud.volume, f, &m);
             if (sph_solve_block(dim, &m, h_i, &j, 0) == SPH_OK) {
                 state = SPH_FELL_BACK;
                 solved = 1;
@@ -2181,62 +2173,58 @@ SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_index f
 
 /* Gradient, Hessian and Laplacian by CSPM: (3.5), (5.15) of the ICSPM paper in 1D. The Hessian has an error O(1) at boundaries: in 1D it is kappa f''.
    conditioning: smallest pivot of the scaled matrices, in [0, 1]; a target below conditioning_min (>= 0) is reported SPH_ILL_CONDITIONED, its value kept. */
-SPH_FN sph_index sph_derivatives_cspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                      sph_scalars f, sph_real conditioning_min, sph_derivative_out out)
+SPH_FN sph_index sph_derivatives_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f, sph_real conditioning_min, sph_derivative_out out)
 {
-    return sphi_derivatives(SPHI_CSPM, k, dim, first, last, x, list, h, V, f, conditioning_min, 0, out);
+    return sphi_derivatives(SPHI_CSPM, k, dim, cloud, f, conditioning_min, 0, out);
 }
 
 /* Gradient, Hessian and Laplacian by ICSPM: (5.17) of the ICSPM paper in 1D. Exact for quadratic fields wherever it is not singular.
    conditioning: kappa in 1D, sign(det kappa) / |kappa^-1| in general. Targets whose |conditioning| is below conditioning_min (>= 0; where there are boundaries and
    disorder 0.2 is a good value in 1D and 0.02 in 2D and 3D; 0 is the published method) are SPH_ILL_CONDITIONED and keep their value, or, with fallback_wls = 1, get the least-squares one and are SPH_FELL_BACK. */
-SPH_FN sph_index sph_derivatives_icspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                       sph_scalars f, sph_real conditioning_min, int fallback_wls, sph_derivative_out out)
+SPH_FN sph_index sph_derivatives_icspm(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f, sph_real conditioning_min, int fallback_wls, sph_derivative_out out)
 {
-    return sphi_derivatives(SPHI_ICSPM, k, dim, first, last, x, list, h, V, f, conditioning_min, fallback_wls, out);
+    return sphi_derivatives(SPHI_ICSPM, k, dim, cloud, f, conditioning_min, fallback_wls, out);
 }
 
 /* Gradient, Hessian and Laplacian by weighted least squares: the robust sibling. Exact for quadratic fields; the matrix is definite wherever the neighbours determine a
    quadratic. conditioning: as for ICSPM, here in [0, 1]. */
-SPH_FN sph_index sph_derivatives_wls(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                     sph_scalars f, sph_real conditioning_min, sph_derivative_out out)
+SPH_FN sph_index sph_derivatives_wls(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f, sph_real conditioning_min, sph_derivative_out out)
 {
-    return sphi_derivatives(SPHI_WLS, k, dim, first, last, x, list, h, V, f, conditioning_min, 0, out);
+    return sphi_derivatives(SPHI_WLS, k, dim, cloud, f, conditioning_min, 0, out);
 }
 
-SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
-                                      sph_scalars V, sph_jet d, sph_row_out out)
+SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_cloud cloud, sph_jet d, sph_row_out out)
 {
-    const int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    const int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
     sph_index i, p, failed = 0;
     if (error) return error;
     if (!out.row) return SPH_ERROR_NULL;
     if (!sphi_jet_finite(dim, d)) return SPH_ERROR_VALUE;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
-        const sph_real h_i = sphi_at(h, i), u = SPH_R(1) / h_i;
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i), u = SPH_R(1) / h_i;
         SPH_GLOBAL sph_real *const row = out.row;
         sph_moments m;
         sph_row_coefficients c;
         sph_real conditioning = SPH_R(0), sum = SPH_R(0);
         int state;
         c.factor = SPH_R(0);
-        sphi_moments(method, k, dim, 0, i, x, list, h_i, V, V, &m);
+        sphi_moments(method, k, dim, 0, i, cloud.points, cloud.list, h_i, cloud.volume, cloud.volume, &m);
         state = method == SPHI_CSPM ? sph_row_cspm(dim, &m, h_i, d, &c, out.conditioning ? &conditioning : 0)
                                     : sph_row_block(dim, method == SPHI_ICSPM, &m, h_i, d, &c, out.conditioning ? &conditioning : 0);
-        if (state) state = sphi_singular_status(k, dim, i, x, list, h_i, sphi_neighbours_needed(method, dim));
+        if (state) state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i, sphi_neighbours_needed(method, dim));
         else {
-            for (p = list.start[i]; p < list.start[i + 1]; p++) {
-                const sph_index j = list.index[p];
-                const sph_vec e = sph_scale(u, sphi_separation(dim, x, sphi_point(dim, x, j), x_i));
-                row[p] = sph_row_weight(dim, c, e, sphi_test_weights(method, k, dim, sph_length(dim, e), sphi_at(V, j)));
+            for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+                const sph_index j = cloud.list.index[p];
+                const sph_vec e = sph_scale(u, sphi_separation(dim, cloud.points, sphi_point(dim, cloud.points, j), x_i));
+                row[p] = sph_row_weight(dim, c, e, sphi_test_weights(method, k, dim, sph_length(dim, e), sphi_at(cloud.volume, j)));
                 sum += row[p];
             }
             if (!sphi_finite(sum) || !sphi_finite(c.factor)) state = SPH_NOT_FINITE;
         }
         if (!sphi_finite(conditioning)) conditioning = SPH_R(0);
         if (state) {
-            for (p = list.start[i]; p < list.start[i + 1]; p++) row[p] = SPH_R(0);
+            for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) row[p] = SPH_R(0);
             c.factor = sum = SPH_R(0);
         }
         if (out.diagonal) out.diagonal[i] = -sum;
@@ -2249,23 +2237,20 @@ SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_ind
 }
 
 /* Stencil rows of the operator d (see sph_jet): sum_p row[p] (f_j - f_i) = factor_i D f_i. The rows of a target that is not ok are 0, and so is its factor. */
-SPH_FN sph_index sph_derivative_rows_cspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                          sph_jet d, sph_row_out out)
+SPH_FN sph_index sph_derivative_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_jet d, sph_row_out out)
 {
-    return sphi_derivative_rows(SPHI_CSPM, k, dim, first, last, x, list, h, V, d, out);
+    return sphi_derivative_rows(SPHI_CSPM, k, dim, cloud, d, out);
 }
 
 /* ICSPM: factor is the kappa of the paper (in 1D the rows are those of CSPM and the boundary value problem is  sum_p row[p] (u_j - u_i) = kappa_i f''(x_i)): nothing is
    ever divided by kappa, so a target where kappa is 0 is ok here. */
-SPH_FN sph_index sph_derivative_rows_icspm(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                           sph_jet d, sph_row_out out)
+SPH_FN sph_index sph_derivative_rows_icspm(sph_kernel k, int dim, sph_cloud cloud, sph_jet d, sph_row_out out)
 {
-    return sphi_derivative_rows(SPHI_ICSPM, k, dim, first, last, x, list, h, V, d, out);
+    return sphi_derivative_rows(SPHI_ICSPM, k, dim, cloud, d, out);
 }
-SPH_FN sph_index sph_derivative_rows_wls(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                         sph_jet d, sph_row_out out)
+SPH_FN sph_index sph_derivative_rows_wls(sph_kernel k, int dim, sph_cloud cloud, sph_jet d, sph_row_out out)
 {
-    return sphi_derivative_rows(SPHI_WLS, k, dim, first, last, x, list, h, V, d, out);
+    return sphi_derivative_rows(SPHI_WLS, k, dim, cloud, d, out);
 }
 
 /* ---------------------------------------------------------------- BIM, one dimension */
@@ -2286,27 +2271,26 @@ SPH_FN int sphi_bim_status(sph_kernel k, sph_index i, sph_points x, sph_list lis
 
 /* f''_i = (1/gamma_i) { sum_j 2 V_j (f_i - f_j) F_ij + boundary terms at the particles `left` and `right` }, gamma_i the Shepard sum. (5.16) of the ICSPM paper.
    First order near a boundary if h grows against the spacing, as the integrals demand. Not available (SPH_NOT_AVAILABLE, 0) at the ends themselves. */
-SPH_FN sph_index sph_second_derivative_bim(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                           sph_scalars f, sph_index left, sph_index right, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_second_derivative_bim(sph_kernel k, sph_cloud cloud, sph_scalars f, sph_index left, sph_index right, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
 {
-    int error = sphi_check_sweep(k, 1, first, last, x, list, h, V);
+    int error = sphi_check_sweep(k, 1, cloud, cloud.volume);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_field(f, x.n);
+    if (!error) error = sphi_check_field(f, cloud.points.n);
     if (!error && !out) error = SPH_ERROR_NULL;
-    if (!error) error = sphi_check_ends(x, left, right);
+    if (!error) error = sphi_check_ends(cloud.points, left, right);
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_real x_i = sphi_point(1, x, i).x, x_l = sphi_point(1, x, left).x, x_r = sphi_point(1, x, right).x, h_i = sphi_at(h, i), f_i = sphi_at(f, i);
-        int state = sphi_bim_status(k, i, x, list, h_i, x_l, x_r);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_real x_i = sphi_point(1, cloud.points, i).x, x_l = sphi_point(1, cloud.points, left).x, x_r = sphi_point(1, cloud.points, right).x, h_i = sphi_at(cloud.h, i), f_i = sphi_at(f, i);
+        int state = sphi_bim_status(k, i, cloud.points, cloud.list, h_i, x_l, x_r);
         sph_real value = SPH_R(0);
         if (!state) {
-            sph_real sum = SPH_R(0), gamma = sphi_at(V, i) * sph_kernel_w(k, 1, SPH_R(0), h_i);
+            sph_real sum = SPH_R(0), gamma = sphi_at(cloud.volume, i) * sph_kernel_w(k, 1, SPH_R(0), h_i);
             SPH_SUM(sum, gamma)
-            for (p = list.start[i]; p < list.start[i + 1]; p++) {
-                const sph_index j = list.index[p];
-                const sph_real r = SPHI_ABS(x_i - sphi_point(1, x, j).x);
-                sum += sph_laplacian_weight_brookshaw(k, 1, r, h_i, sphi_at(V, j)) * (sphi_at(f, j) - f_i);
-                gamma += sphi_at(V, j) * sph_kernel_w(k, 1, r, h_i);
+            for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+                const sph_index j = cloud.list.index[p];
+                const sph_real r = SPHI_ABS(x_i - sphi_point(1, cloud.points, j).x);
+                sum += sph_laplacian_weight_brookshaw(k, 1, r, h_i, sphi_at(cloud.volume, j)) * (sphi_at(f, j) - f_i);
+                gamma += sphi_at(cloud.volume, j) * sph_kernel_w(k, 1, r, h_i);
             }
             sum += sph_boundary_weight_bim(k, x_i, x_r, SPH_R(1), h_i) * (sphi_at(f, right) - f_i) +
                    sph_boundary_weight_bim(k, x_i, x_l, SPH_R(-1), h_i) * (sphi_at(f, left) - f_i);
@@ -2324,29 +2308,28 @@ SPH_FN sph_index sph_second_derivative_bim(sph_kernel k, sph_index first, sph_in
 }
 
 /* The same as rows: f''_i = sum_p row[p] (f_j - f_i). The ends must be in the lists of the targets that reach them. */
-SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                                sph_index left, sph_index right, SPH_GLOBAL sph_real *SPH_RESTRICT row, SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_cloud cloud, sph_index left, sph_index right, SPH_GLOBAL sph_real *SPH_RESTRICT row, SPH_GLOBAL unsigned char *status)
 {
-    int error = sphi_check_sweep(k, 1, first, last, x, list, h, V);
+    int error = sphi_check_sweep(k, 1, cloud, cloud.volume);
     sph_index i, p, failed = 0;
     if (!error && !row) error = SPH_ERROR_NULL;
-    if (!error) error = sphi_check_ends(x, left, right);
+    if (!error) error = sphi_check_ends(cloud.points, left, right);
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_real x_i = sphi_point(1, x, i).x, x_l = sphi_point(1, x, left).x, x_r = sphi_point(1, x, right).x, h_i = sphi_at(h, i);
-        int state = sphi_bim_status(k, i, x, list, h_i, x_l, x_r);
-        sph_real gamma = sphi_at(V, i) * sph_kernel_w(k, 1, SPH_R(0), h_i), scale;
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            const sph_real r = SPHI_ABS(x_i - sphi_point(1, x, j).x);
-            row[p] = state ? SPH_R(0) : sph_laplacian_weight_brookshaw(k, 1, r, h_i, sphi_at(V, j));
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_real x_i = sphi_point(1, cloud.points, i).x, x_l = sphi_point(1, cloud.points, left).x, x_r = sphi_point(1, cloud.points, right).x, h_i = sphi_at(cloud.h, i);
+        int state = sphi_bim_status(k, i, cloud.points, cloud.list, h_i, x_l, x_r);
+        sph_real gamma = sphi_at(cloud.volume, i) * sph_kernel_w(k, 1, SPH_R(0), h_i), scale;
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            const sph_real r = SPHI_ABS(x_i - sphi_point(1, cloud.points, j).x);
+            row[p] = state ? SPH_R(0) : sph_laplacian_weight_brookshaw(k, 1, r, h_i, sphi_at(cloud.volume, j));
             if (!state && j == right) row[p] += sph_boundary_weight_bim(k, x_i, x_r, SPH_R(1), h_i);
             if (!state && j == left) row[p] += sph_boundary_weight_bim(k, x_i, x_l, SPH_R(-1), h_i);
-            gamma += sphi_at(V, j) * sph_kernel_w(k, 1, r, h_i);
+            gamma += sphi_at(cloud.volume, j) * sph_kernel_w(k, 1, r, h_i);
         }
         scale = state ? SPH_R(0) : SPH_R(1) / gamma;
-        for (p = list.start[i]; p < list.start[i + 1]; p++) row[p] *= scale;
-        if (sphi_row_finite(row, list.start[i], list.start[i + 1])) state = SPH_NOT_FINITE;
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) row[p] *= scale;
+        if (sphi_row_finite(row, cloud.list.start[i], cloud.list.start[i + 1])) state = SPH_NOT_FINITE;
         if (status) status[i] = (unsigned char)state;
         failed += state != SPH_OK;
     }
@@ -2386,44 +2369,43 @@ SPH_FN sph_real sphi_mean_h(int uniform, sph_scalars h, sph_real h_i, sph_index 
 
 /* What the loops over the neighbours of one particle share. */
 typedef struct sphi_elliptic {
-    sph_points x;
-    sph_list list;
-    sph_scalars h, V, m;
+    sph_cloud cloud;
+    sph_scalars m;
     sph_elliptic_options options;
     int uniform;
 } sphi_elliptic;
 
-SPH_FN int sphi_elliptic_check(sph_kernel k, int dim, sph_index first, sph_index last, const sphi_elliptic *a)
+SPH_FN int sphi_elliptic_check(sph_kernel k, int dim, const sphi_elliptic *a)
 {
     const sph_elliptic_options o = a->options;
     sph_index i;
-    int error = sphi_check_sweep(k, dim, first, last, a->x, a->list, a->h, a->V), negative = 0;
+    int error = sphi_check_sweep(k, dim, a->cloud, a->cloud.volume), negative = 0;
     if (error) return error;
     if (o.gradient < 0 || o.gradient > (int)SPH_GRADIENT_SHEPARD_FULL || o.mean < 0 || o.mean > (int)SPH_MOBILITY_UPWIND) return SPH_ERROR_VALUE;
     if (!sphi_finite(o.conditioning_min)) return SPH_ERROR_VALUE;
-    error = sphi_check_field(a->m, a->x.n);
-    if (!error && o.mean == (int)SPH_MOBILITY_UPWIND) error = sphi_check_field(o.potential, a->x.n);
+    error = sphi_check_field(a->m, a->cloud.points.n);
+    if (!error && o.mean == (int)SPH_MOBILITY_UPWIND) error = sphi_check_field(o.potential, a->cloud.points.n);
     if (error) return error;
-    for (i = 0; SPH_CHECK && i < (a->m.stride ? a->x.n : 1); i++) negative |= sphi_at(a->m, i) < SPH_R(0);
+    for (i = 0; SPH_CHECK && i < (a->m.stride ? a->cloud.points.n : 1); i++) negative |= sphi_at(a->m, i) < SPH_R(0);
     return negative ? SPH_ERROR_VALUE : 0;
 }
 
 /* nu and its gradient; not needed, and 1 and 0, for the gradient (15) */
 SPH_FN sph_shepard sphi_elliptic_shepard(sph_kernel k, int dim, const sphi_elliptic *a, sph_index i)
 {
-    const sph_vec x_i = sphi_point(dim, a->x, i);
-    const sph_real h_i = sphi_at(a->h, i);
-    sph_real nu = sphi_at(a->V, i) * sph_kernel_w(k, dim, SPH_R(0), h_i), sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
+    const sph_vec x_i = sphi_point(dim, a->cloud.points, i);
+    const sph_real h_i = sphi_at(a->cloud.h, i);
+    sph_real nu = sphi_at(a->cloud.volume, i) * sph_kernel_w(k, dim, SPH_R(0), h_i), sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
     sph_shepard s;
     sph_index p;
     if (a->options.gradient == (int)SPH_GRADIENT_DIFFUSE) nu = SPH_R(1);
     else {
         SPH_SUM(nu, sx, sy, sz)
-        for (p = a->list.start[i]; p < a->list.start[i + 1]; p++) {
-            const sph_index j = a->list.index[p];
-            const sph_vec e = sphi_separation(dim, a->x, sphi_point(dim, a->x, j), x_i);
-            const sph_wf v = sph_kernel_wf(k, dim, sph_length(dim, e), sphi_mean_h(a->uniform, a->h, h_i, j));
-            const sph_real V_j = sphi_at(a->V, j);
+        for (p = a->cloud.list.start[i]; p < a->cloud.list.start[i + 1]; p++) {
+            const sph_index j = a->cloud.list.index[p];
+            const sph_vec e = sphi_separation(dim, a->cloud.points, sphi_point(dim, a->cloud.points, j), x_i);
+            const sph_wf v = sph_kernel_wf(k, dim, sph_length(dim, e), sphi_mean_h(a->uniform, a->cloud.h, h_i, j));
+            const sph_real V_j = sphi_at(a->cloud.volume, j);
             nu += V_j * v.w;
             sx -= V_j * v.f * e.x;
             if (dim > 1) sy -= V_j * v.f * e.y;
@@ -2446,16 +2428,16 @@ typedef struct sphi_elliptic_pair {
 SPH_FN sphi_elliptic_pair sphi_elliptic_pair_of(sph_kernel k, int dim, const sphi_elliptic *a, sph_shepard s, sph_vec x_i, sph_real h_i, sph_index j)
 {
     sphi_elliptic_pair c;
-    c.e = sphi_separation(dim, a->x, sphi_point(dim, a->x, j), x_i);
-    c.V_j = sphi_at(a->V, j);
-    c.g = sph_elliptic_gradient_pair(a->options.gradient, sph_kernel_wf(k, dim, sph_length(dim, c.e), sphi_mean_h(a->uniform, a->h, h_i, j)), c.V_j, s);
+    c.e = sphi_separation(dim, a->cloud.points, sphi_point(dim, a->cloud.points, j), x_i);
+    c.V_j = sphi_at(a->cloud.volume, j);
+    c.g = sph_elliptic_gradient_pair(a->options.gradient, sph_kernel_wf(k, dim, sph_length(dim, c.e), sphi_mean_h(a->uniform, a->cloud.h, h_i, j)), c.V_j, s);
     return c;
 }
 
 SPH_FN sph_elliptic_moments sphi_elliptic_moments_of(sph_kernel k, int dim, const sphi_elliptic *a, sph_shepard s, sph_index i)
 {
-    const sph_vec x_i = sphi_point(dim, a->x, i);
-    const sph_real h_i = sphi_at(a->h, i);
+    const sph_vec x_i = sphi_point(dim, a->cloud.points, i);
+    const sph_real h_i = sphi_at(a->cloud.h, i);
     const int gradient = a->options.gradient;
     sph_real xx = SPH_R(0), xy = SPH_R(0), yy = SPH_R(0), xz = SPH_R(0), yz = SPH_R(0), zz = SPH_R(0), nx = SPH_R(0), ny = SPH_R(0), nz = SPH_R(0);
     sph_elliptic_moments m;
@@ -2463,8 +2445,8 @@ SPH_FN sph_elliptic_moments sphi_elliptic_moments_of(sph_kernel k, int dim, cons
     sph_vec n;
     sph_index p;
     SPH_SUM(xx, xy, yy, xz, yz, zz, nx, ny, nz)
-    for (p = a->list.start[i]; p < a->list.start[i + 1]; p++) {
-        const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, a->list.index[p]);
+    for (p = a->cloud.list.start[i]; p < a->cloud.list.start[i + 1]; p++) {
+        const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, a->cloud.list.index[p]);
         const sph_vec te = sph_scale(c.V_j * sph_elliptic_projection(dim, gradient, c.e, c.g), c.e);
         xx += te.x * c.e.x;
         nx += te.x;
@@ -2491,14 +2473,14 @@ SPH_FN sph_elliptic_moments sphi_elliptic_moments_of(sph_kernel k, int dim, cons
     n.z = nz;
     m = sph_elliptic_moments_radial(gamma, n);
     if (gradient == (int)SPH_GRADIENT_FULL) { /* K and N are sums of their own */
-        const sph_real own = -sphi_at(a->V, i) * sph_kernel_w(k, dim, SPH_R(0), h_i) / (s.nu * s.nu);
+        const sph_real own = -sphi_at(a->cloud.volume, i) * sph_kernel_w(k, dim, SPH_R(0), h_i) / (s.nu * s.nu);
         sph_real k0 = SPH_R(0), k1 = SPH_R(0), k2 = SPH_R(0), k3 = SPH_R(0), k4 = SPH_R(0), k5 = SPH_R(0), k6 = SPH_R(0), k7 = SPH_R(0), k8 = SPH_R(0);
         nx = own * s.gradient.x; /* the particle itself: in N only, which is 0 because of it */
         ny = own * s.gradient.y;
         nz = own * s.gradient.z;
         SPH_SUM(k0, k1, k2, k3, k4, k5, k6, k7, k8, nx, ny, nz)
-        for (p = a->list.start[i]; p < a->list.start[i + 1]; p++) {
-            const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, a->list.index[p]);
+        for (p = a->cloud.list.start[i]; p < a->cloud.list.start[i + 1]; p++) {
+            const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, a->cloud.list.index[p]);
             const sph_vec g = sph_scale(c.V_j, sph_elliptic_gradient_vector(dim, gradient, c.e, c.g));
             k0 += c.e.x * g.x;
             nx += g.x;
@@ -2528,11 +2510,11 @@ SPH_FN sph_elliptic_moments sphi_elliptic_moments_of(sph_kernel k, int dim, cons
 /* Gamma* = Gamma - sum V_j (xi . g) e e^T, (71) */
 SPH_FN sph_sym sphi_elliptic_gamma_star(sph_kernel k, int dim, const sphi_elliptic *a, sph_shepard s, sph_index i, sph_sym gamma, sph_vec xi)
 {
-    const sph_vec x_i = sphi_point(dim, a->x, i);
-    const sph_real h_i = sphi_at(a->h, i);
+    const sph_vec x_i = sphi_point(dim, a->cloud.points, i);
+    const sph_real h_i = sphi_at(a->cloud.h, i);
     sph_index p;
-    for (p = a->list.start[i]; p < a->list.start[i + 1]; p++) {
-        const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, a->list.index[p]);
+    for (p = a->cloud.list.start[i]; p < a->cloud.list.start[i + 1]; p++) {
+        const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, a->cloud.list.index[p]);
         const sph_vec we = sph_scale(c.V_j * sph_dot(dim, xi, sph_elliptic_gradient_vector(dim, a->options.gradient, c.e, c.g)), c.e);
         gamma.xx -= we.x * c.e.x;
         if (dim > 1) gamma.xy -= we.x * c.e.y, gamma.yy -= we.y * c.e.y;
@@ -2559,7 +2541,7 @@ SPH_FN int sphi_elliptic_correct(int scheme, sph_kernel k, int dim, const sphi_e
     }
     *conditioning = SPH_R(0);
     *m = sphi_elliptic_moments_of(k, dim, a, s, i);
-    if (sph_elliptic_invert(dim, a->options.gradient, m, &inverse, conditioning)) return sphi_singular_status(k, dim, i, a->x, a->list, sphi_at(a->h, i), dim);
+    if (sph_elliptic_invert(dim, a->options.gradient, m, &inverse, conditioning)) return sphi_singular_status(k, dim, i, a->cloud.points, a->cloud.list, sphi_at(a->cloud.h, i), dim);
     trace = inverse.x.x + (dim > 1 ? inverse.y.y : SPH_R(0)) + (dim > 2 ? inverse.z.z : SPH_R(0));
     if (scheme != SPHI_ELLIPTIC_CORRECTED) {
         c->xi = sph_elliptic_inverse_times(dim, inverse, scheme == SPHI_ELLIPTIC_SCHWAIGER ? m->n : m->n_tilde);
@@ -2611,21 +2593,21 @@ SPH_FN void sphi_row_answer(sph_row_out out, sph_list list, sph_index i, int wit
 }
 SPH_FN int sphi_unanswered(int state) { return state == SPH_TOO_FEW || state == SPH_SINGULAR || state == SPH_NOT_AVAILABLE || state == SPH_NOT_FINITE; }
 
-SPH_FN sph_index sphi_elliptic_apply(int scheme, sph_kernel k, int dim, sph_index first, sph_index last, const sphi_elliptic *a, sph_scalars u,
+SPH_FN sph_index sphi_elliptic_apply(int scheme, sph_kernel k, int dim, const sphi_elliptic *a, sph_scalars u,
                                      sph_scalars source, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
 {
     sph_index i, p, failed = 0;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, a->x, i);
-        const sph_real h_i = sphi_at(a->h, i), m_i = sphi_at(a->m, i), u_i = sphi_at(u, i), potential_i = sphi_elliptic_potential(a, i);
+    for (i = a->cloud.first; i < a->cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, a->cloud.points, i);
+        const sph_real h_i = sphi_at(a->cloud.h, i), m_i = sphi_at(a->m, i), u_i = sphi_at(u, i), potential_i = sphi_elliptic_potential(a, i);
         const sph_shepard s = sphi_elliptic_shepard(k, dim, a, i);
         sph_elliptic_correction correction;
         sph_elliptic_moments moments;
         sph_real conditioning, sum = SPH_R(0);
         int state = sphi_elliptic_correct(scheme, k, dim, a, s, i, &correction, &moments, &conditioning);
         SPH_SUM(sum)
-        for (p = a->list.start[i]; p < a->list.start[i + 1]; p++) {
-            const sph_index j = a->list.index[p];
+        for (p = a->cloud.list.start[i]; p < a->cloud.list.start[i + 1]; p++) {
+            const sph_index j = a->cloud.list.index[p];
             const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, j);
             sum += sph_elliptic_weight(dim, a->options.gradient, c.e, c.g, correction, c.V_j) * sphi_elliptic_mobility(a, m_i, potential_i, j) *
                    (sphi_at(u, j) - u_i);
@@ -2638,64 +2620,58 @@ SPH_FN sph_index sphi_elliptic_apply(int scheme, sph_kernel k, int dim, sph_inde
     }
     return failed;
 }
-SPH_FN sph_index sphi_elliptic_row(int scheme, sph_kernel k, int dim, sph_index first, sph_index last, const sphi_elliptic *a, sph_row_out out)
+SPH_FN sph_index sphi_elliptic_row(int scheme, sph_kernel k, int dim, const sphi_elliptic *a, sph_row_out out)
 {
     SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
     sph_index i, p, failed = 0;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, a->x, i);
-        const sph_real h_i = sphi_at(a->h, i), m_i = sphi_at(a->m, i), potential_i = sphi_elliptic_potential(a, i);
+    for (i = a->cloud.first; i < a->cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, a->cloud.points, i);
+        const sph_real h_i = sphi_at(a->cloud.h, i), m_i = sphi_at(a->m, i), potential_i = sphi_elliptic_potential(a, i);
         const sph_shepard s = sphi_elliptic_shepard(k, dim, a, i);
         sph_elliptic_correction correction;
         sph_elliptic_moments moments;
         sph_real conditioning;
         int state = sphi_elliptic_correct(scheme, k, dim, a, s, i, &correction, &moments, &conditioning);
         SPH_EACH
-        for (p = a->list.start[i]; p < a->list.start[i + 1]; p++) {
-            const sph_index j = a->list.index[p];
+        for (p = a->cloud.list.start[i]; p < a->cloud.list.start[i + 1]; p++) {
+            const sph_index j = a->cloud.list.index[p];
             const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, j);
             row[p] = sph_elliptic_weight(dim, a->options.gradient, c.e, c.g, correction, c.V_j) * sphi_elliptic_mobility(a, m_i, potential_i, j);
         }
-        if (sphi_row_finite(row, a->list.start[i], a->list.start[i + 1])) state = SPH_NOT_FINITE;
-        sphi_row_answer(out, a->list, i, 1, conditioning, state);
+        if (sphi_row_finite(row, a->cloud.list.start[i], a->cloud.list.start[i + 1])) state = SPH_NOT_FINITE;
+        sphi_row_answer(out, a->cloud.list, i, 1, conditioning, state);
         failed += state != SPH_OK;
     }
     return failed;
 }
-SPH_FN sphi_elliptic sphi_elliptic_of(sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars m, sph_elliptic_options options, int uniform)
+SPH_FN sphi_elliptic sphi_elliptic_of(sph_cloud cloud, sph_scalars m, sph_elliptic_options options, int uniform)
 {
     sphi_elliptic a;
-    a.x = x;
-    a.list = list;
-    a.h = h;
-    a.V = V;
+    a.cloud = cloud;
     a.m = m;
     a.options = options;
     a.uniform = uniform;
     return a;
 }
 /* u and out, or rows; with one body for one h for all, and one for h of each particle's own */
-SPH_FN sph_index sphi_elliptic_sweep(int scheme, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
-                                     sph_scalars V, sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source, SPH_GLOBAL sph_real *out,
-                                     SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sphi_elliptic_sweep(int scheme, sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
 {
-    const sphi_elliptic one = sphi_elliptic_of(x, list, h, V, m, options, 1), own = sphi_elliptic_of(x, list, h, V, m, options, 0);
-    int error = sphi_elliptic_check(k, dim, first, last, &own);
-    if (!error) error = sphi_check_field(u, x.n);
-    if (!error && source.p) error = sphi_check_field(source, x.n);
+    const sphi_elliptic one = sphi_elliptic_of(cloud, m, options, 1), own = sphi_elliptic_of(cloud, m, options, 0);
+    int error = sphi_elliptic_check(k, dim, &own);
+    if (!error) error = sphi_check_field(u, cloud.points.n);
+    if (!error && source.p) error = sphi_check_field(source, cloud.points.n);
     if (!error && !out) error = SPH_ERROR_NULL;
     if (error) return error;
-    return h.stride ? sphi_elliptic_apply(scheme, k, dim, first, last, &own, u, source, out, status)
-                    : sphi_elliptic_apply(scheme, k, dim, first, last, &one, u, source, out, status);
+    return cloud.h.stride ? sphi_elliptic_apply(scheme, k, dim, &own, u, source, out, status)
+                    : sphi_elliptic_apply(scheme, k, dim, &one, u, source, out, status);
 }
-SPH_FN sph_index sphi_elliptic_rows(int scheme, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
-                                    sph_scalars V, sph_scalars m, sph_elliptic_options options, sph_row_out out)
+SPH_FN sph_index sphi_elliptic_rows(int scheme, sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_elliptic_options options, sph_row_out out)
 {
-    const sphi_elliptic one = sphi_elliptic_of(x, list, h, V, m, options, 1), own = sphi_elliptic_of(x, list, h, V, m, options, 0);
-    int error = sphi_elliptic_check(k, dim, first, last, &own);
+    const sphi_elliptic one = sphi_elliptic_of(cloud, m, options, 1), own = sphi_elliptic_of(cloud, m, options, 0);
+    int error = sphi_elliptic_check(k, dim, &own);
     if (!error && !out.row) error = SPH_ERROR_NULL;
     if (error) return error;
-    return h.stride ? sphi_elliptic_row(scheme, k, dim, first, last, &own, out) : sphi_elliptic_row(scheme, k, dim, first, last, &one, out);
+    return cloud.h.stride ? sphi_elliptic_row(scheme, k, dim, &own, out) : sphi_elliptic_row(scheme, k, dim, &one, out);
 }
 
 /* div(m grad u)_i + source_i, for all four schemes (see the pair tier: formulas, sources, exactness, errors).
@@ -2709,49 +2685,37 @@ SPH_FN sph_index sphi_elliptic_rows(int scheme, sph_kernel k, int dim, sph_index
    SPH_TOO_FEW, SPH_SINGULAR: not for Brookshaw's scheme; the neighbours lie on a line or in a plane, or are too few: output and row are 0. SPH_FELL_BACK: Gamma was taken for Gamma*, which
    is not definite. SPH_ILL_CONDITIONED: computed, with a conditioning (smallest pivot of the scaled Gamma) below conditioning_min.
    Coincident neighbours get the radial weight of r = 0. */
-SPH_FN sph_index sph_elliptic_brookshaw(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                        sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source, SPH_GLOBAL sph_real *out,
-                                        SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_elliptic_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
 {
-    return sphi_elliptic_sweep(SPHI_ELLIPTIC_BROOKSHAW, k, dim, first, last, x, list, h, V, m, options, u, source, out, status);
+    return sphi_elliptic_sweep(SPHI_ELLIPTIC_BROOKSHAW, k, dim, cloud, m, options, u, source, out, status);
 }
-SPH_FN sph_index sph_elliptic_brookshaw_corrected(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
-                                                  sph_scalars V, sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source,
-                                                  SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_elliptic_brookshaw_corrected(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
 {
-    return sphi_elliptic_sweep(SPHI_ELLIPTIC_CORRECTED, k, dim, first, last, x, list, h, V, m, options, u, source, out, status);
+    return sphi_elliptic_sweep(SPHI_ELLIPTIC_CORRECTED, k, dim, cloud, m, options, u, source, out, status);
 }
-SPH_FN sph_index sph_elliptic_schwaiger(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                        sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source, SPH_GLOBAL sph_real *out,
-                                        SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_elliptic_schwaiger(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
 {
-    return sphi_elliptic_sweep(SPHI_ELLIPTIC_SCHWAIGER, k, dim, first, last, x, list, h, V, m, options, u, source, out, status);
+    return sphi_elliptic_sweep(SPHI_ELLIPTIC_SCHWAIGER, k, dim, cloud, m, options, u, source, out, status);
 }
-SPH_FN sph_index sph_elliptic_msph(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                   sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source, SPH_GLOBAL sph_real *out,
-                                   SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_elliptic_msph(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_elliptic_options options, sph_scalars u, sph_scalars source, SPH_GLOBAL sph_real *out, SPH_GLOBAL unsigned char *status)
 {
-    return sphi_elliptic_sweep(SPHI_ELLIPTIC_MSPH, k, dim, first, last, x, list, h, V, m, options, u, source, out, status);
+    return sphi_elliptic_sweep(SPHI_ELLIPTIC_MSPH, k, dim, cloud, m, options, u, source, out, status);
 }
-SPH_FN sph_index sph_elliptic_rows_brookshaw(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                             sph_scalars m, sph_elliptic_options options, sph_row_out out)
+SPH_FN sph_index sph_elliptic_rows_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_elliptic_options options, sph_row_out out)
 {
-    return sphi_elliptic_rows(SPHI_ELLIPTIC_BROOKSHAW, k, dim, first, last, x, list, h, V, m, options, out);
+    return sphi_elliptic_rows(SPHI_ELLIPTIC_BROOKSHAW, k, dim, cloud, m, options, out);
 }
-SPH_FN sph_index sph_elliptic_rows_brookshaw_corrected(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
-                                                       sph_scalars V, sph_scalars m, sph_elliptic_options options, sph_row_out out)
+SPH_FN sph_index sph_elliptic_rows_brookshaw_corrected(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_elliptic_options options, sph_row_out out)
 {
-    return sphi_elliptic_rows(SPHI_ELLIPTIC_CORRECTED, k, dim, first, last, x, list, h, V, m, options, out);
+    return sphi_elliptic_rows(SPHI_ELLIPTIC_CORRECTED, k, dim, cloud, m, options, out);
 }
-SPH_FN sph_index sph_elliptic_rows_schwaiger(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                             sph_scalars m, sph_elliptic_options options, sph_row_out out)
+SPH_FN sph_index sph_elliptic_rows_schwaiger(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_elliptic_options options, sph_row_out out)
 {
-    return sphi_elliptic_rows(SPHI_ELLIPTIC_SCHWAIGER, k, dim, first, last, x, list, h, V, m, options, out);
+    return sphi_elliptic_rows(SPHI_ELLIPTIC_SCHWAIGER, k, dim, cloud, m, options, out);
 }
-SPH_FN sph_index sph_elliptic_rows_msph(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                        sph_scalars m, sph_elliptic_options options, sph_row_out out)
+SPH_FN sph_index sph_elliptic_rows_msph(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_elliptic_options options, sph_row_out out)
 {
-    return sphi_elliptic_rows(SPHI_ELLIPTIC_MSPH, k, dim, first, last, x, list, h, V, m, options, out);
+    return sphi_elliptic_rows(SPHI_ELLIPTIC_MSPH, k, dim, cloud, m, options, out);
 }
 
 /* -------- a mobility for each axis: div(M grad u), M = diag(M_x, M_y, M_z) */
@@ -2782,19 +2746,18 @@ SPH_FN int sphi_check_diagonal(int dim, sph_diagonal M, sph_index n)
 /* M-SPH with a matrix, as published: row = scale V_j sum_a (M_i + M_j)_a (e_a g_a / |e|^2 - N~_a (K^-T g)_a), arithmetic means. INCONSISTENT unless M is isotropic or all neighbours lie
    on the axes (on lattices: support below sqrt(2) spacings): for M = diag(1, 0) and many neighbours it gives 3/2 and 1/2 for x^2 and y^2, not 2 and 0, at any
    resolution. Here because the paper uses it; sph_elliptic_rows_anisotropic is the one to use. */
-SPH_FN sph_index sph_elliptic_rows_msph_diagonal(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
-                                                 sph_scalars V, sph_diagonal M, sph_elliptic_options options, sph_row_out out)
+SPH_FN sph_index sph_elliptic_rows_msph_diagonal(sph_kernel k, int dim, sph_cloud cloud, sph_diagonal M, sph_elliptic_options options, sph_row_out out)
 {
-    const sphi_elliptic a = sphi_elliptic_of(x, list, h, V, M.x, options, h.stride == 0);
+    const sphi_elliptic a = sphi_elliptic_of(cloud, M.x, options, cloud.h.stride == 0);
     sph_index i, p, failed = 0;
-    int error = sphi_elliptic_check(k, dim, first, last, &a);
-    if (!error) error = sphi_check_diagonal(dim, M, x.n);
+    int error = sphi_elliptic_check(k, dim, &a);
+    if (!error) error = sphi_check_diagonal(dim, M, cloud.points.n);
     if (!error && options.mean != (int)SPH_MOBILITY_ARITHMETIC) error = SPH_ERROR_VALUE;
     if (!error && !out.row) error = SPH_ERROR_NULL;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
-        const sph_real h_i = sphi_at(h, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
         const sph_shepard s = sphi_elliptic_shepard(k, dim, &a, i);
         sph_elliptic_correction correction;
         sph_elliptic_moments m;
@@ -2802,8 +2765,8 @@ SPH_FN sph_index sph_elliptic_rows_msph_diagonal(sph_kernel k, int dim, sph_inde
         sph_real conditioning;
         int state = sphi_elliptic_correct(SPHI_ELLIPTIC_MSPH, k, dim, &a, s, i, &correction, &m, &conditioning);
         if (!sphi_unanswered(state)) state = sph_elliptic_invert(dim, options.gradient, &m, &inverse, 0) ? (int)SPH_SINGULAR : state;
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
             const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, s, x_i, h_i, j);
             const sph_vec g = sph_elliptic_gradient_vector(dim, options.gradient, c.e, c.g);
             const sph_real inverse_square = sphi_over_q(SPH_R(1), sph_dot(dim, c.e, c.e));
@@ -2822,8 +2785,8 @@ SPH_FN sph_index sph_elliptic_rows_msph_diagonal(sph_kernel k, int dim, sph_inde
             flux = sph_dot(dim, mu, g) * inverse_square - sph_dot(dim, sph_elliptic_inverse_times(dim, inverse, mn), g);
             out.row[p] = correction.scale * c.V_j * flux;
         }
-        if (sphi_row_finite(out.row, list.start[i], list.start[i + 1])) state = SPH_NOT_FINITE;
-        sphi_row_answer(out, list, i, 1, conditioning, state);
+        if (sphi_row_finite(out.row, cloud.list.start[i], cloud.list.start[i + 1])) state = SPH_NOT_FINITE;
+        sphi_row_answer(out, cloud.list, i, 1, conditioning, state);
         failed += state != SPH_OK;
     }
     return failed;
@@ -2836,28 +2799,27 @@ SPH_FN sph_index sph_elliptic_rows_msph_diagonal(sph_kernel k, int dim, sph_inde
    This form is this toolkit's. Exact for linear fields (M constant) at every particle and for xx, yy, zz in the interior of lattices; to O(disorder) elsewhere.
    S may be negative where M_x / M_y is beyond 3 (2D): weights then have both signs, and maximum principles are lost. Gradient (15), arithmetic means.
    SPH_SINGULAR also where T is: fewer directions of neighbours than axes. */
-SPH_FN sph_index sph_elliptic_rows_anisotropic(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
-                                               sph_scalars V, sph_diagonal M, sph_row_out out)
+SPH_FN sph_index sph_elliptic_rows_anisotropic(sph_kernel k, int dim, sph_cloud cloud, sph_diagonal M, sph_row_out out)
 {
     const sph_elliptic_options options = sph_elliptic_defaults();
-    const sphi_elliptic a = sphi_elliptic_of(x, list, h, V, M.x, options, h.stride == 0);
+    const sphi_elliptic a = sphi_elliptic_of(cloud, M.x, options, cloud.h.stride == 0);
     sph_shepard none;
     sph_index i, p, failed = 0;
-    int error = sphi_elliptic_check(k, dim, first, last, &a);
-    if (!error) error = sphi_check_diagonal(dim, M, x.n);
+    int error = sphi_elliptic_check(k, dim, &a);
+    if (!error) error = sphi_check_diagonal(dim, M, cloud.points.n);
     if (!error && !out.row) error = SPH_ERROR_NULL;
     if (error) return error;
     none.nu = SPH_R(1);
     none.gradient.x = none.gradient.y = none.gradient.z = SPH_R(0);
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
-        const sph_real h_i = sphi_at(h, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
         sph_sym K = {SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0)}, T = K, K_inverse = K, T_inverse = K;
         sph_vec nx = {SPH_R(0), SPH_R(0), SPH_R(0)}, ny = nx, nz = nx;
         sph_real conditioning = SPH_R(0), pivot = SPH_R(0);
         int state;
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, none, x_i, h_i, list.index[p]);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, none, x_i, h_i, cloud.list.index[p]);
             const sph_vec e = c.e, we = sph_scale(c.V_j * c.g.radial, e);
             const sph_real q = sphi_over_q(SPH_R(1), sph_dot(dim, e, e));
             const sph_vec wex = sph_scale(e.x * e.x * q, we), wey = sph_scale(e.y * e.y * q, we), wez = sph_scale(e.z * e.z * q, we);
@@ -2889,13 +2851,13 @@ SPH_FN sph_index sph_elliptic_rows_anisotropic(sph_kernel k, int dim, sph_index 
         }
         state = sph_solve_gradient(dim, K, &K_inverse, &conditioning);
         if (!state) state = sph_solve_gradient(dim, T, &T_inverse, &pivot);
-        if (state) state = sphi_singular_status(k, dim, i, x, list, h_i, dim);
+        if (state) state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i, dim);
         else if (pivot < conditioning) conditioning = pivot;
         nx = sphi_sym_times(dim, K_inverse, nx);
         ny = sphi_sym_times(dim, K_inverse, ny);
         nz = sphi_sym_times(dim, K_inverse, nz);
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
             const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, none, x_i, h_i, j);
             const sph_vec S = sphi_sym_times(dim, T_inverse, sphi_diagonal_sum(dim, M, i, j));
             const sph_real q = sphi_over_q(SPH_R(1), sph_dot(dim, c.e, c.e));
@@ -2904,8 +2866,8 @@ SPH_FN sph_index sph_elliptic_rows_anisotropic(sph_kernel k, int dim, sph_index 
             if (dim > 2) sum += S.z * (c.e.z * c.e.z * q - sph_dot(dim, nz, c.e));
             out.row[p] = state ? SPH_R(0) : c.V_j * c.g.radial * sum;
         }
-        if (sphi_row_finite(out.row, list.start[i], list.start[i + 1])) state = SPH_NOT_FINITE;
-        sphi_row_answer(out, list, i, 1, conditioning, state);
+        if (sphi_row_finite(out.row, cloud.list.start[i], cloud.list.start[i + 1])) state = SPH_NOT_FINITE;
+        sphi_row_answer(out, cloud.list, i, 1, conditioning, state);
         failed += state != SPH_OK;
     }
     return failed;
@@ -2916,23 +2878,21 @@ SPH_FN sph_index sph_elliptic_rows_anisotropic(sph_kernel k, int dim, sph_index 
 /* Rows of  alpha_i u_i + beta_i m_i n_i . grad u  for the targets with alpha or beta not 0; the rows of others are left as they are: write those of the operator first, then these over
    them. Dirichlet: alpha = 1, beta = 0. Neumann: alpha = 0, beta = 1: the flux into the domain through a boundary with the outer normal n, (100) of Lukyanov & Vuik 2020 with the corrected
    gradient, exact for linear fields, error O(h). Robin: both. n need not have unit length. diagonal is needed. A row of SPH_TOO_FEW or SPH_SINGULAR is 0, with its diagonal. */
-SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                            sph_scalars m, sph_elliptic_options options, sph_diagonal normal, sph_scalars alpha, sph_scalars beta,
-                                            sph_row_out out)
+SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_elliptic_options options, sph_diagonal normal, sph_scalars alpha, sph_scalars beta, sph_row_out out)
 {
-    const sphi_elliptic a = sphi_elliptic_of(x, list, h, V, m, options, h.stride == 0);
+    const sphi_elliptic a = sphi_elliptic_of(cloud, m, options, cloud.h.stride == 0);
     sph_index i, p, failed = 0;
-    int error = sphi_elliptic_check(k, dim, first, last, &a);
-    if (!error) error = sphi_check_field(alpha, x.n);
-    if (!error) error = sphi_check_field(beta, x.n);
-    if (!error) error = sphi_check_field(normal.x, x.n);
-    if (!error && dim > 1) error = sphi_check_field(normal.y, x.n);
-    if (!error && dim > 2) error = sphi_check_field(normal.z, x.n);
+    int error = sphi_elliptic_check(k, dim, &a);
+    if (!error) error = sphi_check_field(alpha, cloud.points.n);
+    if (!error) error = sphi_check_field(beta, cloud.points.n);
+    if (!error) error = sphi_check_field(normal.x, cloud.points.n);
+    if (!error && dim > 1) error = sphi_check_field(normal.y, cloud.points.n);
+    if (!error && dim > 2) error = sphi_check_field(normal.z, cloud.points.n);
     if (!error && (!out.row || !out.diagonal)) error = SPH_ERROR_NULL;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_real alpha_i = sphi_at(alpha, i), beta_i = sphi_at(beta, i), flux = beta_i * sphi_at(m, i), h_i = sphi_at(h, i);
-        const sph_vec x_i = sphi_point(dim, x, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_real alpha_i = sphi_at(alpha, i), beta_i = sphi_at(beta, i), flux = beta_i * sphi_at(m, i), h_i = sphi_at(cloud.h, i);
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
         sph_shepard s;
         sph_elliptic_moments moments;
         sph_elliptic_inverse inverse;
@@ -2940,32 +2900,32 @@ SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_index fir
         sph_real conditioning = SPH_R(1), sum = SPH_R(0);
         int state = SPH_OK;
         if (alpha_i == SPH_R(0) && beta_i == SPH_R(0)) continue;
-        for (p = list.start[i]; p < list.start[i + 1]; p++) out.row[p] = SPH_R(0);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) out.row[p] = SPH_R(0);
         if (beta_i != SPH_R(0)) {
             s = sphi_elliptic_shepard(k, dim, &a, i);
             moments = sphi_elliptic_moments_of(k, dim, &a, s, i);
             conditioning = SPH_R(0);
-            if (sph_elliptic_invert(dim, options.gradient, &moments, &inverse, &conditioning)) state = sphi_singular_status(k, dim, i, x, list, h_i, dim);
+            if (sph_elliptic_invert(dim, options.gradient, &moments, &inverse, &conditioning)) state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i, dim);
             else {
                 n.x = sphi_at(normal.x, i);
                 n.y = dim > 1 ? sphi_at(normal.y, i) : SPH_R(0);
                 n.z = dim > 2 ? sphi_at(normal.z, i) : SPH_R(0);
                 n = sph_scale(flux, sph_elliptic_inverse_times(dim, inverse, n));
-                for (p = list.start[i]; p < list.start[i + 1]; p++) {
-                    const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, s, x_i, h_i, list.index[p]);
+                for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+                    const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, s, x_i, h_i, cloud.list.index[p]);
                     out.row[p] = c.V_j * sph_dot(dim, n, sph_elliptic_gradient_vector(dim, options.gradient, c.e, c.g));
                 }
             }
             if (conditioning < options.conditioning_min && !state) state = SPH_ILL_CONDITIONED;
         }
-        if (sphi_row_finite(out.row, list.start[i], list.start[i + 1])) state = SPH_NOT_FINITE;
-        for (p = list.start[i]; p < list.start[i + 1]; p++) sum += out.row[p];
+        if (sphi_row_finite(out.row, cloud.list.start[i], cloud.list.start[i + 1])) state = SPH_NOT_FINITE;
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) sum += out.row[p];
         if (!sphi_finite(alpha_i - sum)) {
-            for (p = list.start[i]; p < list.start[i + 1]; p++) out.row[p] = SPH_R(0);
+            for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) out.row[p] = SPH_R(0);
             state = SPH_NOT_FINITE;
         }
         out.diagonal[i] = sphi_unanswered(state) ? SPH_R(0) : alpha_i - sum;
-        sphi_row_answer(out, list, i, 0, conditioning, state);
+        sphi_row_answer(out, cloud.list, i, 0, conditioning, state);
         failed += state != SPH_OK;
     }
     return failed;
@@ -3075,7 +3035,7 @@ SPH_FN sph_index sph_rows_growth(int dim, sph_index i, sph_points x, sph_list li
 {
     sph_real a = SPH_R(0), b = SPH_R(0);
     sph_index p;
-    int error = sphi_check_frame(dim, i, i, x, list);
+    int error = sphi_check_frame(dim, sphi_frame(i, i, x, list));
     if (!error && (!re || !im)) error = SPH_ERROR_NULL;
     if (!error && i >= x.n) error = SPH_ERROR_RANGE;
     if (!error) error = sphi_check_rows(i, i + 1, x.n, list, row, 0);
@@ -3113,18 +3073,17 @@ SPH_FN void sphi_report(SPH_GLOBAL sph_real *p, sph_index i, sph_real value, int
 {
     if (p) *lost |= sphi_store_finite(p, i, value);
 }
-SPH_FN sph_index sph_elliptic_diagnose(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars V,
-                                       sph_elliptic_options options, sph_elliptic_report out)
+SPH_FN sph_index sph_elliptic_diagnose(sph_kernel k, int dim, sph_cloud cloud, sph_elliptic_options options, sph_elliptic_report out)
 {
-    const sphi_elliptic a = sphi_elliptic_of(x, list, h, V, V, options, h.stride == 0);
+    const sphi_elliptic a = sphi_elliptic_of(cloud, cloud.volume, options, cloud.h.stride == 0);
     const int gradient = options.gradient;
     sph_index i, p, failed = 0;
-    int error = sphi_check_sweep(k, dim, first, last, x, list, h, V);
+    int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
     if (!error && (gradient < 0 || gradient > (int)SPH_GRADIENT_SHEPARD_FULL || !sphi_finite(options.conditioning_min))) error = SPH_ERROR_VALUE;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
-        const sph_real h_i = sphi_at(h, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
         const sph_shepard s = sphi_elliptic_shepard(k, dim, &a, i);
         sph_elliptic_moments m;
         sph_elliptic_correction correction;
@@ -3132,8 +3091,8 @@ SPH_FN sph_index sph_elliptic_diagnose(sph_kernel k, int dim, sph_index first, s
         sph_sym K;
         sph_vec eigen;
         int lost = 0, any = 0, state = sphi_elliptic_correct(SPHI_ELLIPTIC_MSPH, k, dim, &a, s, i, &correction, &m, &conditioning);
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, s, x_i, h_i, list.index[p]);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, s, x_i, h_i, cloud.list.index[p]);
             const sph_vec g = sph_elliptic_gradient_vector(dim, gradient, c.e, c.g);
             const sph_real t = sph_elliptic_projection(dim, gradient, c.e, c.g);
             const sph_real sign = SPH_R(1) - (gradient == (int)SPH_GRADIENT_FULL ? sph_dot(dim, correction.xi, g) / t : sph_dot(dim, correction.xi, c.e));
@@ -3277,20 +3236,19 @@ SPH_FN int sphi_check_positive(sph_scalars a, sph_index n)
 
 /* rho_i = m_i sum_j W_ij, the particle itself included: the number density times the own mass, so that a light particle beside heavy ones keeps its density. Hu & Adams 2006, JCP 213, 844, (15). m: of
    the targets. V_i = m_i / rho_i is 1 / sum_j W_ij. */
-SPH_FN sph_index sph_density_number(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars m,
-                                    SPH_GLOBAL sph_real *rho)
+SPH_FN sph_index sph_density_number(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, SPH_GLOBAL sph_real *rho)
 {
-    const int error = sphi_check_sweep(k, dim, first, last, x, list, h, m);
+    const int error = sphi_check_sweep(k, dim, cloud, m);
     sph_index i, p, failed = 0;
     if (error) return error;
     if (!rho) return SPH_ERROR_NULL;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
-        const sph_real h_i = sphi_at(h, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
         sph_real sum = sph_kernel_w(k, dim, SPH_R(0), h_i);
         SPH_SUM(sum)
-        for (p = list.start[i]; p < list.start[i + 1]; p++)
-            sum += sph_kernel_w(k, dim, sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, list.index[p]))), h_i);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++)
+            sum += sph_kernel_w(k, dim, sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, cloud.list.index[p]))), h_i);
         failed += sphi_store_finite(rho, i, sphi_at(m, i) * sum);
     }
     return failed;
@@ -3330,22 +3288,21 @@ SPH_FN sph_real sphi_fluid_viscosity(const sph_fluid *f, sph_real h, sph_real c_
     return sph_viscosity_pair_signal(f->alpha, f->beta, c_mean, rho_mean, vx, r);
 }
 
-SPH_FN sph_index sphi_fluid_range(int form, int uniform, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
-                                  const sph_fluid *f, sph_vector_out a, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
+SPH_FN sph_index sphi_fluid_range(int form, int uniform, sph_kernel k, int dim, sph_cloud cloud, const sph_fluid *f, sph_vector_out a, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
 {
     sph_index i, p, failed = 0;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(dim, f->v, i);
-        const sph_real h_i = sphi_at(h, i), m_i = sphi_at(f->m, i), rho_i = sphi_at(f->rho, i), p_i = sphi_at(f->p, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, f->v, i);
+        const sph_real h_i = sphi_at(cloud.h, i), m_i = sphi_at(f->m, i), rho_i = sphi_at(f->rho, i), p_i = sphi_at(f->p, i);
         const sph_real c_i = f->viscosity == (int)SPH_VISCOSITY_NONE ? SPH_R(0) : sphi_at(f->c, i);
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0), divergence = SPH_R(0), work = SPH_R(0);
         sph_vec sum;
         int lost;
         SPH_SUM(ax, ay, az, divergence, work)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
-            const sph_real r = sph_length(dim, x_ij), h_ij = sphi_mean_h(uniform, h, h_i, j);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_real r = sph_length(dim, x_ij), h_ij = sphi_mean_h(uniform, cloud.h, h_i, j);
             const sph_real vx = sph_dot(dim, sph_subtract(dim, v_i, sphi_vector_at(dim, f->v, j)), x_ij);
             /* coincident particles: a direction of rounding errors is none. A sign, because a comparison would keep the loop from vectorising */
             const sph_real F = sph_kernel_f(k, dim, r, h_ij) * (SPH_R(0.5) + SPHI_COPYSIGN(SPH_R(0.5), r - SPH_R(1e-12) * h_ij)), m_j = sphi_at(f->m, j);
@@ -3367,21 +3324,20 @@ SPH_FN sph_index sphi_fluid_range(int form, int uniform, sph_kernel k, int dim, 
     }
     return failed;
 }
-SPH_FN sph_index sphi_fluid_rates(int form, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_fluid f,
-                                  sph_vector_out a, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
+SPH_FN sph_index sphi_fluid_rates(int form, sph_kernel k, int dim, sph_cloud cloud, sph_fluid f, sph_vector_out a, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
 {
-    int error = sphi_check_sweep(k, dim, first, last, x, list, h, f.m);
+    int error = sphi_check_sweep(k, dim, cloud, f.m);
     if (!error && (f.viscosity < 0 || f.viscosity > (int)SPH_VISCOSITY_SIGNAL)) error = SPH_ERROR_VALUE;
     if (!error && (!sphi_finite(f.alpha) || !sphi_finite(f.beta) || !sphi_finite(f.eta))) error = SPH_ERROR_VALUE;
-    if (!error) error = sphi_check_positive(f.m, x.n);
-    if (!error) error = sphi_check_positive(f.rho, x.n);
-    if (!error) error = sphi_check_field(f.p, x.n);
-    if (!error && f.viscosity != (int)SPH_VISCOSITY_NONE) error = sphi_check_field(f.c, x.n);
-    if (!error) error = sphi_check_vectors(dim, f.v, x.n);
+    if (!error) error = sphi_check_positive(f.m, cloud.points.n);
+    if (!error) error = sphi_check_positive(f.rho, cloud.points.n);
+    if (!error) error = sphi_check_field(f.p, cloud.points.n);
+    if (!error && f.viscosity != (int)SPH_VISCOSITY_NONE) error = sphi_check_field(f.c, cloud.points.n);
+    if (!error) error = sphi_check_vectors(dim, f.v, cloud.points.n);
     if (!error) error = sphi_check_vector(dim, a.x, a.y, a.z);
     if (error) return error;
-    return h.stride ? sphi_fluid_range(form, 0, k, dim, first, last, x, list, h, &f, a, rate, heating)
-                    : sphi_fluid_range(form, 1, k, dim, first, last, x, list, h, &f, a, rate, heating);
+    return cloud.h.stride ? sphi_fluid_range(form, 0, k, dim, cloud, &f, a, rate, heating)
+                    : sphi_fluid_range(form, 1, k, dim, cloud, &f, a, rate, heating);
 }
 
 /* Acceleration, density rate and viscous heating of the targets, in one pass:
@@ -3390,44 +3346,40 @@ SPH_FN sph_index sphi_fluid_rates(int form, sph_kernel k, int dim, sph_index fir
    hu_adams: volume-weighted; with sph_density_number, or the rate of (5.23).
    Signs: F <= 0, so pressure pushes apart; no gravity. rate, heating may be null. Pairs closer than 1e-12 h exert no force on each other (sph_count_coincident finds them).
    Errors as of all sweeps, and SPH_ERROR_VALUE for densities or masses that are not positive. */
-SPH_FN sph_index sph_fluid_rates_monaghan(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_fluid fluid,
-                                          sph_vector_out acceleration, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
+SPH_FN sph_index sph_fluid_rates_monaghan(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid, sph_vector_out acceleration, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
 {
-    return sphi_fluid_rates(SPHI_MONAGHAN, k, dim, first, last, x, list, h, fluid, acceleration, rate, heating);
+    return sphi_fluid_rates(SPHI_MONAGHAN, k, dim, cloud, fluid, acceleration, rate, heating);
 }
-SPH_FN sph_index sph_fluid_rates_colagrossi(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_fluid fluid,
-                                            sph_vector_out acceleration, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
+SPH_FN sph_index sph_fluid_rates_colagrossi(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid, sph_vector_out acceleration, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
 {
-    return sphi_fluid_rates(SPHI_COLAGROSSI, k, dim, first, last, x, list, h, fluid, acceleration, rate, heating);
+    return sphi_fluid_rates(SPHI_COLAGROSSI, k, dim, cloud, fluid, acceleration, rate, heating);
 }
-SPH_FN sph_index sph_fluid_rates_hu_adams(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_fluid fluid,
-                                          sph_vector_out acceleration, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
+SPH_FN sph_index sph_fluid_rates_hu_adams(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid, sph_vector_out acceleration, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
 {
-    return sphi_fluid_rates(SPHI_HU_ADAMS, k, dim, first, last, x, list, h, fluid, acceleration, rate, heating);
+    return sphi_fluid_rates(SPHI_HU_ADAMS, k, dim, cloud, fluid, acceleration, rate, heating);
 }
 
 enum { SPHI_MORRIS, SPHI_MONAGHAN_CLEARY };
-SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars m,
-                              sph_scalars rho, sph_vectors v, sph_scalars mu, sph_real eta, sph_vector_out a)
+SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_scalars rho, sph_vectors v, sph_scalars mu, sph_real eta, sph_vector_out a)
 {
-    int error = sphi_check_sweep(k, dim, first, last, x, list, h, m);
+    int error = sphi_check_sweep(k, dim, cloud, m);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_positive(rho, x.n);
-    if (!error) error = sphi_check_field(mu, x.n);
-    if (!error) error = sphi_check_vectors(dim, v, x.n);
+    if (!error) error = sphi_check_positive(rho, cloud.points.n);
+    if (!error) error = sphi_check_field(mu, cloud.points.n);
+    if (!error) error = sphi_check_vectors(dim, v, cloud.points.n);
     if (!error) error = sphi_check_vector(dim, a.x, a.y, a.z);
     if (!error && !sphi_finite(eta)) error = SPH_ERROR_VALUE;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(dim, v, i);
-        const sph_real h_i = sphi_at(h, i), rho_i = sphi_at(rho, i), mu_i = sphi_at(mu, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, v, i);
+        const sph_real h_i = sphi_at(cloud.h, i), rho_i = sphi_at(rho, i), mu_i = sphi_at(mu, i);
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0);
         sph_vec sum;
         SPH_SUM(ax, ay, az)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j)), v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
-            const sph_real r = sph_length(dim, x_ij), h_ij = SPH_R(0.5) * (h_i + sphi_at(h, j)), F = sph_kernel_f(k, dim, r, h_ij), m_j = sphi_at(m, j);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)), v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
+            const sph_real r = sph_length(dim, x_ij), h_ij = SPH_R(0.5) * (h_i + sphi_at(cloud.h, j)), F = sph_kernel_f(k, dim, r, h_ij), m_j = sphi_at(m, j);
             const sph_real b = m_j * (form == SPHI_MORRIS ? sph_viscosity_mu_pair_morris(mu_i, rho_i, sphi_at(mu, j), sphi_at(rho, j), F, r, h_ij, eta)
                                                           : sph_viscosity_mu_pair_monaghan_cleary(dim, mu_i, rho_i, sphi_at(mu, j), sphi_at(rho, j), F,
                                                                                                   sph_dot(dim, v_ij, x_ij), r, h_ij, eta));
@@ -3444,39 +3396,36 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_index first, 
     return failed;
 }
 /* a_i = (1 / rho) div(mu grad v) by physical viscosity, mu (dynamic, = nu rho) of each particle; see the pair tier for the two forms. eta = 0.1 is usual. */
-SPH_FN sph_index sph_viscous_mu_morris(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars m,
-                                       sph_scalars rho, sph_vectors v, sph_scalars mu, sph_real eta, sph_vector_out acceleration)
+SPH_FN sph_index sph_viscous_mu_morris(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_scalars rho, sph_vectors v, sph_scalars mu, sph_real eta, sph_vector_out acceleration)
 {
-    return sphi_viscous(SPHI_MORRIS, k, dim, first, last, x, list, h, m, rho, v, mu, eta, acceleration);
+    return sphi_viscous(SPHI_MORRIS, k, dim, cloud, m, rho, v, mu, eta, acceleration);
 }
-SPH_FN sph_index sph_viscous_mu_monaghan_cleary(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
-                                                sph_scalars m, sph_scalars rho, sph_vectors v, sph_scalars mu, sph_real eta, sph_vector_out acceleration)
+SPH_FN sph_index sph_viscous_mu_monaghan_cleary(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_scalars rho, sph_vectors v, sph_scalars mu, sph_real eta, sph_vector_out acceleration)
 {
-    return sphi_viscous(SPHI_MONAGHAN_CLEARY, k, dim, first, last, x, list, h, m, rho, v, mu, eta, acceleration);
+    return sphi_viscous(SPHI_MONAGHAN_CLEARY, k, dim, cloud, m, rho, v, mu, eta, acceleration);
 }
 
 /* What XSPH adds to the velocity that moves a particle: epsilon sum_j 2 m_j / (rho_i + rho_j) (v_j - v_i) W_ij. Monaghan 1989, JCP 82, 1. epsilon = 0.5 is usual. Keeps linear and angular momentum. */
-SPH_FN sph_index sph_velocity_xsph(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars m,
-                                   sph_scalars rho, sph_vectors v, sph_real epsilon, sph_vector_out change)
+SPH_FN sph_index sph_velocity_xsph(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_scalars rho, sph_vectors v, sph_real epsilon, sph_vector_out change)
 {
-    int error = sphi_check_sweep(k, dim, first, last, x, list, h, m);
+    int error = sphi_check_sweep(k, dim, cloud, m);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_positive(rho, x.n);
-    if (!error) error = sphi_check_vectors(dim, v, x.n);
+    if (!error) error = sphi_check_positive(rho, cloud.points.n);
+    if (!error) error = sphi_check_vectors(dim, v, cloud.points.n);
     if (!error) error = sphi_check_vector(dim, change.x, change.y, change.z);
     if (!error && !sphi_finite(epsilon)) error = SPH_ERROR_VALUE;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(dim, v, i);
-        const sph_real h_i = sphi_at(h, i), rho_i = sphi_at(rho, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, v, i);
+        const sph_real h_i = sphi_at(cloud.h, i), rho_i = sphi_at(rho, i);
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0);
         sph_vec sum;
         SPH_SUM(ax, ay, az)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
             const sph_vec v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
-            const sph_real r = sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, j)));
-            const sph_real b = SPH_R(-2) * epsilon * sphi_at(m, j) / (rho_i + sphi_at(rho, j)) * sph_kernel_w(k, dim, r, SPH_R(0.5) * (h_i + sphi_at(h, j)));
+            const sph_real r = sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)));
+            const sph_real b = SPH_R(-2) * epsilon * sphi_at(m, j) / (rho_i + sphi_at(rho, j)) * sph_kernel_w(k, dim, r, SPH_R(0.5) * (h_i + sphi_at(cloud.h, j)));
             ax += b * v_ij.x;
             if (dim > 1) ay += b * v_ij.y;
             if (dim > 2) az += b * v_ij.z;
@@ -3493,33 +3442,31 @@ SPH_FN sph_index sph_velocity_xsph(sph_kernel k, int dim, sph_index first, sph_i
        p_w = (sum p_j W + (g - a_w) . sum rho_j x_wj W) / sum W,   v_w = 2 u_w - sum v_j W / sum W (no-slip; free slip: only the part along the normal is turned round),
    u_w, a_w: the wall's own velocity and acceleration. Adami, Hu & Adams 2012, JCP 231, 7057, (22), (23), (27). normal (may have null arrays): free slip.
    Without fluid in reach: p = 0, v = u, SPH_TOO_FEW, and the particle pushes nobody. status may be null. */
-SPH_FN sph_index sph_wall_adami(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars share,
-                                sph_scalars rho, sph_scalars p, sph_vectors v, sph_vectors wall_velocity, sph_vec effective_gravity, sph_vectors normal,
-                                SPH_GLOBAL sph_real *p_wall, sph_vector_out v_wall, SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_wall_adami(sph_kernel k, int dim, sph_cloud cloud, sph_scalars share, sph_scalars rho, sph_scalars p, sph_vectors v, sph_vectors wall_velocity, sph_vec effective_gravity, sph_vectors normal, SPH_GLOBAL sph_real *p_wall, sph_vector_out v_wall, SPH_GLOBAL unsigned char *status)
 {
-    int error = sphi_check_sweep(k, dim, first, last, x, list, h, share);
+    int error = sphi_check_sweep(k, dim, cloud, share);
     const int free_slip = normal.x.p != 0;
     sph_index i, q, failed = 0;
-    if (!error) error = sphi_check_field(rho, x.n);
-    if (!error) error = sphi_check_field(p, x.n);
-    if (!error) error = sphi_check_vectors(dim, v, x.n);
-    if (!error) error = sphi_check_vectors(dim, wall_velocity, x.n);
-    if (!error && free_slip) error = sphi_check_vectors(dim, normal, x.n);
+    if (!error) error = sphi_check_field(rho, cloud.points.n);
+    if (!error) error = sphi_check_field(p, cloud.points.n);
+    if (!error) error = sphi_check_vectors(dim, v, cloud.points.n);
+    if (!error) error = sphi_check_vectors(dim, wall_velocity, cloud.points.n);
+    if (!error && free_slip) error = sphi_check_vectors(dim, normal, cloud.points.n);
     if (!error && !p_wall) error = SPH_ERROR_NULL;
     if (!error) error = sphi_check_vector(dim, v_wall.x, v_wall.y, v_wall.z);
     if (!error && !sphi_finite(sph_dot(dim, effective_gravity, effective_gravity))) error = SPH_ERROR_VALUE;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i), u = sphi_vector_at(dim, wall_velocity, i);
-        const sph_real h_i = sphi_at(h, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), u = sphi_vector_at(dim, wall_velocity, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
         sph_real sum = SPH_R(0), sp = SPH_R(0), vx = SPH_R(0), vy = SPH_R(0), vz = SPH_R(0);
         sph_vec answer = u;
         int state = SPH_OK;
         SPH_SUM(sum, sp, vx, vy, vz)
-        for (q = list.start[i]; q < list.start[i + 1]; q++) {
-            const sph_index j = list.index[q];
-            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j)), v_j = sphi_vector_at(dim, v, j);
-            const sph_real w = sphi_at(share, j) * sph_kernel_w(k, dim, sph_length(dim, x_ij), SPH_R(0.5) * (h_i + sphi_at(h, j)));
+        for (q = cloud.list.start[i]; q < cloud.list.start[i + 1]; q++) {
+            const sph_index j = cloud.list.index[q];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)), v_j = sphi_vector_at(dim, v, j);
+            const sph_real w = sphi_at(share, j) * sph_kernel_w(k, dim, sph_length(dim, x_ij), SPH_R(0.5) * (h_i + sphi_at(cloud.h, j)));
             sum += w;
             sp += w * (sphi_at(p, j) + sphi_at(rho, j) * sph_dot(dim, effective_gravity, x_ij));
             vx += w * v_j.x;
@@ -3551,17 +3498,16 @@ SPH_FN sph_index sph_wall_adami(sph_kernel k, int dim, sph_index first, sph_inde
 /* ================================================================ list tier: collisions */
 
 /* What collides: positions, lists that reach as far as the collision distance (rows for the targets; walls may be sources only), inverse masses (0: a wall), velocities. */
-SPH_FN int sphi_check_collisions(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance, sph_scalars inverse_mass,
-                                 sph_real restitution)
+SPH_FN int sphi_check_collisions(int dim, sph_cloud cloud, sph_real distance, sph_scalars inverse_mass, sph_real restitution)
 {
     sph_index i;
     int error, negative = 0;
     if (!sphi_finite(distance) || !(distance > SPH_R(0))) return SPH_ERROR_H;
     if (!sphi_finite(restitution) || restitution < SPH_R(0)) return SPH_ERROR_VALUE;
-    error = sphi_check_list(dim, first, last, x, list, distance);
-    if (!error) error = sphi_check_field(inverse_mass, x.n);
+    error = sphi_check_list(dim, cloud, distance);
+    if (!error) error = sphi_check_field(inverse_mass, cloud.points.n);
     if (error) return error;
-    for (i = 0; SPH_CHECK && i < (inverse_mass.stride ? x.n : 1); i++) negative |= sphi_at(inverse_mass, i) < SPH_R(0);
+    for (i = 0; SPH_CHECK && i < (inverse_mass.stride ? cloud.points.n : 1); i++) negative |= sphi_at(inverse_mass, i) < SPH_R(0);
     return negative ? SPH_ERROR_VALUE : 0;
 }
 /* Do these two collide? 0 no, 1 yes, -1 they coincide (closer than 1e-12 of the distance): no direction. all: receding ones, too. */
@@ -3581,10 +3527,9 @@ typedef struct sph_collision_report {
 /* Collisions one after the other, in the order of rows and lists, each with the velocities that the one before left: changes v (stride as given) of sources, too, if they are not walls; the one sweep that writes
    beyond its targets, so never on two ranges at once. Each pair once, also if both rows name it. Momentum and angular momentum to round-off; energy never grows for restitution <= 1.
    Returns 0, the number of pairs whose velocities or energy would overflow (they exchange nothing), or an error; out may be null. */
-SPH_FN sph_index sph_collide_sequential(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance, sph_scalars inverse_mass,
-                                        sph_real restitution, sph_real *vx, sph_real *vy, sph_real *vz, size_t stride, sph_collision_report *out)
+SPH_FN sph_index sph_collide_sequential(int dim, sph_cloud cloud, sph_real distance, sph_scalars inverse_mass, sph_real restitution, sph_real *vx, sph_real *vy, sph_real *vz, size_t stride, sph_collision_report *out)
 {
-    int error = sphi_check_collisions(dim, first, last, x, list, distance, inverse_mass, restitution);
+    int error = sphi_check_collisions(dim, cloud, distance, inverse_mass, restitution);
     sph_collision_report r;
     sph_index i, p, lost = 0;
     r.collisions = r.coincident = 0;
@@ -3596,21 +3541,21 @@ SPH_FN sph_index sph_collide_sequential(int dim, sph_index first, sph_index last
         v.x = sph_scalars_strided(vx, stride);
         v.y = sph_scalars_strided(vy, stride);
         v.z = sph_scalars_strided(vz, stride);
-        error = sphi_check_vectors(dim, v, x.n);
+        error = sphi_check_vectors(dim, v, cloud.points.n);
     }
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real w_i = sphi_at(inverse_mass, i);
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
             const size_t a = (size_t)i * stride, b = (size_t)j * stride;
             const sph_real w_j = sphi_at(inverse_mass, j);
-            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             const sph_real r2 = sph_dot(dim, x_ij, x_ij);
             sph_real c, d, energy, v = (vx[a] - vx[b]) * x_ij.x;
             int what;
-            if (j < i && j >= first) continue; /* its own row has had it */
+            if (j < i && j >= cloud.first) continue; /* its own row has had it */
             if (dim > 1) v += (vy[a] - vy[b]) * x_ij.y;
             if (dim > 2) v += (vz[a] - vz[b]) * x_ij.z;
             what = w_i + w_j > SPH_R(0) ? sphi_collides(r2, distance, v, 0) : 0;
@@ -3646,20 +3591,19 @@ SPH_FN sph_index sph_collide_sequential(int dim, sph_index first, sph_index last
 
 /* How many collisions each target is in: the first half of the simultaneous form. Full lists. Returns how many targets coincide with a neighbour (they do not collide with it), or an error. A host with
    halo particles exchanges the counts before the second half. */
-SPH_FN sph_index sph_collision_count(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance, sph_scalars inverse_mass,
-                                     sph_vectors v, SPH_GLOBAL sph_index *count)
+SPH_FN sph_index sph_collision_count(int dim, sph_cloud cloud, sph_real distance, sph_scalars inverse_mass, sph_vectors v, SPH_GLOBAL sph_index *count)
 {
-    int error = sphi_check_collisions(dim, first, last, x, list, distance, inverse_mass, SPH_R(0));
+    int error = sphi_check_collisions(dim, cloud, distance, inverse_mass, SPH_R(0));
     sph_index i, p, coincident = 0;
-    if (!error) error = sphi_check_vectors(dim, v, x.n);
+    if (!error) error = sphi_check_vectors(dim, v, cloud.points.n);
     if (!error && !count) error = SPH_ERROR_NULL;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(dim, v, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, v, i);
         sph_index n = 0, same = 0;
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             const int what = sphi_collides(sph_dot(dim, x_ij, x_ij), distance, sph_dot(dim, sph_subtract(dim, v_i, sphi_vector_at(dim, v, j)), x_ij), 0);
             if (!(sphi_at(inverse_mass, i) + sphi_at(inverse_mass, j) > SPH_R(0))) continue;
             n += what > 0;
@@ -3672,24 +3616,23 @@ SPH_FN sph_index sph_collision_count(int dim, sph_index first, sph_index last, s
 }
 
 enum { SPHI_COLLIDE_WEIGHTED, SPHI_COLLIDE_LITERAL, SPHI_COLLIDE_ACCELERATION };
-SPH_FN sph_index sphi_collide(int form, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance, sph_scalars inverse_mass,
-                              sph_real restitution, sph_vectors v, const SPH_GLOBAL sph_index *count, sph_real N, sph_vector_out change)
+SPH_FN sph_index sphi_collide(int form, int dim, sph_cloud cloud, sph_real distance, sph_scalars inverse_mass, sph_real restitution, sph_vectors v, const SPH_GLOBAL sph_index *count, sph_real N, sph_vector_out change)
 {
-    int error = sphi_check_collisions(dim, first, last, x, list, distance, inverse_mass, restitution);
+    int error = sphi_check_collisions(dim, cloud, distance, inverse_mass, restitution);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_vectors(dim, v, x.n);
+    if (!error) error = sphi_check_vectors(dim, v, cloud.points.n);
     if (!error) error = sphi_check_vector(dim, change.x, change.y, change.z);
     if (!error && form == SPHI_COLLIDE_WEIGHTED && !count) error = SPH_ERROR_NULL;
     if (!error && form == SPHI_COLLIDE_ACCELERATION && !(sphi_finite(N) && N > SPH_R(0))) error = SPH_ERROR_VALUE;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(dim, v, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, v, i);
         const sph_real w_i = sphi_at(inverse_mass, i);
         sph_vec sum = sph_scale(SPH_R(0), x_i);
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
             const sph_real w_j = sphi_at(inverse_mass, j);
-            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j)), v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)), v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
             const sph_real r2 = sph_dot(dim, x_ij, x_ij), vx = sph_dot(dim, v_ij, x_ij);
             sph_real c;
             if (!(w_i + w_j > SPH_R(0)) || sphi_collides(r2, distance, vx, form != SPHI_COLLIDE_WEIGHTED) <= 0) continue;
@@ -3707,24 +3650,20 @@ SPH_FN sph_index sphi_collide(int form, int dim, sph_index first, sph_index last
 }
 /* The change of velocity of each target by all its collisions at once, each with the weight 1 / max(n_i, n_j); count: from sph_collision_count, for the targets and the sources that are no walls. Full lists; order-independent, any
    ranges in parallel; momentum and angular momentum to round-off, and energy never grows for restitution <= 1 (a particle in n > 1 collisions loses some also at 1). The host adds it to v. */
-SPH_FN sph_index sph_collision_change_weighted(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance,
-                                               sph_scalars inverse_mass, sph_real restitution, sph_vectors v, const SPH_GLOBAL sph_index *count,
-                                               sph_vector_out change)
+SPH_FN sph_index sph_collision_change_weighted(int dim, sph_cloud cloud, sph_real distance, sph_scalars inverse_mass, sph_real restitution, sph_vectors v, const SPH_GLOBAL sph_index *count, sph_vector_out change)
 {
-    return sphi_collide(SPHI_COLLIDE_WEIGHTED, dim, first, last, x, list, distance, inverse_mass, restitution, v, count, SPH_R(1), change);
+    return sphi_collide(SPHI_COLLIDE_WEIGHTED, dim, cloud, distance, inverse_mass, restitution, v, count, SPH_R(1), change);
 }
 /* (4.20) as printed: all pairs in reach, receding ones, too, at once. DO NOT USE in a simulation: pairs that part are pulled back, and the energy of a particle with several contacts grows without bounds. Here to
    compare with. */
-SPH_FN sph_index sph_collision_change_literal(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance,
-                                              sph_scalars inverse_mass, sph_real restitution, sph_vectors v, sph_vector_out change)
+SPH_FN sph_index sph_collision_change_literal(int dim, sph_cloud cloud, sph_real distance, sph_scalars inverse_mass, sph_real restitution, sph_vectors v, sph_vector_out change)
 {
-    return sphi_collide(SPHI_COLLIDE_LITERAL, dim, first, last, x, list, distance, inverse_mass, restitution, v, 0, SPH_R(1), change);
+    return sphi_collide(SPHI_COLLIDE_LITERAL, dim, cloud, distance, inverse_mass, restitution, v, 0, SPH_R(1), change);
 }
 /* (4.22) as printed: the same as an acceleration, with the contact time N r / |v_ij|; (4.20) / dt for N = |v_ij| dt / r. The same warning. */
-SPH_FN sph_index sph_collision_acceleration_literal(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance,
-                                                    sph_scalars inverse_mass, sph_real restitution, sph_vectors v, sph_real N, sph_vector_out acceleration)
+SPH_FN sph_index sph_collision_acceleration_literal(int dim, sph_cloud cloud, sph_real distance, sph_scalars inverse_mass, sph_real restitution, sph_vectors v, sph_real N, sph_vector_out acceleration)
 {
-    return sphi_collide(SPHI_COLLIDE_ACCELERATION, dim, first, last, x, list, distance, inverse_mass, restitution, v, 0, N, acceleration);
+    return sphi_collide(SPHI_COLLIDE_ACCELERATION, dim, cloud, distance, inverse_mass, restitution, v, 0, N, acceleration);
 }
 
 /* ================================================================ list tier: the distribution of particles, and what it conserves */
@@ -3735,8 +3674,8 @@ SPH_FN sph_index sph_nearest_distance(int dim, sph_index first, sph_index last, 
                                       SPH_GLOBAL sph_real *distance, SPH_GLOBAL unsigned char *status)
 {
     sph_index i, p, failed = 0;
-    int error = sphi_check_frame(dim, first, last, targets, list);
-    if (!error) error = sphi_check_frame(dim, 0, 0, sources, list);
+    int error = sphi_check_frame(dim, sphi_frame(first, last, targets, list));
+    if (!error) error = sphi_check_frame(dim, sphi_frame(0, 0, sources, list));
     if (!error && !distance) error = SPH_ERROR_NULL;
     targets.box = sources.box;
     if (!error) error = sphi_check_positions(dim, targets);
@@ -3768,18 +3707,18 @@ SPH_FN sph_index sph_nearest_distance(int dim, sph_index first, sph_index last, 
 }
 
 /* The hexatic order |sum exp(6 i theta)| / 6 over the six nearest neighbours, 2D: 1 on a hexagonal lattice, about 0.36 for random particles. 0 and SPH_TOO_FEW where there are fewer than six. Nelson & Halperin 1979, PRB 19, 2457. */
-SPH_FN sph_index sph_hexatic_order(sph_index first, sph_index last, sph_points x, sph_list list, SPH_GLOBAL sph_real *order, SPH_GLOBAL unsigned char *status)
+SPH_FN sph_index sph_hexatic_order(sph_cloud cloud, SPH_GLOBAL sph_real *order, SPH_GLOBAL unsigned char *status)
 {
-    const int error = sphi_check_list(2, first, last, x, list, SPH_R(0));
+    const int error = sphi_check_list(2, cloud, SPH_R(0));
     sph_index i, p, failed = 0;
     if (error) return error;
     if (!order) return SPH_ERROR_NULL;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(2, x, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(2, cloud.points, i);
         sph_real r2[6], re[6], im[6], a = SPH_R(0), b = SPH_R(0);
         int n = 0, c, state = SPH_OK;
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_vec e = sphi_separation(2, x, sphi_point(2, x, list.index[p]), x_i);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_vec e = sphi_separation(2, cloud.points, sphi_point(2, cloud.points, cloud.list.index[p]), x_i);
             const sph_real d = sph_dot(2, e, e);
             sph_real u, v, uu;
             if (!(d > SPH_R(0)) || (n == 6 && !(d < r2[5]))) continue;
@@ -3813,22 +3752,21 @@ SPH_FN sph_index sph_hexatic_order(sph_index first, sph_index last, sph_points x
 
 /* The radial distribution function: g[b] for r between b and b + 1 times reach / bins: pairs found in a shell per target over those expected at the number density (particles per volume). 1 far from a particle in a large
    cloud. Full lists that hold every pair within reach. Returns how many shells are so small or large that g overflows (it is 0 there), or an error: SPH_ERROR_VALUE if there are no targets. */
-SPH_FN sph_index sph_radial_distribution(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real reach, sph_real number_density,
-                                         int bins, SPH_GLOBAL sph_real *g)
+SPH_FN sph_index sph_radial_distribution(int dim, sph_cloud cloud, sph_real reach, sph_real number_density, int bins, SPH_GLOBAL sph_real *g)
 {
     int error, b;
     sph_index i, p, failed = 0;
     if (!sphi_finite(reach) || !(reach > SPH_R(0))) return SPH_ERROR_H;
-    error = sphi_check_list(dim, first, last, x, list, reach);
+    error = sphi_check_list(dim, cloud, reach);
     if (error) return error;
     if (!g) return SPH_ERROR_NULL;
     if (bins < 1) return SPH_ERROR_COUNT;
-    if (first == last || !sphi_finite(number_density) || !(number_density > SPH_R(0))) return SPH_ERROR_VALUE;
+    if (cloud.first == cloud.last || !sphi_finite(number_density) || !(number_density > SPH_R(0))) return SPH_ERROR_VALUE;
     for (b = 0; b < bins; b++) g[b] = SPH_R(0);
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_real r = sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, list.index[p])));
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_real r = sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, cloud.list.index[p])));
             if (r < reach) {
                 const int at = (int)(r / reach * (sph_real)bins);
                 g[at < 0 ? 0 : at < bins ? at : bins - 1] += SPH_R(1);
@@ -3840,46 +3778,45 @@ SPH_FN sph_index sph_radial_distribution(int dim, sph_index first, sph_index las
         const sph_real volume = dim == 1   ? SPH_R(2) * (out - in)
                                 : dim == 2 ? SPH_R(3.14159265358979323846) * (out * out - in * in)
                                            : SPH_R(4.18879020478639098462) * (out * out * out - in * in * in);
-        failed += sphi_store_finite(g, b, g[b] / ((sph_real)(last - first) * number_density * volume));
+        failed += sphi_store_finite(g, b, g[b] / ((sph_real)(cloud.last - cloud.first) * number_density * volume));
     }
     return failed;
 }
 
 /* Coincident pairs: targets that have a source within `distance` (1e-12 h: what the forces leave alone). Returns their number. */
-SPH_FN sph_index sph_count_coincident(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real distance)
+SPH_FN sph_index sph_count_coincident(int dim, sph_cloud cloud, sph_real distance)
 {
     sph_index i, p, found = 0;
     int error;
     if (!sphi_finite(distance) || distance < SPH_R(0)) return SPH_ERROR_H;
-    error = sphi_check_list(dim, first, last, x, list, distance);
+    error = sphi_check_list(dim, cloud, distance);
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
         int near_by = 0;
-        for (p = list.start[i]; p < list.start[i + 1]; p++)
-            near_by |= !(sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, list.index[p]))) > distance);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++)
+            near_by |= !(sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, cloud.list.index[p]))) > distance);
         found += near_by;
     }
     return found;
 }
 /* Where to put target i so that it leaves those that it coincides with: a step of `distance` in a direction that depends on its index only (the golden angle, so that no two nearby indices get the same): no force has a
    direction there, and neither kernels nor collisions separate such a pair. Writes the new position; those who coincide with nobody keep theirs. Returns how many were moved. The host wraps and stores them. */
-SPH_FN sph_index sph_separate_coincident(int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_real within, sph_real distance,
-                                         sph_vector_out position)
+SPH_FN sph_index sph_separate_coincident(int dim, sph_cloud cloud, sph_real within, sph_real distance, sph_vector_out position)
 {
     sph_index i, moved = 0;
     int error;
     if (!sphi_finite(within) || within < SPH_R(0) || !sphi_finite(distance)) return SPH_ERROR_H;
-    error = sphi_check_list(dim, first, last, x, list, within);
+    error = sphi_check_list(dim, cloud, within);
     if (!error) error = sphi_check_vector(dim, position.x, position.y, position.z);
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec was = sphi_point(dim, x, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec was = sphi_point(dim, cloud.points, i);
         sph_vec at = was;
         sph_index p;
         int coincides = 0;
-        for (p = list.start[i]; p < list.start[i + 1]; p++)
-            coincides |= !(sph_length(dim, sphi_separation(dim, x, at, sphi_point(dim, x, list.index[p]))) > within);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++)
+            coincides |= !(sph_length(dim, sphi_separation(dim, cloud.points, at, sphi_point(dim, cloud.points, cloud.list.index[p]))) > within);
         if (coincides) {
             const sph_real turn = SPH_R(2.39996322972865332) * (sph_real)(i % 100003), up = SPH_R(i % 7 - 3) / SPH_R(4),
                            flat = dim > 2 ? SPHI_SQRT(SPH_R(1) - up * up) : SPH_R(1);
@@ -3961,11 +3898,11 @@ typedef struct sph_gas {
     sph_scalars m, rho, omega;
 } sph_gas;
 
-SPH_FN int sphi_check_gas(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas g)
+SPH_FN int sphi_check_gas(sph_kernel k, int dim, sph_cloud cloud, sph_gas g)
 {
-    int error = sphi_check_sweep(k, dim, first, last, x, list, h, g.m);
-    if (!error) error = sphi_check_positive(g.rho, x.n);
-    return error ? error : sphi_check_positive(g.omega, x.n);
+    int error = sphi_check_sweep(k, dim, cloud, g.m);
+    if (!error) error = sphi_check_positive(g.rho, cloud.points.n);
+    return error ? error : sphi_check_positive(g.omega, cloud.points.n);
 }
 /* three components where there are three arrays, else dim */
 SPH_FN int sphi_components(int dim, sph_vectors v) { return v.z.p ? 3 : dim; }
@@ -3994,22 +3931,21 @@ SPH_FN sphi_mhd_pair sphi_mhd_pair_of(sph_kernel k, int dim, int uniform, sph_po
 SPH_FN sph_real sphi_mhd_own(const sph_gas *g, sph_index i) { return SPH_R(1) / (sphi_at(g->omega, i) * sphi_at(g->rho, i) * sphi_at(g->rho, i)); }
 
 /* div A_i = -(1 / (Omega_i rho_i)) sum_j m_j (A_i - A_j) . grad_i W_ij(h_i): difference form, (20); exact for constants, and -(drho/dt) / rho for A = v. */
-SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
-                                           sph_vectors A, SPH_GLOBAL sph_real *out)
+SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_cloud cloud, sph_gas gas, sph_vectors A, SPH_GLOBAL sph_real *out)
 {
-    int error = sphi_check_gas(k, dim, first, last, x, list, h, gas);
+    int error = sphi_check_gas(k, dim, cloud, gas);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_vectors(dim, A, x.n);
+    if (!error) error = sphi_check_vectors(dim, A, cloud.points.n);
     if (!error && !out) error = SPH_ERROR_NULL;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i), A_i = sphi_vector_at(dim, A, i);
-        const sph_real h_i = sphi_at(h, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), A_i = sphi_vector_at(dim, A, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
         sph_real sum = SPH_R(0);
         SPH_SUM(sum)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             const sph_vec A_ij = sph_subtract(dim, A_i, sphi_vector_at(dim, A, j)); /* by itself: tcc 0.9.27 loses a float product with a call of a call of a struct */
             sum += sphi_at(gas.m, j) * sph_dot(dim, A_ij, x_ij) * sph_kernel_f(k, dim, sph_length(dim, x_ij), h_i);
         }
@@ -4018,22 +3954,21 @@ SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_index firs
     return failed;
 }
 /* div A_i = rho_i sum_j m_j (A_i g_i + A_j g_j) . x_ij: symmetric form; what (9) subtracts. It measures the disorder of the particles, too, and is not 0 for constant A. */
-SPH_FN sph_index sph_divergence_symmetric(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
-                                          sph_vectors A, SPH_GLOBAL sph_real *out)
+SPH_FN sph_index sph_divergence_symmetric(sph_kernel k, int dim, sph_cloud cloud, sph_gas gas, sph_vectors A, SPH_GLOBAL sph_real *out)
 {
-    int error = sphi_check_gas(k, dim, first, last, x, list, h, gas);
+    int error = sphi_check_gas(k, dim, cloud, gas);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_vectors(dim, A, x.n);
+    if (!error) error = sphi_check_vectors(dim, A, cloud.points.n);
     if (!error && !out) error = SPH_ERROR_NULL;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i), A_i = sphi_vector_at(dim, A, i);
-        const sph_real h_i = sphi_at(h, i), own = sphi_mhd_own(&gas, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), A_i = sphi_vector_at(dim, A, i);
+        const sph_real h_i = sphi_at(cloud.h, i), own = sphi_mhd_own(&gas, i);
         sph_real sum = SPH_R(0);
         SPH_SUM(sum)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            const sphi_mhd_pair c = sphi_mhd_pair_of(k, dim, 0, x, h, &gas, x_i, h_i, own, j);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            const sphi_mhd_pair c = sphi_mhd_pair_of(k, dim, 0, cloud.points, cloud.h, &gas, x_i, h_i, own, j);
             sum += sphi_at(gas.m, j) * (sph_dot(dim, A_i, c.x) * c.g_i + sph_dot(dim, sphi_vector_at(dim, A, j), c.x) * c.g_j);
         }
         failed += sphi_store_finite(out, i, sphi_at(gas.rho, i) * sum);
@@ -4041,23 +3976,22 @@ SPH_FN sph_index sph_divergence_symmetric(sph_kernel k, int dim, sph_index first
     return failed;
 }
 /* grad f_i = rho_i sum_j m_j (f_i g_i + f_j g_j) x_ij: the conjugate of the difference divergence, (23); not 0 for constant f. */
-SPH_FN sph_index sph_gradient_symmetric(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
-                                        sph_scalars f, sph_vector_out out)
+SPH_FN sph_index sph_gradient_symmetric(sph_kernel k, int dim, sph_cloud cloud, sph_gas gas, sph_scalars f, sph_vector_out out)
 {
-    int error = sphi_check_gas(k, dim, first, last, x, list, h, gas);
+    int error = sphi_check_gas(k, dim, cloud, gas);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_field(f, x.n);
+    if (!error) error = sphi_check_field(f, cloud.points.n);
     if (!error) error = sphi_check_out(dim, out);
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i);
-        const sph_real h_i = sphi_at(h, i), own = sphi_mhd_own(&gas, i), f_i = sphi_at(f, i), rho_i = sphi_at(gas.rho, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i), own = sphi_mhd_own(&gas, i), f_i = sphi_at(f, i), rho_i = sphi_at(gas.rho, i);
         sph_real sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
         sph_vec sum;
         SPH_SUM(sx, sy, sz)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            const sphi_mhd_pair c = sphi_mhd_pair_of(k, dim, 0, x, h, &gas, x_i, h_i, own, j);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            const sphi_mhd_pair c = sphi_mhd_pair_of(k, dim, 0, cloud.points, cloud.h, &gas, x_i, h_i, own, j);
             const sph_real b = rho_i * sphi_at(gas.m, j) * (f_i * c.g_i + sphi_at(f, j) * c.g_j);
             sx += b * c.x.x;
             if (dim > 1) sy += b * c.x.y;
@@ -4071,24 +4005,23 @@ SPH_FN sph_index sph_gradient_symmetric(sph_kernel k, int dim, sph_index first, 
     return failed;
 }
 /* curl A_i = (1 / (Omega_i rho_i)) sum_j m_j (A_i - A_j) x grad_i W_ij(h_i): difference form, three components (in 2D of A that has two: the third). Exact for constants. Price 2012, (79). */
-SPH_FN sph_index sph_curl_difference(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
-                                     sph_vectors A, sph_vector_out out)
+SPH_FN sph_index sph_curl_difference(sph_kernel k, int dim, sph_cloud cloud, sph_gas gas, sph_vectors A, sph_vector_out out)
 {
     const int parts = sphi_components(dim, A);
-    int error = sphi_check_gas(k, dim, first, last, x, list, h, gas);
+    int error = sphi_check_gas(k, dim, cloud, gas);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_vectors(parts, A, x.n);
+    if (!error) error = sphi_check_vectors(parts, A, cloud.points.n);
     if (!error) error = sphi_check_out(3, out);
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i), A_i = sphi_vector_at(parts, A, i);
-        const sph_real h_i = sphi_at(h, i), scale = SPH_R(1) / (sphi_at(gas.omega, i) * sphi_at(gas.rho, i));
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), A_i = sphi_vector_at(parts, A, i);
+        const sph_real h_i = sphi_at(cloud.h, i), scale = SPH_R(1) / (sphi_at(gas.omega, i) * sphi_at(gas.rho, i));
         sph_real cx = SPH_R(0), cy = SPH_R(0), cz = SPH_R(0);
         sph_vec sum;
         SPH_SUM(cx, cy, cz)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            const sph_vec x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             const sph_vec d =
                 sph_scale(sphi_at(gas.m, j) * sph_kernel_f(k, dim, sph_length(dim, x_ij), h_i), sph_subtract(3, A_i, sphi_vector_at(parts, A, j)));
             cx += d.y * x_ij.z - d.z * x_ij.y;
@@ -4104,29 +4037,27 @@ SPH_FN sph_index sph_curl_difference(sph_kernel k, int dim, sph_index first, sph
 }
 
 enum { SPHI_CONJUGATE, SPHI_DIFFERENCES, SPHI_OTHER_CONJUGATE };
-SPH_FN sph_index sphi_cleaning(int form, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
-                               sph_vectors B, sph_scalars psi, sph_scalars div_v, sph_real ch, sph_real sigma, sph_vector_out rate_B,
-                               SPH_GLOBAL sph_real *rate_psi, SPH_GLOBAL sph_real *div_B)
+SPH_FN sph_index sphi_cleaning(int form, sph_kernel k, int dim, sph_cloud cloud, sph_gas gas, sph_vectors B, sph_scalars psi, sph_scalars div_v, sph_real ch, sph_real sigma, sph_vector_out rate_B, SPH_GLOBAL sph_real *rate_psi, SPH_GLOBAL sph_real *div_B)
 {
-    int error = sphi_check_gas(k, dim, first, last, x, list, h, gas);
+    int error = sphi_check_gas(k, dim, cloud, gas);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_vectors(dim, B, x.n);
-    if (!error) error = sphi_check_field(psi, x.n);
-    if (!error && div_v.p) error = sphi_check_field(div_v, x.n);
+    if (!error) error = sphi_check_vectors(dim, B, cloud.points.n);
+    if (!error) error = sphi_check_field(psi, cloud.points.n);
+    if (!error && div_v.p) error = sphi_check_field(div_v, cloud.points.n);
     if (!error) error = sphi_check_out(dim, rate_B);
     if (!error && !rate_psi) error = SPH_ERROR_NULL;
     if (!error && (!sphi_finite(ch) || ch < SPH_R(0) || !sphi_finite(sigma) || sigma < SPH_R(0))) error = SPH_ERROR_VALUE;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i), B_i = sphi_vector_at(dim, B, i);
-        const sph_real h_i = sphi_at(h, i), rho_i = sphi_at(gas.rho, i), own = sphi_mhd_own(&gas, i), psi_i = sphi_at(psi, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), B_i = sphi_vector_at(dim, B, i);
+        const sph_real h_i = sphi_at(cloud.h, i), rho_i = sphi_at(gas.rho, i), own = sphi_mhd_own(&gas, i), psi_i = sphi_at(psi, i);
         sph_real sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0), divergence = SPH_R(0);
         sph_vec sum;
         int lost;
         SPH_SUM(sx, sy, sz, divergence)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            const sphi_mhd_pair c = sphi_mhd_pair_of(k, dim, 0, x, h, &gas, x_i, h_i, own, j);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            const sphi_mhd_pair c = sphi_mhd_pair_of(k, dim, 0, cloud.points, cloud.h, &gas, x_i, h_i, own, j);
             const sph_vec B_j = sphi_vector_at(dim, B, j);
             const sph_real m_j = sphi_at(gas.m, j), psi_j = sphi_at(psi, j);
             /* rho_i (psi_i g_i + psi_j g_j), or rho_i (psi_j - psi_i) g_i; the divergence likewise */
@@ -4151,25 +4082,19 @@ SPH_FN sph_index sphi_cleaning(int form, sph_kernel k, int dim, sph_index first,
 /* Divergence cleaning alone, for a host that has the rest of its MHD: dB/dt = -grad psi in symmetric form (23), dpsi/dt = -ch^2 div B - sigma ch psi / h - psi div v / 2 with div B in difference form (20), (25).
    div_v: sph_scalars_array(0) where nothing moves. div_B may be null. ch: one speed for all particles, the largest fast speed of the cloud (times an over-cleaning factor if the time step is divided by it);
    sigma: sph_cleaning_sigma(dim). Conserves sum m (B^2 + psi^2/ch^2) / (2 rho) but for the damping, which only takes, at any h and Omega; and sum m B / rho exactly. */
-SPH_FN sph_index sph_cleaning_rates(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
-                                    sph_vectors B, sph_scalars psi, sph_scalars div_v, sph_real ch, sph_real sigma, sph_vector_out rate_B,
-                                    SPH_GLOBAL sph_real *rate_psi, SPH_GLOBAL sph_real *div_B)
+SPH_FN sph_index sph_cleaning_rates(sph_kernel k, int dim, sph_cloud cloud, sph_gas gas, sph_vectors B, sph_scalars psi, sph_scalars div_v, sph_real ch, sph_real sigma, sph_vector_out rate_B, SPH_GLOBAL sph_real *rate_psi, SPH_GLOBAL sph_real *div_B)
 {
-    return sphi_cleaning(SPHI_CONJUGATE, k, dim, first, last, x, list, h, gas, B, psi, div_v, ch, sigma, rate_B, rate_psi, div_B);
+    return sphi_cleaning(SPHI_CONJUGATE, k, dim, cloud, gas, B, psi, div_v, ch, sigma, rate_B, rate_psi, div_B);
 }
 /* The pair of difference forms that came before. DO NOT USE: it does not conserve energy, and grows exponentially at free boundaries and density jumps. Here to compare with. */
-SPH_FN sph_index sph_cleaning_rates_nonconservative(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
-                                                    sph_gas gas, sph_vectors B, sph_scalars psi, sph_scalars div_v, sph_real ch, sph_real sigma,
-                                                    sph_vector_out rate_B, SPH_GLOBAL sph_real *rate_psi, SPH_GLOBAL sph_real *div_B)
+SPH_FN sph_index sph_cleaning_rates_nonconservative(sph_kernel k, int dim, sph_cloud cloud, sph_gas gas, sph_vectors B, sph_scalars psi, sph_scalars div_v, sph_real ch, sph_real sigma, sph_vector_out rate_B, SPH_GLOBAL sph_real *rate_psi, SPH_GLOBAL sph_real *div_B)
 {
-    return sphi_cleaning(SPHI_DIFFERENCES, k, dim, first, last, x, list, h, gas, B, psi, div_v, ch, sigma, rate_B, rate_psi, div_B);
+    return sphi_cleaning(SPHI_DIFFERENCES, k, dim, cloud, gas, B, psi, div_v, ch, sigma, rate_B, rate_psi, div_B);
 }
 /* The other conjugate pair: div B symmetric, grad psi in difference form. Conserves energy, too, but cleans the disorder of the particles out of B: it dissipates magnetic energy. To compare with. */
-SPH_FN sph_index sph_cleaning_rates_symmetric(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
-                                              sph_vectors B, sph_scalars psi, sph_scalars div_v, sph_real ch, sph_real sigma, sph_vector_out rate_B,
-                                              SPH_GLOBAL sph_real *rate_psi, SPH_GLOBAL sph_real *div_B)
+SPH_FN sph_index sph_cleaning_rates_symmetric(sph_kernel k, int dim, sph_cloud cloud, sph_gas gas, sph_vectors B, sph_scalars psi, sph_scalars div_v, sph_real ch, sph_real sigma, sph_vector_out rate_B, SPH_GLOBAL sph_real *rate_psi, SPH_GLOBAL sph_real *div_B)
 {
-    return sphi_cleaning(SPHI_OTHER_CONJUGATE, k, dim, first, last, x, list, h, gas, B, psi, div_v, ch, sigma, rate_B, rate_psi, div_B);
+    return sphi_cleaning(SPHI_OTHER_CONJUGATE, k, dim, cloud, gas, B, psi, div_v, ch, sigma, rate_B, rate_psi, div_B);
 }
 
 /* A magnetised gas; n numbers each, all sources. */
@@ -4189,15 +4114,14 @@ typedef struct sph_mhd_out {
     SPH_GLOBAL sph_real *rate_u, *rate_psi, *div_B, *div_v, *v_sig;
 } sph_mhd_out;
 
-SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list,
-                                sph_scalars h, const sph_mhd *s, const sph_mhd_out *out)
+SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k, int dim, sph_cloud cloud, const sph_mhd *s, const sph_mhd_out *out)
 {
     const sph_real support = sph_kernel_support(k);
     sph_real v_sig[SPHI_TILE];
     sph_index i, p, tile, end, failed = 0;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(dim, x, i), v_i = sphi_vector_at(parts, s->v, i), B_i = sphi_vector_at(parts, s->B, i);
-        const sph_real h_i = sphi_at(h, i), rho_i = sphi_at(s->gas.rho, i), own = sphi_mhd_own(&s->gas, i), omega_i = sphi_at(s->gas.omega, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(parts, s->v, i), B_i = sphi_vector_at(parts, s->B, i);
+        const sph_real h_i = sphi_at(cloud.h, i), rho_i = sphi_at(s->gas.rho, i), own = sphi_mhd_own(&s->gas, i), omega_i = sphi_at(s->gas.omega, i);
         const sph_real P_i = sphi_at(s->P, i), u_i = sphi_at(s->u, i), cs_i = sphi_at(s->cs, i), alpha_i = sphi_at(s->alpha, i),
                        alpha_B_i = sphi_at(s->alpha_B, i), psi_i = cleans ? sphi_at(s->psi, i) : SPH_R(0);
         const sph_real per_rho_i = SPH_R(1) / rho_i, per_omega_i = SPH_R(1) / omega_i, sound2_i = cs_i * cs_i, alfven2_i = sph_dot(3, B_i, B_i) * per_rho_i;
@@ -4206,18 +4130,18 @@ SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k
         sph_vec a, b;
         sph_real div_v, div_B, fastest = sphi_fast_speed(sound2_i, alfven2_i, SPH_R(0));
         int lost;
-        for (tile = list.start[i]; tile < list.start[i + 1]; tile = end) {
-            end = list.start[i + 1] - tile < SPHI_TILE ? list.start[i + 1] : tile + SPHI_TILE;
+        for (tile = cloud.list.start[i]; tile < cloud.list.start[i + 1]; tile = end) {
+            end = cloud.list.start[i + 1] - tile < SPHI_TILE ? cloud.list.start[i + 1] : tile + SPHI_TILE;
             SPH_SUM(ax, ay, az, tension, sv, sB, heat, ix, iy, iz, cx, cy, cz, rx, ry, rz)
             for (p = tile; p < end; p++) {
-                const sph_index j = list.index[p];
-                const sphi_mhd_pair c = sphi_mhd_pair_of(k, dim, uniform, x, h, &s->gas, x_i, h_i, own, j);
+                const sph_index j = cloud.list.index[p];
+                const sphi_mhd_pair c = sphi_mhd_pair_of(k, dim, uniform, cloud.points, cloud.h, &s->gas, x_i, h_i, own, j);
                 const sph_vec B_j = sphi_vector_at(parts, s->B, j), v_ij = sph_subtract(parts, v_i, sphi_vector_at(parts, s->v, j)),
                               B_ij = sph_subtract(parts, B_i, B_j);
                 const sph_real m_j = sphi_at(s->gas.m, j), P_j = sphi_at(s->P, j), cs_j = sphi_at(s->cs, j);
                 const sph_real per_rho = SPH_R(2) / (rho_i + sphi_at(s->gas.rho, j)); /* of the mean */
                 const sph_real Bx_i = sph_dot(dim, B_i, c.x), Bx_j = sph_dot(dim, B_j, c.x), vx = sph_dot(dim, v_ij, c.x), per_r = SPH_R(1) / (c.r + SPHI_TINY),
-                               w = vx * per_r, along_i = Bx_i * per_r, along_j = Bx_j * per_r, h_j = uniform ? h_i : sphi_at(h, j);
+                               w = vx * per_r, along_i = Bx_i * per_r, along_j = Bx_j * per_r, h_j = uniform ? h_i : sphi_at(cloud.h, j);
                 const sph_vec t_i = sph_mhd_traction(B_i, P_i, Bx_i, c.x), t_j = sph_mhd_traction(B_j, P_j, Bx_j, c.x);
                 const sph_real G = SPH_R(0.5) * (c.F_i * per_omega_i + c.F_j * c.per_omega);
                 const sph_real speed =
@@ -4274,23 +4198,22 @@ SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k
     return failed;
 }
 /* with what the loop may know as constants */
-SPH_FN sph_index sphi_mhd_some(int parts, int cleans, sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h,
-                               const sph_mhd *s, const sph_mhd_out *out)
+SPH_FN sph_index sphi_mhd_some(int parts, int cleans, sph_kernel k, int dim, sph_cloud cloud, const sph_mhd *s, const sph_mhd_out *out)
 {
     if (cleans)
-        return h.stride ? sphi_mhd_range(0, parts, 1, k, dim, first, last, x, list, h, s, out)
-                        : sphi_mhd_range(1, parts, 1, k, dim, first, last, x, list, h, s, out);
-    return h.stride ? sphi_mhd_range(0, parts, 0, k, dim, first, last, x, list, h, s, out)
-                    : sphi_mhd_range(1, parts, 0, k, dim, first, last, x, list, h, s, out);
+        return cloud.h.stride ? sphi_mhd_range(0, parts, 1, k, dim, cloud, s, out)
+                        : sphi_mhd_range(1, parts, 1, k, dim, cloud, s, out);
+    return cloud.h.stride ? sphi_mhd_range(0, parts, 0, k, dim, cloud, s, out)
+                    : sphi_mhd_range(1, parts, 0, k, dim, cloud, s, out);
 }
-SPH_FN int sphi_check_mhd(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, const sph_mhd *s)
+SPH_FN int sphi_check_mhd(sph_kernel k, int dim, sph_cloud cloud, const sph_mhd *s)
 {
     const int parts = sphi_components(dim, s->v);
-    int error = sphi_check_gas(k, dim, first, last, x, list, h, s->gas);
-    if (!error) error = sphi_check_field(s->P, x.n);
-    if (!error) error = sphi_check_field(s->cs, x.n);
-    if (!error) error = sphi_check_vectors(parts, s->v, x.n);
-    if (!error) error = sphi_check_vectors(parts, s->B, x.n);
+    int error = sphi_check_gas(k, dim, cloud, s->gas);
+    if (!error) error = sphi_check_field(s->P, cloud.points.n);
+    if (!error) error = sphi_check_field(s->cs, cloud.points.n);
+    if (!error) error = sphi_check_vectors(parts, s->v, cloud.points.n);
+    if (!error) error = sphi_check_vectors(parts, s->B, cloud.points.n);
     if (!error && !sphi_finite(s->beta)) error = SPH_ERROR_VALUE;
     return error;
 }
@@ -4301,22 +4224,21 @@ SPH_FN int sphi_check_mhd(sph_kernel k, int dim, sph_index first, sph_index last
        dpsi/dt: (2), (25); div B: (20); div v.
    Without (9) the sum m (v^2/2 + u + B^2 / (2 rho) + psi^2 / (2 rho ch^2)) changes by the damping of psi only, to round-off, and momentum does not; with (9) momentum changes by sum m B (div B). Density from
    sph_density_adaptive (its rate is -rho div v). v_sig: the largest of a target with its neighbours within the larger support, for time steps and switches; without any, its own fast speed. */
-SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_mhd state,
-                               sph_mhd_out out)
+SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_cloud cloud, sph_mhd state, sph_mhd_out out)
 {
     const int parts = sphi_components(dim, state.v), cleans = state.psi.p != 0;
-    int error = sphi_check_mhd(k, dim, first, last, x, list, h, &state);
-    if (!error) error = sphi_check_field(state.u, x.n);
-    if (!error) error = sphi_check_field(state.alpha, x.n);
-    if (!error) error = sphi_check_field(state.alpha_B, x.n);
-    if (!error && cleans) error = sphi_check_field(state.psi, x.n);
+    int error = sphi_check_mhd(k, dim, cloud, &state);
+    if (!error) error = sphi_check_field(state.u, cloud.points.n);
+    if (!error) error = sphi_check_field(state.alpha, cloud.points.n);
+    if (!error) error = sphi_check_field(state.alpha_B, cloud.points.n);
+    if (!error && cleans) error = sphi_check_field(state.psi, cloud.points.n);
     if (!error) error = sphi_check_out(parts, out.acceleration);
     if (!error) error = sphi_check_out(parts, out.rate_B);
     if (!error && (!sphi_finite(state.ch) || state.ch < SPH_R(0) || !sphi_finite(state.sigma) || state.sigma < SPH_R(0))) error = SPH_ERROR_VALUE;
     if (!error && (!sphi_finite(state.alpha_u) || !sphi_finite(state.tensile))) error = SPH_ERROR_VALUE;
     if (error) return error;
-    if (parts == dim) return sphi_mhd_some(dim, cleans, k, dim, first, last, x, list, h, &state, &out);
-    return sphi_mhd_some(3, cleans, k, dim, first, last, x, list, h, &state, &out);
+    if (parts == dim) return sphi_mhd_some(dim, cleans, k, dim, cloud, &state, &out);
+    return sphi_mhd_some(3, cleans, k, dim, cloud, &state, &out);
 }
 
 /* ================================================================ list tier: self-gravity, three dimensions
@@ -4369,47 +4291,45 @@ SPH_FN sph_index sph_gravity_direct(sph_kernel k, sph_index first, sph_index las
     return failed;
 }
 /* zeta_i = dh_i/drho_i sum_j m_j dphi/dh(r, h_i), itself included, dh/drho = -h / (3 rho): (22) there. Lists as for the density. */
-SPH_FN sph_index sph_gravity_zeta(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_scalars m, sph_scalars rho,
-                                  SPH_GLOBAL sph_real *zeta)
+SPH_FN sph_index sph_gravity_zeta(sph_kernel k, sph_cloud cloud, sph_scalars m, sph_scalars rho, SPH_GLOBAL sph_real *zeta)
 {
-    int error = sphi_check_sweep(k, 3, first, last, x, list, h, m);
+    int error = sphi_check_sweep(k, 3, cloud, m);
     sph_index i, p, failed = 0;
     if (!error && !sph_kernel_has_gravity(k)) error = SPH_ERROR_KERNEL;
-    if (!error) error = sphi_check_positive(rho, x.n);
+    if (!error) error = sphi_check_positive(rho, cloud.points.n);
     if (!error && !zeta) error = SPH_ERROR_NULL;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(3, x, i);
-        const sph_real h_i = sphi_at(h, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(3, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
         sph_real sum = sphi_at(m, i) * sph_gravity_dphidh(k, SPH_R(0), h_i);
-        for (p = list.start[i]; p < list.start[i + 1]; p++)
-            sum += sphi_at(m, list.index[p]) * sph_gravity_dphidh(k, sph_length(3, sphi_separation(3, x, x_i, sphi_point(3, x, list.index[p]))), h_i);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++)
+            sum += sphi_at(m, cloud.list.index[p]) * sph_gravity_dphidh(k, sph_length(3, sphi_separation(3, cloud.points, x_i, sphi_point(3, cloud.points, cloud.list.index[p]))), h_i);
         failed += sphi_store_finite(zeta, i, -h_i / (SPH_R(3) * sphi_at(rho, i)) * sum);
     }
     return failed;
 }
 /* What self-gravity adds where h follows the density: a_i = -(G/2) sum_j m_j (zeta_i F_i / Omega_i + zeta_j F_j / Omega_j) x_ij, pairwise antisymmetric. Lists of all pairs within the larger support (SPH_LARGER). */
-SPH_FN sph_index sph_gravity_correction(sph_kernel k, sph_index first, sph_index last, sph_points x, sph_list list, sph_scalars h, sph_gas gas,
-                                        sph_scalars zeta, sph_real G, sph_vector_out acceleration)
+SPH_FN sph_index sph_gravity_correction(sph_kernel k, sph_cloud cloud, sph_gas gas, sph_scalars zeta, sph_real G, sph_vector_out acceleration)
 {
-    int error = sphi_check_gas(k, 3, first, last, x, list, h, gas);
+    int error = sphi_check_gas(k, 3, cloud, gas);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_field(zeta, x.n);
+    if (!error) error = sphi_check_field(zeta, cloud.points.n);
     if (!error) error = sphi_check_out(3, acceleration);
     if (!error && !sphi_finite(G)) error = SPH_ERROR_VALUE;
     if (error) return error;
-    for (i = first; i < last; i++) {
-        const sph_vec x_i = sphi_point(3, x, i);
-        const sph_real h_i = sphi_at(h, i), own = sphi_at(zeta, i) / sphi_at(gas.omega, i);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(3, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i), own = sphi_at(zeta, i) / sphi_at(gas.omega, i);
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0);
         sph_vec sum;
         SPH_SUM(ax, ay, az)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            const sph_vec x_ij = sphi_separation(3, x, x_i, sphi_point(3, x, j));
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(3, cloud.points, x_i, sphi_point(3, cloud.points, j));
             const sph_real r = sph_length(3, x_ij);
             const sph_real b = SPH_R(-0.5) * G * sphi_at(gas.m, j) *
-                               (own * sph_kernel_f(k, 3, r, h_i) + sphi_at(zeta, j) / sphi_at(gas.omega, j) * sph_kernel_f(k, 3, r, sphi_at(h, j)));
+                               (own * sph_kernel_f(k, 3, r, h_i) + sphi_at(zeta, j) / sphi_at(gas.omega, j) * sph_kernel_f(k, 3, r, sphi_at(cloud.h, j)));
             ax += b * x_ij.x;
             ay += b * x_ij.y;
             az += b * x_ij.z;

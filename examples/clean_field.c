@@ -55,7 +55,7 @@ static void fill(void)
     t = 0;
     need(sph_grid_build(DIM, points(), radius, work, sph_grid_workspace(DIM, N), &grid));
     need(sph_grid_lists(DIM, &grid, points(), SPH_GATHER, R, R, 0, start, list_index, N * NEIGHBOURS, &pairs));
-    need(sph_density_summation(KERNEL, DIM, 0, N, points(), list, sph_scalars_same(&h), sph_scalars_same(&m), rho));
+    need(sph_density_summation(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points(), list, sph_scalars_same(&h), sph_scalars_none()), 0, N), sph_scalars_same(&m), rho));
     free(work);
 }
 
@@ -65,8 +65,7 @@ static void rates(double damping)
     const sph_gas gas = {sph_scalars_same(&m), sph_scalars_array(rho), sph_scalars_same(&one)};
     const sph_vectors B = sph_vectors_separate(Bx, By, NULL);
     const sph_vector_out rate_B = sph_vector_out_separate(rate_x, rate_y, NULL);
-    need(sph_cleaning_rates(KERNEL, DIM, 0, N, points(), list, sph_scalars_same(&h), gas, B, sph_scalars_array(psi), sph_scalars_array(NULL), ch, damping,
-                            rate_B, rate_psi, div_B));
+    need(sph_cleaning_rates(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points(), list, sph_scalars_same(&h), sph_scalars_none()), 0, N), gas, B, sph_scalars_array(psi), sph_scalars_array(NULL), ch, damping, rate_B, rate_psi, div_B));
 }
 /* the midpoint rule: half a step for the rates of the whole one */
 static void step(double dt, double damping)

@@ -80,19 +80,18 @@ static void rates(void)
     int i;
     need(sph_grid_build(DIM, points, radius, work, sph_grid_workspace(DIM, n), &grid));
     need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, R, R, 0, start, list_index, MOST * NEIGHBOURS, &pairs));
-    need(sph_divergence_difference(KERNEL, DIM, 0, n_water, points, list, H, gas, v, divergence));
+    need(sph_divergence_difference(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), 0, n_water), gas, v, divergence));
     for (i = 0; i < n_water; i++) {
         rho[i] -= dt * rho[i] * divergence[i];
         p[i] = sph_pressure_tait(rho[i], rho0, c, gamma7, 0);
     }
     /* the walls stand still, also for the viscosity: their v_wall, which would make them rough, is not used */
-    need(sph_wall_adami(KERNEL, DIM, n_water, n, points, list, H, sph_scalars_array(is_water), density, sph_scalars_array(p), v, at_rest, gravity, no_normal,
-                        p_wall, sph_vector_out_separate(v_wall_x, v_wall_y, NULL), NULL));
+    need(sph_wall_adami(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), n_water, n), sph_scalars_array(is_water), density, sph_scalars_array(p), v, at_rest, gravity, no_normal, p_wall, sph_vector_out_separate(v_wall_x, v_wall_y, NULL), NULL));
     for (i = n_water; i < n; i++) {
         p[i] = fmax(p_wall[i], 0); /* a wall pushes, it does not pull */
         rho[i] = sph_density_tait(p[i], rho0, c, gamma7, 0);
     }
-    need(sph_fluid_rates_monaghan(KERNEL, DIM, 0, n_water, points, list, H, fluid, sph_vector_out_separate(ax, ay, NULL), NULL, NULL));
+    need(sph_fluid_rates_monaghan(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), 0, n_water), fluid, sph_vector_out_separate(ax, ay, NULL), NULL, NULL));
 }
 /* kick, drift, kick: leapfrog */
 static void step(void)

@@ -71,7 +71,7 @@ static void density(void)
         need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, radius, radius, 0, start, NULL, 0, &pairs)); /* counts */
         index = must(realloc(index, (size_t)pairs * sizeof *index));
         need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, radius, radius, 0, start, index, pairs, &pairs));
-        failed = sph_density_adaptive(KERNEL, DIM, 0, N, points, (sph_list){start, index}, radius, sph_scalars_same(&m), ETA, 1e-6, h, rho, omega, status);
+        failed = sph_density_adaptive(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, (sph_list){start, index}, sph_scalars_none(), sph_scalars_none()), 0, N), radius, sph_scalars_same(&m), ETA, 1e-6, h, rho, omega, status);
         need(failed);
         for (i = 0; i < N; i++)
             if (status[i] == SPH_LIST_TOO_SHORT) reach[i] = support * h[i];

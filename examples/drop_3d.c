@@ -70,12 +70,12 @@ static void rates(void)
     if (!work) work = malloc(sph_grid_workspace(DIM, MOST));
     need(sph_grid_build(DIM, points, radius, work, sph_grid_workspace(DIM, MOST), &grid));
     need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, R, R, 0, start, list_index, MOST * NEIGHBOURS, &pairs));
-    need(sph_divergence_difference(KERNEL, DIM, 0, n, points, list, H, gas, velocity(), divergence));
+    need(sph_divergence_difference(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), 0, n), gas, velocity(), divergence));
     for (i = 0; i < n; i++) {
         rho[i] -= dt * rho[i] * divergence[i];
         p[i] = sph_pressure_tait(rho[i], rho0, c, gamma7, 0);
     }
-    need(sph_fluid_rates_monaghan(KERNEL, DIM, 0, n, points, list, H, fluid, sph_vector_out_separate(a[0], a[1], a[2]), NULL, NULL));
+    need(sph_fluid_rates_monaghan(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), 0, n), fluid, sph_vector_out_separate(a[0], a[1], a[2]), NULL, NULL));
 }
 static void add(double to, double rate[DIM][MOST], double value[DIM][MOST])
 {

@@ -64,20 +64,19 @@ static int step(float gx, float gy)
     }
     error = sph_grid_build(DIM, points, radius, work, sizeof work, &grid);
     if (!error) error = sph_grid_lists(DIM, &grid, points, SPH_GATHER, R, R, 0, start, list_index, N * NEIGHBOURS, &pairs);
-    if (!error) error = sph_density_summation(KERNEL, DIM, 0, N_WATER, points, list, H, mass, rho); /* does not drift, however long this runs */
+    if (!error) error = sph_density_summation(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), 0, N_WATER), mass, rho); /* does not drift, however long this runs */
     for (i = 0; i < N_WATER; i++) {
         rho[i] = fmaxf(rho[i], 1); /* the surface lets go: no tension */
         p[i] = sph_pressure_tait(rho[i], 1, c, 1, 0);
     }
     if (!error)
-        error = sph_wall_adami(KERNEL, DIM, N_WATER, N, points, list, H, sph_scalars_array(is_water), density, pressure, v, at_rest, gravity, no_normal, p_wall,
-                               v_wall, 0);
+        error = sph_wall_adami(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), N_WATER, N), sph_scalars_array(is_water), density, pressure, v, at_rest, gravity, no_normal, p_wall, v_wall, 0);
     if (error < 0) return error; /* above 0: wall particles without water in reach */
     for (i = N_WATER; i < N; i++) {
         p[i] = p_wall[i] > 0 ? p_wall[i] : 0;
         rho[i] = sph_density_tait(p[i], 1, c, 1, 0);
     }
-    return sph_fluid_rates_monaghan(KERNEL, DIM, 0, N_WATER, points, list, H, fluid, a, 0, 0);
+    return sph_fluid_rates_monaghan(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), 0, N_WATER), fluid, a, 0, 0);
 }
 
 /* What the firmware calls: some steps, then the lights. */

@@ -71,9 +71,9 @@ static void gradients(int side, double (*field)(double, double))
     for (i = 0; i < n; i++) f[i] = field(x[i], y[i]);
     points = sph_points_separate(n, x, y, NULL);
     list = neighbours(points);
-    need(sph_gradient_difference(KERNEL, DIM, 0, n, points, list, sph_scalars_same(&h), sph_scalars_same(&V), sph_scalars_array(f), plain_x, plain_y, NULL));
+    need(sph_gradient_difference(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_same(&V)), 0, n), sph_scalars_array(f), plain_x, plain_y, NULL));
     need(
-        sph_gradient_cspm(KERNEL, DIM, 0, n, points, list, sph_scalars_same(&h), sph_scalars_same(&V), sph_scalars_array(f), cspm_x, cspm_y, NULL, NULL, NULL));
+        sph_gradient_cspm(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_same(&V)), 0, n), sph_scalars_array(f), cspm_x, cspm_y, NULL, NULL, NULL));
 }
 /* length of the error of particle i against the gradient of the wave */
 static double error(int i, const double *gx, const double *gy)

@@ -56,7 +56,7 @@ static void make_rows(void)
     int64_t pairs;
     need(sph_grid_build(DIM, points, radius, work, size, &grid));
     need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, R, R, 0, start, list_index, N * NEIGHBOURS, &pairs));
-    need(sph_elliptic_rows_msph(KERNEL, DIM, 0, N, points, list, sph_scalars_same(&h), sph_scalars_same(&V), sph_scalars_same(&conductivity), options, out));
+    need(sph_elliptic_rows_msph(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_same(&V)), 0, N), sph_scalars_same(&conductivity), options, out));
     need(sph_rows_time_step(0, N, N, list, row, &dt));
     dt *= 0.5; /* the longest stable step, and half of it so that nothing ever gets hotter than its neighbourhood */
     free(work);

@@ -116,7 +116,7 @@ static sph_index by_rows(void)
         row[start[pair[q][0] + 1]++] = pair[q][1];
         row[start[pair[q][1] + 1]++] = pair[q][0];
     }
-    return sph_fluid_rates_monaghan(KERNEL, DIM, 0, N, points, (sph_list){start, row}, sph_scalars_same(&h), gas, acceleration, NULL, heat2);
+    return sph_fluid_rates_monaghan(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, (sph_list){start, row}, sph_scalars_same(&h), sph_scalars_none()), 0, N), gas, acceleration, NULL, heat2);
 }
 
 /* -------- */

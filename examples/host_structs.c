@@ -74,7 +74,7 @@ static void derivatives(void)
     out.stride = STRIDE;
     out.status = status;
     /* exact for quadratic fields, at the edge, too; where that is ill-conditioned weighted least squares take over (status: SPH_FELL_BACK) */
-    if (sph_derivatives_icspm(KERNEL, DIM, 0, N, points, list, sph_scalars_same(&h), area, height, 1e-3, 1, out) < 0) need(-1);
+    if (sph_derivatives_icspm(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, sph_scalars_same(&h), area), 0, N), height, 1e-3, 1, out) < 0) need(-1);
 }
 
 static double parabola(double x, double y) { return 1 + 2 * x - y + 3 * x * x + 4 * x * y - 2 * y * y; }

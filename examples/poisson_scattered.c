@@ -97,11 +97,11 @@ static void poisson(int side)
     need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, R, R, 0, start, list_index, MOST * NEIGHBOURS, &pairs));
     options.trace = 1; /* with a source and points in disorder: the right size of the rows, without which solutions do not converge */
     inside.status = status;
-    answer = sph_elliptic_rows_msph(KERNEL, DIM, 0, n, points, list, H, volume, mobility, options, inside);
+    answer = sph_elliptic_rows_msph(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, volume), 0, n), mobility, options, inside);
     if (answer < 0) need(answer);
     for (i = 0; i < n; i++)
         if (!(is_edge[i] > 0)) need(status[i]); /* rows of the edge may have to do without (SPH_FELL_BACK): they are written over */
-    need(sph_elliptic_rows_boundary(KERNEL, DIM, 0, n, points, list, H, volume, mobility, options, no_normal, sph_scalars_array(is_edge), none, out));
+    need(sph_elliptic_rows_boundary(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, volume), 0, n), mobility, options, no_normal, sph_scalars_array(is_edge), none, out));
     need(sph_csr_assemble(0, n, n, list, row, diagonal, 1, matrix_start, column, value, MOST * (NEIGHBOURS + 1), NULL));
     free(work);
     solve(side, matrix_start, column, value);

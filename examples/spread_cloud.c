@@ -66,7 +66,7 @@ static void step(int with_collisions)
     int i;
     if (with_collisions) {
         search(distance);
-        need(sph_collide_sequential(DIM, 0, N, points(), list, distance, sph_scalars_same(&inverse_mass), 1, vx, vy, NULL, 1, NULL));
+        need(sph_collide_sequential(DIM, sph_cloud_range(sph_cloud_of(points(), list, sph_scalars_none(), sph_scalars_none()), 0, N), distance, sph_scalars_same(&inverse_mass), 1, vx, vy, NULL, 1, NULL));
     }
     for (i = 0; i < N; i++) {
         x[i] += dt * vx[i];

@@ -161,6 +161,7 @@ static inline sph_list cloud_list(const cloud *c)
     l.index = c->index;
     return l;
 }
+static inline sph_cloud cloud_view(const cloud *c) { return sph_cloud_of(cloud_points(c), cloud_list(c), cloud_h(c), cloud_V(c)); }
 static inline void cloud_position(const cloud *c, sph_index i, double *p)
 {
     p[0] = (double)c->x[i];

@@ -104,14 +104,11 @@ static sph_index clean(int form, const state *s, double ch, double sigma, int mo
     const sph_index n = s->c.n;
     switch (form) {
     case CONJUGATE:
-        return sph_cleaning_rates(KERNEL, dim, 0, n, x, l, field(s, H), gas(s), B, field(s, PSI), div_v, SPH_R(ch), SPH_R(sigma), three_out(s, RBX), s->a[RPSI],
-                                  s->a[DIVB]);
+        return sph_cleaning_rates(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, field(s, H), sph_scalars_none()), 0, n), gas(s), B, field(s, PSI), div_v, SPH_R(ch), SPH_R(sigma), three_out(s, RBX), s->a[RPSI], s->a[DIVB]);
     case OTHER:
-        return sph_cleaning_rates_symmetric(KERNEL, dim, 0, n, x, l, field(s, H), gas(s), B, field(s, PSI), div_v, SPH_R(ch), SPH_R(sigma), three_out(s, RBX),
-                                            s->a[RPSI], s->a[DIVB]);
+        return sph_cleaning_rates_symmetric(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, field(s, H), sph_scalars_none()), 0, n), gas(s), B, field(s, PSI), div_v, SPH_R(ch), SPH_R(sigma), three_out(s, RBX), s->a[RPSI], s->a[DIVB]);
     default:
-        return sph_cleaning_rates_nonconservative(KERNEL, dim, 0, n, x, l, field(s, H), gas(s), B, field(s, PSI), div_v, SPH_R(ch), SPH_R(sigma),
-                                                  three_out(s, RBX), s->a[RPSI], s->a[DIVB]);
+        return sph_cleaning_rates_nonconservative(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, field(s, H), sph_scalars_none()), 0, n), gas(s), B, field(s, PSI), div_v, SPH_R(ch), SPH_R(sigma), three_out(s, RBX), s->a[RPSI], s->a[DIVB]);
     }
 }
 /* resistivity of each particle's own, up to twice alpha_B */
@@ -146,7 +143,7 @@ static sph_index rates(const state *s, sph_mhd m, sph_scalars h)
     o.div_B = s->a[DIVB];
     o.div_v = s->a[DIVV];
     o.v_sig = s->a[VSIG];
-    return sph_mhd_rates(KERNEL, s->c.dim, 0, s->c.n, cloud_points(&s->c), cloud_list(&s->c), h, m, o);
+    return sph_mhd_rates(KERNEL, s->c.dim, sph_cloud_range(sph_cloud_of(cloud_points(&s->c), cloud_list(&s->c), h, sph_scalars_none()), 0, s->c.n), m, o);
 }
 
 /* ---- I1: sum V psi div B = -sum V B . grad psi; I2, I3, I4, I8 ---- */
@@ -161,10 +158,8 @@ static void test_conjugate(void)
             double left = 0.0, right = 0.0, size = 0.0;
             sph_index i;
             int k;
-            CHECK(sph_divergence_difference(KERNEL, dim, 0, s.c.n, cloud_points(&s.c), cloud_list(&s.c), field(&s, H), gas(&s), three(&s, BX, dim),
-                                            s.a[DIVB]) == 0);
-            CHECK(sph_gradient_symmetric(KERNEL, dim, 0, s.c.n, cloud_points(&s.c), cloud_list(&s.c), field(&s, H), gas(&s), field(&s, PSI),
-                                         three_out(&s, AX)) == 0);
+            CHECK(sph_divergence_difference(KERNEL, dim, sph_cloud_range(sph_cloud_of(cloud_points(&s.c), cloud_list(&s.c), field(&s, H), sph_scalars_none()), 0, s.c.n), gas(&s), three(&s, BX, dim), s.a[DIVB]) == 0);
+            CHECK(sph_gradient_symmetric(KERNEL, dim, sph_cloud_range(sph_cloud_of(cloud_points(&s.c), cloud_list(&s.c), field(&s, H), sph_scalars_none()), 0, s.c.n), gas(&s), field(&s, PSI), three_out(&s, AX)) == 0);
             for (i = 0; i < s.c.n; i++) {
                 const double V = (double)s.a[M][i] / (double)s.a[RHO][i];
                 left += V * (double)s.a[PSI][i] * (double)s.a[DIVB][i];
@@ -251,8 +246,7 @@ static void test_energy(void)
                         for (k = 0; k < 3; k++) memcpy(before[k], s.a[AX + k], (size_t)s.c.n * sizeof(sph_real));
                         m.tensile = SPH_R(1);
                         CHECK(rates(&s, m, field(&s, H)) == 0);
-                        CHECK(sph_divergence_symmetric(KERNEL, dim, 0, s.c.n, cloud_points(&s.c), cloud_list(&s.c), field(&s, H), gas(&s), three(&s, BX, dim),
-                                                       s.a[RPSI]) == 0);
+                        CHECK(sph_divergence_symmetric(KERNEL, dim, sph_cloud_range(sph_cloud_of(cloud_points(&s.c), cloud_list(&s.c), field(&s, H), sph_scalars_none()), 0, s.c.n), gas(&s), three(&s, BX, dim), s.a[RPSI]) == 0);
                         for (i = 0; i < s.c.n; i++)
                             for (k = 0; k < parts; k++) {
                                 const double f9 = (double)s.a[AX + k][i] - (double)before[k][i];
@@ -449,13 +443,11 @@ static void test_linear(void)
         CHECK_CLOSE((double)s.a[AY][middle], G * 2.0 / 2.0, BY_PRECISION(1e-9, 1e-2));
         CHECK_CLOSE((double)s.a[AZ][middle], G * 1.0 / 2.0, BY_PRECISION(1e-9, 1e-2));
         CHECK_CLOSE((double)s.a[AX][middle], -G * 5.0 * (double)s.c.x[middle] / 2.0, BY_PRECISION(1e-9, 1e-2)); /* -d(5 x^2 / 2)/dx / rho */
-        CHECK(sph_curl_difference(KERNEL, dim, middle, middle + 1, cloud_points(&s.c), cloud_list(&s.c), field(&s, H), gas(&s), three(&s, BX, 3),
-                                  three_out(&s, RBX)) == 0);
+        CHECK(sph_curl_difference(KERNEL, dim, sph_cloud_range(sph_cloud_of(cloud_points(&s.c), cloud_list(&s.c), field(&s, H), sph_scalars_none()), middle, middle + 1), gas(&s), three(&s, BX, 3), three_out(&s, RBX)) == 0);
         CHECK_CLOSE((double)s.a[RBX][middle], 0.0, BY_PRECISION(1e-10, 1e-3));
         CHECK_CLOSE((double)s.a[RBY][middle], -G, BY_PRECISION(1e-10, 1e-3)); /* -dB_z/dx */
         CHECK_CLOSE((double)s.a[RBZ][middle], 2.0 * G, BY_PRECISION(1e-10, 1e-3));
-        CHECK(sph_divergence_difference(KERNEL, dim, middle, middle + 1, cloud_points(&s.c), cloud_list(&s.c), field(&s, H), gas(&s), three(&s, BY, dim),
-                                        s.a[DIVB]) == 0);
+        CHECK(sph_divergence_difference(KERNEL, dim, sph_cloud_range(sph_cloud_of(cloud_points(&s.c), cloud_list(&s.c), field(&s, H), sph_scalars_none()), middle, middle + 1), gas(&s), three(&s, BY, dim), s.a[DIVB]) == 0);
         CHECK_CLOSE((double)s.a[DIVB][middle], 2.0 * G, BY_PRECISION(1e-10, 1e-3)); /* of (2 x, x, ...) */
         state_free(&s);
     }
@@ -509,7 +501,7 @@ static void test_velocity_cleaning(void)
         f.rho = field(&s, RHO);
         f.p = field(&s, PSI); /* psi in the place of p */
         f.v = three(&s, VX, dim);
-        CHECK(sph_fluid_rates_monaghan(KERNEL, dim, 0, s.c.n, cloud_points(&s.c), cloud_list(&s.c), cloud_h(&s.c), f, three_out(&s, AX), s.a[DIVV], 0) == 0);
+        CHECK(sph_fluid_rates_monaghan(KERNEL, dim, cloud_view(&s.c), f, three_out(&s, AX), s.a[DIVV], 0) == 0);
         for (i = 0; i < s.c.n; i++) {
             const double m = (double)s.a[M][i], rho = (double)s.a[RHO][i], psi = (double)s.a[PSI][i], drho = (double)s.a[DIVV][i];
             const double e = m * psi * (double)sph_cleaning_rate_velocity(SPH_R(ch), SPH_R(0), s.c.h, SPH_R(psi), SPH_R(drho)) / (ch * ch * rho * rho);
@@ -639,8 +631,7 @@ static void test_overflow(void)
             x[axis][1] = h;
             g.m = sph_scalars_same(&m);
             g.rho = g.omega = sph_scalars_same(&one);
-            CHECK(sph_gradient_symmetric(KERNEL, dim, 0, 2, sph_points_separate(2, x[0], x[1], x[2]), list, sph_scalars_same(&h), g, sph_scalars_same(&large),
-                                         sph_vector_out_separate(out[0], out[1], out[2])) == 2);
+            CHECK(sph_gradient_symmetric(KERNEL, dim, sph_cloud_of(sph_points_separate(2, x[0], x[1], x[2]), list, sph_scalars_same(&h), sph_scalars_none()), g, sph_scalars_same(&large), sph_vector_out_separate(out[0], out[1], out[2])) == 2);
             for (k = 0; k < dim; k++) CHECK((double)out[k][0] == 0.0 && (double)out[k][1] == 0.0);
         }
 }

@@ -54,12 +54,12 @@ static sph_index collide(int form, gas *g, double restitution, sph_collision_rep
     const sph_vector_out dv = sph_vector_out_separate(g->dv[0], g->dv[1], g->dv[2]);
     sph_index i, answer;
     int k;
-    if (form == SEQUENTIAL) return sph_collide_sequential(dim, 0, g->c.n, x, list, g->distance, w, SPH_R(restitution), g->v[0], g->v[1], g->v[2], 1, report);
+    if (form == SEQUENTIAL) return sph_collide_sequential(dim, sph_cloud_range(sph_cloud_of(x, list, sph_scalars_none(), sph_scalars_none()), 0, g->c.n), g->distance, w, SPH_R(restitution), g->v[0], g->v[1], g->v[2], 1, report);
     if (form == WEIGHTED) {
-        answer = sph_collision_count(dim, 0, g->c.n, x, list, g->distance, w, gas_v(g), g->count);
+        answer = sph_collision_count(dim, sph_cloud_range(sph_cloud_of(x, list, sph_scalars_none(), sph_scalars_none()), 0, g->c.n), g->distance, w, gas_v(g), g->count);
         CHECK(answer >= 0);
-        answer = sph_collision_change_weighted(dim, 0, g->c.n, x, list, g->distance, w, SPH_R(restitution), gas_v(g), g->count, dv);
-    } else answer = sph_collision_change_literal(dim, 0, g->c.n, x, list, g->distance, w, SPH_R(restitution), gas_v(g), dv);
+        answer = sph_collision_change_weighted(dim, sph_cloud_range(sph_cloud_of(x, list, sph_scalars_none(), sph_scalars_none()), 0, g->c.n), g->distance, w, SPH_R(restitution), gas_v(g), g->count, dv);
+    } else answer = sph_collision_change_literal(dim, sph_cloud_range(sph_cloud_of(x, list, sph_scalars_none(), sph_scalars_none()), 0, g->c.n), g->distance, w, SPH_R(restitution), gas_v(g), dv);
     for (i = 0; i < g->c.n; i++)
         for (k = 0; k < dim; k++) g->v[k][i] += g->dv[k][i];
     return answer;
@@ -260,8 +260,7 @@ static void test_lists(void)
         sph_collision_report report = {0, 0, SPH_R(0)};
         sph_index expected = 0, j;
         gas before = patch(5, 0);
-        CHECK(sph_collide_sequential(2, 0, 40, x, cloud_list(&part.c), part.distance, sph_scalars_array(part.w), SPH_R(1), part.v[0], part.v[1], 0, 1,
-                                     &report) == 0);
+        CHECK(sph_collide_sequential(2, sph_cloud_range(sph_cloud_of(x, cloud_list(&part.c), sph_scalars_none(), sph_scalars_none()), 0, 40), part.distance, sph_scalars_array(part.w), SPH_R(1), part.v[0], part.v[1], 0, 1, &report) == 0);
         for (i = 40; i < part.c.n; i++) {
             int touched = 0;
             for (p = part.c.start[i]; p < part.c.start[i + 1]; p++) touched |= part.c.index[p] < 40;
@@ -288,7 +287,7 @@ static void test_coincident(void)
     g.c.x[1] = g.c.x[0];
     g.c.y[1] = g.c.y[0];
     cloud_neighbors(&g.c, 0.85);
-    CHECK(sph_collision_count(2, 0, g.c.n, cloud_points(&g.c), cloud_list(&g.c), g.distance, sph_scalars_array(g.w), gas_v(&g), g.count) == 2);
+    CHECK(sph_collision_count(2, cloud_view(&g.c), g.distance, sph_scalars_array(g.w), gas_v(&g), g.count) == 2);
     CHECK(collide(WEIGHTED, &g, 0.5, 0) == 0);
     CHECK(collide(SEQUENTIAL, &g, 0.5, &report) == 0);
     CHECK(report.coincident == 1);
@@ -342,11 +341,10 @@ static void test_acceleration(void)
     a = sph_vector_out_separate(g.dv[0], g.dv[1], g.dv[2]);
     r = 0.5;
     speed = hypot(1.0, 0.5);
-    CHECK(sph_collision_acceleration_literal(2, 0, 2, cloud_points(&c), cloud_list(&g.c), g.distance, sph_scalars_array(g.w), SPH_R(0.3), gas_v(&g),
-                                             SPH_R(speed * dt / r), a) == 0);
+    CHECK(sph_collision_acceleration_literal(2, sph_cloud_range(sph_cloud_of(cloud_points(&c), cloud_list(&g.c), sph_scalars_none(), sph_scalars_none()), 0, 2), g.distance, sph_scalars_array(g.w), SPH_R(0.3), gas_v(&g), SPH_R(speed * dt / r), a) == 0);
     {
         const double ax = (double)g.dv[0][0];
-        CHECK(sph_collision_change_literal(2, 0, 2, cloud_points(&c), cloud_list(&g.c), g.distance, sph_scalars_array(g.w), SPH_R(0.3), gas_v(&g), a) == 0);
+        CHECK(sph_collision_change_literal(2, sph_cloud_range(sph_cloud_of(cloud_points(&c), cloud_list(&g.c), sph_scalars_none(), sph_scalars_none()), 0, 2), g.distance, sph_scalars_array(g.w), SPH_R(0.3), gas_v(&g), a) == 0);
         CHECK(ax != 0.0);
         CHECK_RELATIVE((double)g.dv[0][0] / dt, ax, 1e3 * EPSILON);
     }

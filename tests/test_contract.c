@@ -148,6 +148,10 @@ static sph_gas gas_of(const world *w)
     g.omega = scalars_of(w, OMEGA);
     return g;
 }
+static sph_cloud cloud_of(const world *w)
+{
+    return sph_cloud_range(sph_cloud_of(points_of(w), list_of(w), scalars_of(w, H), scalars_of(w, V)), w->first, w->last);
+}
 static sph_fluid fluid_of(const world *w)
 {
     sph_fluid f;
@@ -215,9 +219,9 @@ static sph_vec along_x(double x)
 /* ---------------------------------------------------------------- the functions, all called through the same arguments */
 
 /* clang-format off */
-#define RANGE (sph_kernel)w->k, w->dim, w->first, w->last, points_of(w), list_of(w), scalars_of(w, H)
-#define RANGE_1D (sph_kernel)w->k, w->first, w->last, points_of(w), list_of(w), scalars_of(w, H)
-#define LIST w->dim, w->first, w->last, points_of(w), list_of(w)
+#define RANGE (sph_kernel)w->k, w->dim, cloud_of(w)
+#define RANGE_1D (sph_kernel)w->k, cloud_of(w)
+#define LIST w->dim, cloud_of(w)
 #define A(a) scalars_of(w, a)
 #define R(a) real_of(w, a)
 #define I(a) index_of(w, a)
@@ -225,36 +229,36 @@ static sph_vec along_x(double x)
 #define STATE (unsigned char *)w->a[STATUS]
 #define CALL(name, ...) static sph_index call_##name(const world *w) { return (sph_index)sph_##name(__VA_ARGS__); }
 
-CALL(shepard_sum, RANGE, A(V), R(S0))
-CALL(interpolate_shepard, RANGE, A(V), A(F), R(S0), STATE)
+CALL(shepard_sum, RANGE, R(S0))
+CALL(interpolate_shepard, RANGE, A(F), R(S0), STATE)
 CALL(density_summation, RANGE, A(M), R(S0))
 CALL(density_adaptive, (sph_kernel)w->k, LIST, A(REACH), A(M), X(ETA), X(TOLERANCE), R(GUESS), R(S0), R(S3), STATE)
-CALL(gradient_difference, RANGE, A(V), A(F), R(O0), R(O1), R(O2))
-CALL(gradient_cspm, RANGE, A(V), A(F), R(O0), R(O1), R(O2), R(S1), STATE)
-CALL(gradient_rows_cspm, RANGE, A(V), R(R0), R(R1), R(R2), R(S1), STATE)
-CALL(laplacian_brookshaw, RANGE, A(V), A(F), R(S0))
-CALL(laplacian_rows_brookshaw, RANGE, A(V), R(R0))
-CALL(laplacian_kernel, RANGE, A(V), A(F), R(S0))
-CALL(laplacian_rows_kernel, RANGE, A(V), R(R0))
-CALL(derivatives_cspm, RANGE, A(V), A(F), X(LEAST), derivative_out_of(w))
-CALL(derivatives_icspm, RANGE, A(V), A(F), X(LEAST), 0, derivative_out_of(w))
-CALL(derivatives_wls, RANGE, A(V), A(F), X(LEAST), derivative_out_of(w))
-CALL(derivative_rows_cspm, RANGE, A(V), jet_of(w), row_out_of(w))
-CALL(derivative_rows_icspm, RANGE, A(V), jet_of(w), row_out_of(w))
-CALL(derivative_rows_wls, RANGE, A(V), jet_of(w), row_out_of(w))
-CALL(second_derivative_bim, RANGE_1D, A(V), A(F), w->left, w->right, R(S0), STATE)
-CALL(second_derivative_rows_bim, RANGE_1D, A(V), w->left, w->right, R(R0), STATE)
-CALL(elliptic_brookshaw, RANGE, A(V), A(MX), options_of(w), A(F), A(U), R(S0), STATE)
-CALL(elliptic_brookshaw_corrected, RANGE, A(V), A(MX), options_of(w), A(F), A(U), R(S0), STATE)
-CALL(elliptic_schwaiger, RANGE, A(V), A(MX), options_of(w), A(F), A(U), R(S0), STATE)
-CALL(elliptic_msph, RANGE, A(V), A(MX), options_of(w), A(F), A(U), R(S0), STATE)
-CALL(elliptic_rows_brookshaw, RANGE, A(V), A(MX), options_of(w), row_out_of(w))
-CALL(elliptic_rows_brookshaw_corrected, RANGE, A(V), A(MX), options_of(w), row_out_of(w))
-CALL(elliptic_rows_schwaiger, RANGE, A(V), A(MX), options_of(w), row_out_of(w))
-CALL(elliptic_rows_msph, RANGE, A(V), A(MX), options_of(w), row_out_of(w))
-CALL(elliptic_rows_anisotropic, RANGE, A(V), diagonal_of(w, MX), row_out_of(w))
-CALL(elliptic_rows_msph_diagonal, RANGE, A(V), diagonal_of(w, MX), options_of(w), row_out_of(w))
-CALL(elliptic_rows_boundary, RANGE, A(V), A(MX), options_of(w), diagonal_of(w, BX), A(F), A(U), row_out_of(w))
+CALL(gradient_difference, RANGE, A(F), R(O0), R(O1), R(O2))
+CALL(gradient_cspm, RANGE, A(F), R(O0), R(O1), R(O2), R(S1), STATE)
+CALL(gradient_rows_cspm, RANGE, R(R0), R(R1), R(R2), R(S1), STATE)
+CALL(laplacian_brookshaw, RANGE, A(F), R(S0))
+CALL(laplacian_rows_brookshaw, RANGE, R(R0))
+CALL(laplacian_kernel, RANGE, A(F), R(S0))
+CALL(laplacian_rows_kernel, RANGE, R(R0))
+CALL(derivatives_cspm, RANGE, A(F), X(LEAST), derivative_out_of(w))
+CALL(derivatives_icspm, RANGE, A(F), X(LEAST), 0, derivative_out_of(w))
+CALL(derivatives_wls, RANGE, A(F), X(LEAST), derivative_out_of(w))
+CALL(derivative_rows_cspm, RANGE, jet_of(w), row_out_of(w))
+CALL(derivative_rows_icspm, RANGE, jet_of(w), row_out_of(w))
+CALL(derivative_rows_wls, RANGE, jet_of(w), row_out_of(w))
+CALL(second_derivative_bim, RANGE_1D, A(F), w->left, w->right, R(S0), STATE)
+CALL(second_derivative_rows_bim, RANGE_1D, w->left, w->right, R(R0), STATE)
+CALL(elliptic_brookshaw, RANGE, A(MX), options_of(w), A(F), A(U), R(S0), STATE)
+CALL(elliptic_brookshaw_corrected, RANGE, A(MX), options_of(w), A(F), A(U), R(S0), STATE)
+CALL(elliptic_schwaiger, RANGE, A(MX), options_of(w), A(F), A(U), R(S0), STATE)
+CALL(elliptic_msph, RANGE, A(MX), options_of(w), A(F), A(U), R(S0), STATE)
+CALL(elliptic_rows_brookshaw, RANGE, A(MX), options_of(w), row_out_of(w))
+CALL(elliptic_rows_brookshaw_corrected, RANGE, A(MX), options_of(w), row_out_of(w))
+CALL(elliptic_rows_schwaiger, RANGE, A(MX), options_of(w), row_out_of(w))
+CALL(elliptic_rows_msph, RANGE, A(MX), options_of(w), row_out_of(w))
+CALL(elliptic_rows_anisotropic, RANGE, diagonal_of(w, MX), row_out_of(w))
+CALL(elliptic_rows_msph_diagonal, RANGE, diagonal_of(w, MX), options_of(w), row_out_of(w))
+CALL(elliptic_rows_boundary, RANGE, A(MX), options_of(w), diagonal_of(w, BX), A(F), A(U), row_out_of(w))
 CALL(rows_apply, w->first, w->last, w->n, list_of(w), R(ROW), R(DIAGONAL), A(F), R(S0))
 CALL(rows_monotone, w->first, w->last, w->n, list_of(w), R(ROW), R(DIAGONAL), STATE)
 CALL(rows_time_step, w->first, w->last, w->n, list_of(w), R(ROW), R(S0))
@@ -274,7 +278,7 @@ CALL(collision_change_weighted, LIST, X(DISTANCE), A(INVERSE_M), X(RESTITUTION),
 CALL(collision_change_literal, LIST, X(DISTANCE), A(INVERSE_M), X(RESTITUTION), vectors_of(w, VX), vector_out_of(w, O0))
 CALL(collision_acceleration_literal, LIST, X(DISTANCE), A(INVERSE_M), X(RESTITUTION), vectors_of(w, VX), X(CONTACT), vector_out_of(w, O0))
 CALL(nearest_distance, w->dim, w->first, w->last, others_of(w), points_of(w), list_of(w), R(S0), STATE)
-CALL(hexatic_order, w->first, w->last, points_of(w), list_of(w), R(S0), STATE)
+CALL(hexatic_order, cloud_of(w), R(S0), STATE)
 CALL(radial_distribution, LIST, X(DISTANCE), X(DENSITY), w->bins, R(S0))
 CALL(count_coincident, LIST, X(WITHIN))
 CALL(separate_coincident, LIST, X(WITHIN), X(STEP), vector_out_of(w, O0))
@@ -321,7 +325,7 @@ static sph_index call_elliptic_diagnose(const world *w)
     r.eigenvalue_least = R(S6);
     r.condition = R(S7);
     r.status = STATE;
-    return sph_elliptic_diagnose(RANGE, A(V), options_of(w), r);
+    return sph_elliptic_diagnose(RANGE, options_of(w), r);
 }
 static sph_index call_mhd_rates(const world *w)
 {
@@ -1285,7 +1289,7 @@ static void test_tables(const char *path)
 /* Every public function of a header that takes arrays (points, lists, grids, orders), or says how large they must be, is in `functions`: SPH_FN at the start of a line. */
 static void test_complete(const char *path)
 {
-    static const char *const takes[] = {"sph_points ", "sph_list ", "sph_grid *", "sph_index *", "_workspace("};
+    static const char *const takes[] = {"sph_points ", "sph_cloud ", "sph_list ", "sph_grid *", "sph_index *", "_workspace("};
     FILE *const file = fopen(path, "r");
     char text[4 * LINE], name[LINE], *from, *end;
     size_t i;
@@ -1301,7 +1305,7 @@ static void test_complete(const char *path)
         if (!end) continue;
         for (from = end; from > text && from[-1] != ' ' && from[-1] != '*'; from--) {}
         snprintf(name, sizeof name, "%.*s", (int)(end - from), from);
-        if (strncmp(name, "sph_", 4) != 0 || strncmp(text, "SPH_FN sph_points ", 18) == 0) continue;
+        if (strncmp(name, "sph_", 4) != 0 || strncmp(text, "SPH_FN sph_points ", 18) == 0 || strncmp(text, "SPH_FN sph_cloud ", 17) == 0) continue;
         *strchr(end, ')') = '\0';
         for (i = 0; i < sizeof takes / sizeof *takes && !strstr(from, takes[i]); i++) {}
         if (i == sizeof takes / sizeof *takes) continue;

@@ -33,8 +33,9 @@ typedef struct arguments {
     unsigned char *status;
 } arguments;
 
-#define SWEEP (sph_kernel)a->k, a->dim, a->first, a->last, a->x, a->list, a->h, a->V
-#define SWEEP_1D (sph_kernel)a->k, a->first, a->last, a->x, a->list, a->h, a->V
+#define CLOUD sph_cloud_range(sph_cloud_of(a->x, a->list, a->h, a->V), a->first, a->last)
+#define SWEEP (sph_kernel)a->k, a->dim, CLOUD
+#define SWEEP_1D (sph_kernel)a->k, CLOUD
 
 static sph_derivative_out derivative_out(const arguments *a)
 {

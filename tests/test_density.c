@@ -110,8 +110,7 @@ static void gas_lists(gas *g)
 }
 static sph_index solve(sph_kernel k, gas *g, double eta, double tolerance)
 {
-    return sph_density_adaptive(k, g->dim, 0, g->n, gas_points(g), gas_list(g), sph_scalars_array(g->reach), sph_scalars_array(g->m), SPH_R(eta),
-                                SPH_R(tolerance), g->h, g->rho, g->omega, g->status);
+    return sph_density_adaptive(k, g->dim, sph_cloud_range(sph_cloud_of(gas_points(g), gas_list(g), sph_scalars_none(), sph_scalars_none()), 0, g->n), sph_scalars_array(g->reach), sph_scalars_array(g->m), SPH_R(eta), SPH_R(tolerance), g->h, g->rho, g->omega, g->status);
 }
 /* What a host does: build lists for the guesses, solve, and again where the list was too short. Returns the number of rounds, or ROUNDS + 1. */
 static int settle(sph_kernel k, gas *g, double eta, double tolerance)
@@ -200,7 +199,7 @@ static void test_lattice(sph_kernel k, int dim, int side, double rho_error, doub
     }
     check_solution(k, &g, eta, 1e-10, smooth);
     /* the sum alone, with the h that was found */
-    CHECK(sph_density_summation(k, dim, 0, g.n, gas_points(&g), gas_list(&g), sph_scalars_array(g.h), sph_scalars_array(g.m), given) == 0);
+    CHECK(sph_density_summation(k, dim, sph_cloud_range(sph_cloud_of(gas_points(&g), gas_list(&g), sph_scalars_array(g.h), sph_scalars_none()), 0, g.n), sph_scalars_array(g.m), given) == 0);
     for (i = 0; i < g.n; i++) CHECK_RELATIVE((double)given[i], (double)g.rho[i], BY_PRECISION(1e-13, 2e-6));
     free(given);
     gas_free(&g);
@@ -288,10 +287,8 @@ static void test_kernels(void)
         if (!sph_kernel_has_cusp(k) && k != SPH_GAUSSIAN && k != SPH_SUPER_GAUSSIAN)
             check_solution(k, &g, eta, tolerance, BY_PRECISION(1e-4, 1e-2)); /* some have a kink */
         for (i = 0; i < g.n; i++) g.h[i] = SPH_R(1.01) * h[i];
-        CHECK(sph_density_adaptive(k, 2, 0, half_way, gas_points(&g), gas_list(&g), sph_scalars_array(g.reach), sph_scalars_array(g.m), SPH_R(eta),
-                                   SPH_R(tolerance), g.h, g.rho, 0, 0) >= 0);
-        CHECK(sph_density_adaptive(k, 2, half_way, g.n, gas_points(&g), gas_list(&g), sph_scalars_array(g.reach), sph_scalars_array(g.m), SPH_R(eta),
-                                   SPH_R(tolerance), g.h, g.rho, 0, 0) >= 0);
+        CHECK(sph_density_adaptive(k, 2, sph_cloud_range(sph_cloud_of(gas_points(&g), gas_list(&g), sph_scalars_none(), sph_scalars_none()), 0, half_way), sph_scalars_array(g.reach), sph_scalars_array(g.m), SPH_R(eta), SPH_R(tolerance), g.h, g.rho, 0, 0) >= 0);
+        CHECK(sph_density_adaptive(k, 2, sph_cloud_range(sph_cloud_of(gas_points(&g), gas_list(&g), sph_scalars_none(), sph_scalars_none()), half_way, g.n), sph_scalars_array(g.reach), sph_scalars_array(g.m), SPH_R(eta), SPH_R(tolerance), g.h, g.rho, 0, 0) >= 0);
         for (i = 0; i < g.n; i++)
             CHECK_RELATIVE((double)g.rho[i], (double)rho[i], k == SPH_GAUSSIAN || k == SPH_SUPER_GAUSSIAN ? 0.02 : BY_PRECISION(2e-5, 4e-3));
         free(h);
@@ -443,7 +440,7 @@ static void test_masses(void)
         sph_list list;
         list.start = start;
         list.index = index;
-        CHECK(sph_density_adaptive(SPH_CUBIC_SPLINE, 3, 0, 1, points, list, sph_scalars_same(&reach), sph_scalars_same(&m), SPH_R(1.2), SPH_R(1e-3), &h, &rho, &omega, &status) == 1);
+        CHECK(sph_density_adaptive(SPH_CUBIC_SPLINE, 3, sph_cloud_range(sph_cloud_of(points, list, sph_scalars_none(), sph_scalars_none()), 0, 1), sph_scalars_same(&reach), sph_scalars_same(&m), SPH_R(1.2), SPH_R(1e-3), &h, &rho, &omega, &status) == 1);
         CHECK(status != SPH_OK && fabs((double)rho) + fabs((double)omega) <= 0.0 && h > SPH_R(0));
     }
 }

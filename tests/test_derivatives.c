@@ -26,27 +26,27 @@ static sph_index sweep_1d(int method, const cloud *c, sph_index first, sph_index
     const sph_points x = cloud_points(c);
     const sph_list l = cloud_list(c);
     const sph_scalars h = cloud_h(c), V = cloud_V(c), f = cloud_f(c);
-    return method == CSPM    ? sph_derivatives_cspm(KERNEL, 1, first, last, x, l, h, V, f, least, out)
-           : method == ICSPM ? sph_derivatives_icspm(KERNEL, 1, first, last, x, l, h, V, f, least, fallback, out)
-                             : sph_derivatives_wls(KERNEL, 1, first, last, x, l, h, V, f, least, out);
+    return method == CSPM    ? sph_derivatives_cspm(KERNEL, 1, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, out)
+           : method == ICSPM ? sph_derivatives_icspm(KERNEL, 1, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, fallback, out)
+                             : sph_derivatives_wls(KERNEL, 1, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, out);
 }
 static sph_index sweep_2d(int method, const cloud *c, sph_index first, sph_index last, sph_real least, int fallback, sph_derivative_out out)
 {
     const sph_points x = cloud_points(c);
     const sph_list l = cloud_list(c);
     const sph_scalars h = cloud_h(c), V = cloud_V(c), f = cloud_f(c);
-    return method == CSPM    ? sph_derivatives_cspm(KERNEL, 2, first, last, x, l, h, V, f, least, out)
-           : method == ICSPM ? sph_derivatives_icspm(KERNEL, 2, first, last, x, l, h, V, f, least, fallback, out)
-                             : sph_derivatives_wls(KERNEL, 2, first, last, x, l, h, V, f, least, out);
+    return method == CSPM    ? sph_derivatives_cspm(KERNEL, 2, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, out)
+           : method == ICSPM ? sph_derivatives_icspm(KERNEL, 2, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, fallback, out)
+                             : sph_derivatives_wls(KERNEL, 2, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, out);
 }
 static sph_index sweep_3d(int method, const cloud *c, sph_index first, sph_index last, sph_real least, int fallback, sph_derivative_out out)
 {
     const sph_points x = cloud_points(c);
     const sph_list l = cloud_list(c);
     const sph_scalars h = cloud_h(c), V = cloud_V(c), f = cloud_f(c);
-    return method == CSPM    ? sph_derivatives_cspm(KERNEL, 3, first, last, x, l, h, V, f, least, out)
-           : method == ICSPM ? sph_derivatives_icspm(KERNEL, 3, first, last, x, l, h, V, f, least, fallback, out)
-                             : sph_derivatives_wls(KERNEL, 3, first, last, x, l, h, V, f, least, out);
+    return method == CSPM    ? sph_derivatives_cspm(KERNEL, 3, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, out)
+           : method == ICSPM ? sph_derivatives_icspm(KERNEL, 3, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, fallback, out)
+                             : sph_derivatives_wls(KERNEL, 3, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, out);
 }
 static sph_index sweep(int method, const cloud *c, sph_index first, sph_index last, sph_real least, int fallback, sph_derivative_out out)
 {
@@ -60,27 +60,27 @@ static sph_index rows_1d(int method, const cloud *c, sph_jet d, sph_row_out out)
     const sph_points x = cloud_points(c);
     const sph_list l = cloud_list(c);
     const sph_scalars h = cloud_h(c), V = cloud_V(c);
-    return method == CSPM    ? sph_derivative_rows_cspm(KERNEL, 1, 0, c->n, x, l, h, V, d, out)
-           : method == ICSPM ? sph_derivative_rows_icspm(KERNEL, 1, 0, c->n, x, l, h, V, d, out)
-                             : sph_derivative_rows_wls(KERNEL, 1, 0, c->n, x, l, h, V, d, out);
+    return method == CSPM    ? sph_derivative_rows_cspm(KERNEL, 1, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out)
+           : method == ICSPM ? sph_derivative_rows_icspm(KERNEL, 1, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out)
+                             : sph_derivative_rows_wls(KERNEL, 1, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out);
 }
 static sph_index rows_2d(int method, const cloud *c, sph_jet d, sph_row_out out)
 {
     const sph_points x = cloud_points(c);
     const sph_list l = cloud_list(c);
     const sph_scalars h = cloud_h(c), V = cloud_V(c);
-    return method == CSPM    ? sph_derivative_rows_cspm(KERNEL, 2, 0, c->n, x, l, h, V, d, out)
-           : method == ICSPM ? sph_derivative_rows_icspm(KERNEL, 2, 0, c->n, x, l, h, V, d, out)
-                             : sph_derivative_rows_wls(KERNEL, 2, 0, c->n, x, l, h, V, d, out);
+    return method == CSPM    ? sph_derivative_rows_cspm(KERNEL, 2, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out)
+           : method == ICSPM ? sph_derivative_rows_icspm(KERNEL, 2, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out)
+                             : sph_derivative_rows_wls(KERNEL, 2, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out);
 }
 static sph_index rows_3d(int method, const cloud *c, sph_jet d, sph_row_out out)
 {
     const sph_points x = cloud_points(c);
     const sph_list l = cloud_list(c);
     const sph_scalars h = cloud_h(c), V = cloud_V(c);
-    return method == CSPM    ? sph_derivative_rows_cspm(KERNEL, 3, 0, c->n, x, l, h, V, d, out)
-           : method == ICSPM ? sph_derivative_rows_icspm(KERNEL, 3, 0, c->n, x, l, h, V, d, out)
-                             : sph_derivative_rows_wls(KERNEL, 3, 0, c->n, x, l, h, V, d, out);
+    return method == CSPM    ? sph_derivative_rows_cspm(KERNEL, 3, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out)
+           : method == ICSPM ? sph_derivative_rows_icspm(KERNEL, 3, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out)
+                             : sph_derivative_rows_wls(KERNEL, 3, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out);
 }
 static sph_index rows(int method, const cloud *c, sph_jet d, sph_row_out out)
 {
@@ -262,7 +262,7 @@ static const double cspm_41 = 1.432149e+01, icspm_41 = 4.934995e-02, bim_41 = 1.
 
 static sph_index bim(const cloud *c, sph_index left, sph_index right, sph_real *out, unsigned char *status)
 {
-    return sph_second_derivative_bim(KERNEL, 0, c->n, cloud_points(c), cloud_list(c), cloud_h(c), cloud_V(c), cloud_f(c), left, right, out, status);
+    return sph_second_derivative_bim(KERNEL, cloud_view(c), cloud_f(c), left, right, out, status);
 }
 static double bim_error(const cloud *c, const sph_real *out)
 {
@@ -826,14 +826,14 @@ static void check_applied(const cloud *c, const sph_real *row, const sph_real *v
         const sph_points x = cloud_points(c); \
         const sph_list l = cloud_list(c); \
         const sph_scalars h = cloud_h(c), V = cloud_V(c), f = cloud_f(c); \
-        CHECK(sph_laplacian_brookshaw(KERNEL, dim, 0, c->n, x, l, h, V, f, out) == 0); \
-        CHECK(sph_laplacian_rows_brookshaw(KERNEL, dim, 0, c->n, x, l, h, V, row) == 0); \
+        CHECK(sph_laplacian_brookshaw(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), f, out) == 0); \
+        CHECK(sph_laplacian_rows_brookshaw(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), row) == 0); \
         check_applied(c, row, out); \
-        CHECK(sph_laplacian_kernel(KERNEL, dim, 0, c->n, x, l, h, V, f, out) == 0); \
-        CHECK(sph_laplacian_rows_kernel(KERNEL, dim, 0, c->n, x, l, h, V, row) == 0); \
+        CHECK(sph_laplacian_kernel(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), f, out) == 0); \
+        CHECK(sph_laplacian_rows_kernel(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), row) == 0); \
         check_applied(c, row, out); \
-        CHECK(sph_gradient_cspm(KERNEL, dim, 0, c->n, x, l, h, V, f, gx, gy, gz, out, 0) == 0); \
-        CHECK(sph_gradient_rows_cspm(KERNEL, dim, 0, c->n, x, l, h, V, wx, wy, wz, row, 0) == 0); \
+        CHECK(sph_gradient_cspm(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), f, gx, gy, gz, out, 0) == 0); \
+        CHECK(sph_gradient_rows_cspm(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), wx, wy, wz, row, 0) == 0); \
         CHECK(memcmp(out, row, (size_t)c->n * sizeof *out) == 0); /* conditioning */ \
         check_applied(c, wx, gx); \
         if (dim > 1) check_applied(c, wy, gy); \
@@ -856,7 +856,7 @@ static void test_other_rows(void)
         if (dim == 1) {
             other_rows_1(&c, row, row + pairs, 0, 0, out, out + n, 0, 0);
             CHECK(bim(&c, 0, c.n - 1, out, 0) == 2);
-            CHECK(sph_second_derivative_rows_bim(KERNEL, 0, c.n, cloud_points(&c), cloud_list(&c), cloud_h(&c), cloud_V(&c), 0, c.n - 1, row, status) == 2);
+            CHECK(sph_second_derivative_rows_bim(KERNEL, cloud_view(&c), 0, c.n - 1, row, status) == 2);
             CHECK(status[0] == SPH_NOT_AVAILABLE && status[1] == SPH_OK && status[c.n - 1] == SPH_NOT_AVAILABLE);
             check_applied(&c, row, out);
         } else if (dim == 2) other_rows_2(&c, row, row + pairs, row + 2 * pairs, 0, out, out + n, out + 2 * n, 0);

@@ -70,12 +70,12 @@ enum { B, CB, S, M, SCHEMES };
 static sph_index any_msph(int dim, sph_index first, sph_index last, const setup *s, sph_scalars h, sph_scalars V, sph_scalars m, sph_elliptic_options o,
                           sph_scalars u, sph_scalars source, sph_real *out)
 {
-    return sph_elliptic_msph(KERNEL, dim, first, last, s->x, cloud_list(&s->c), h, V, m, o, u, source, out, s->status);
+    return sph_elliptic_msph(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, cloud_list(&s->c), h, V), first, last), m, o, u, source, out, s->status);
 }
 static sph_index any_rows(int dim, sph_index first, sph_index last, const setup *s, sph_scalars h, sph_scalars V, sph_scalars m, sph_elliptic_options o,
                           sph_row_out out)
 {
-    return sph_elliptic_rows_msph(KERNEL, dim, first, last, s->x, cloud_list(&s->c), h, V, m, o, out);
+    return sph_elliptic_rows_msph(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, cloud_list(&s->c), h, V), first, last), m, o, out);
 }
 static sph_index apply(int scheme, const setup *s, sph_elliptic_options o, const sph_real *u)
 {
@@ -85,11 +85,11 @@ static sph_index apply(int scheme, const setup *s, sph_elliptic_options o, const
     const int dim = s->c.dim;
     switch (scheme) {
     case B:
-        return sph_elliptic_brookshaw(KERNEL, dim, 0, n, s->x, list, setup_h(s), V, m, o, f, none, s->out, s->status);
+        return sph_elliptic_brookshaw(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, list, setup_h(s), V), 0, n), m, o, f, none, s->out, s->status);
     case CB:
-        return sph_elliptic_brookshaw_corrected(KERNEL, dim, 0, n, s->x, list, setup_h(s), V, m, o, f, none, s->out, s->status);
+        return sph_elliptic_brookshaw_corrected(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, list, setup_h(s), V), 0, n), m, o, f, none, s->out, s->status);
     case S:
-        return sph_elliptic_schwaiger(KERNEL, dim, 0, n, s->x, list, setup_h(s), V, m, o, f, none, s->out, s->status);
+        return sph_elliptic_schwaiger(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, list, setup_h(s), V), 0, n), m, o, f, none, s->out, s->status);
     default:
         return any_msph(dim, 0, n, s, setup_h(s), V, m, o, f, none, s->out);
     }
@@ -102,11 +102,11 @@ static sph_index rows(int scheme, const setup *s, sph_elliptic_options o)
     const int dim = s->c.dim;
     switch (scheme) {
     case B:
-        return sph_elliptic_rows_brookshaw(KERNEL, dim, 0, n, s->x, list, setup_h(s), V, m, o, setup_rows(s));
+        return sph_elliptic_rows_brookshaw(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, list, setup_h(s), V), 0, n), m, o, setup_rows(s));
     case CB:
-        return sph_elliptic_rows_brookshaw_corrected(KERNEL, dim, 0, n, s->x, list, setup_h(s), V, m, o, setup_rows(s));
+        return sph_elliptic_rows_brookshaw_corrected(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, list, setup_h(s), V), 0, n), m, o, setup_rows(s));
     case S:
-        return sph_elliptic_rows_schwaiger(KERNEL, dim, 0, n, s->x, list, setup_h(s), V, m, o, setup_rows(s));
+        return sph_elliptic_rows_schwaiger(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, list, setup_h(s), V), 0, n), m, o, setup_rows(s));
     default:
         return any_rows(dim, 0, n, s, setup_h(s), V, m, o, setup_rows(s));
     }
@@ -114,20 +114,20 @@ static sph_index rows(int scheme, const setup *s, sph_elliptic_options o)
 /* one instance of each of the others */
 static sph_index rows_diagonal(int dim, sph_index first, sph_index last, const setup *s, sph_diagonal D, sph_elliptic_options o, sph_row_out out)
 {
-    return sph_elliptic_rows_msph_diagonal(KERNEL, dim, first, last, s->x, cloud_list(&s->c), setup_h(s), cloud_V(&s->c), D, o, out);
+    return sph_elliptic_rows_msph_diagonal(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, cloud_list(&s->c), setup_h(s), cloud_V(&s->c)), first, last), D, o, out);
 }
 static sph_index rows_anisotropic(int dim, sph_index first, sph_index last, const setup *s, sph_diagonal D, sph_row_out out)
 {
-    return sph_elliptic_rows_anisotropic(KERNEL, dim, first, last, s->x, cloud_list(&s->c), setup_h(s), cloud_V(&s->c), D, out);
+    return sph_elliptic_rows_anisotropic(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, cloud_list(&s->c), setup_h(s), cloud_V(&s->c)), first, last), D, out);
 }
 static sph_index rows_boundary(int dim, sph_index first, sph_index last, const setup *s, sph_scalars h, sph_scalars V, sph_scalars m, sph_elliptic_options o,
                                sph_diagonal normal, sph_scalars alpha, sph_scalars beta, sph_row_out out)
 {
-    return sph_elliptic_rows_boundary(KERNEL, dim, first, last, s->x, cloud_list(&s->c), h, V, m, o, normal, alpha, beta, out);
+    return sph_elliptic_rows_boundary(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, cloud_list(&s->c), h, V), first, last), m, o, normal, alpha, beta, out);
 }
 static sph_index diagnose(sph_index first, sph_index last, const setup *s, sph_elliptic_options o, sph_elliptic_report r)
 {
-    return sph_elliptic_diagnose(KERNEL, s->c.dim, first, last, s->x, cloud_list(&s->c), setup_h(s), cloud_V(&s->c), o, r);
+    return sph_elliptic_diagnose(KERNEL, s->c.dim, sph_cloud_range(sph_cloud_of(s->x, cloud_list(&s->c), setup_h(s), cloud_V(&s->c)), first, last), o, r);
 }
 static sph_elliptic_options with(int gradient)
 {
@@ -1069,7 +1069,7 @@ static void test_conditioning(void)
     sph_row_out r = setup_rows(&s);
     sph_index i;
     r.conditioning = s.out;
-    CHECK(sph_elliptic_rows_brookshaw(KERNEL, 2, 0, s.c.n, s.x, cloud_list(&s.c), setup_h(&s), cloud_V(&s.c), sph_scalars_array(s.m), with(0), r) == 0);
+    CHECK(sph_elliptic_rows_brookshaw(KERNEL, 2, sph_cloud_range(sph_cloud_of(s.x, cloud_list(&s.c), setup_h(&s), cloud_V(&s.c)), 0, s.c.n), sph_scalars_array(s.m), with(0), r) == 0);
     for (i = 0; i < s.c.n; i++) CHECK(s.out[i] == SPH_R(1));
     setup_free(&s);
 }

@@ -78,17 +78,17 @@ static sph_index rates(int form, const flow *f, sph_scalars h, sph_fluid s)
 {
     const sph_points x = cloud_points(&f->c);
     const sph_list list = cloud_list(&f->c);
-    return form == MONAGHAN     ? sph_fluid_rates_monaghan(KERNEL, f->c.dim, 0, f->c.n, x, list, h, s, flow_a(f), f->rate, f->heating)
-           : form == COLAGROSSI ? sph_fluid_rates_colagrossi(KERNEL, f->c.dim, 0, f->c.n, x, list, h, s, flow_a(f), f->rate, f->heating)
-                                : sph_fluid_rates_hu_adams(KERNEL, f->c.dim, 0, f->c.n, x, list, h, s, flow_a(f), f->rate, f->heating);
+    return form == MONAGHAN     ? sph_fluid_rates_monaghan(KERNEL, f->c.dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), 0, f->c.n), s, flow_a(f), f->rate, f->heating)
+           : form == COLAGROSSI ? sph_fluid_rates_colagrossi(KERNEL, f->c.dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), 0, f->c.n), s, flow_a(f), f->rate, f->heating)
+                                : sph_fluid_rates_hu_adams(KERNEL, f->c.dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), 0, f->c.n), s, flow_a(f), f->rate, f->heating);
 }
 static sph_index viscous(int form, const flow *f, sph_scalars h, sph_scalars mu)
 {
     const sph_points x = cloud_points(&f->c);
     const sph_list list = cloud_list(&f->c);
     const sph_scalars m = sph_scalars_array(f->m), rho = sph_scalars_array(f->rho);
-    return form ? sph_viscous_mu_monaghan_cleary(KERNEL, f->c.dim, 0, f->c.n, x, list, h, m, rho, flow_v(f), mu, SPH_R(0.1), flow_a(f))
-                : sph_viscous_mu_morris(KERNEL, f->c.dim, 0, f->c.n, x, list, h, m, rho, flow_v(f), mu, SPH_R(0.1), flow_a(f));
+    return form ? sph_viscous_mu_monaghan_cleary(KERNEL, f->c.dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), 0, f->c.n), m, rho, flow_v(f), mu, SPH_R(0.1), flow_a(f))
+                : sph_viscous_mu_morris(KERNEL, f->c.dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), 0, f->c.n), m, rho, flow_v(f), mu, SPH_R(0.1), flow_a(f));
 }
 static sph_conserved conserved(const flow *f, sph_real *const *v)
 {
@@ -361,7 +361,7 @@ static void test_jump(void)
     CHECK_CLOSE(a[COLAGROSSI], 0.0, BY_PRECISION(1e-9, 1e-2));
     CHECK_CLOSE(a[HU_ADAMS], 0.0, BY_PRECISION(1e-9, 1e-2));
     CHECK(a[MONAGHAN] > 100.0);
-    CHECK(sph_density_number(KERNEL, 2, middle - 1, middle + 3, cloud_points(&f.c), cloud_list(&f.c), cloud_h(&f.c), sph_scalars_array(f.m), f.rate) == 0);
+    CHECK(sph_density_number(KERNEL, 2, sph_cloud_range(cloud_view(&f.c), middle - 1, middle + 3), sph_scalars_array(f.m), f.rate) == 0);
     CHECK_RELATIVE((double)f.rate[middle], 1000.0, 0.01);
     CHECK_RELATIVE((double)f.rate[middle + 1], 1.0, 0.01);
     flow_free(&f);
@@ -376,8 +376,7 @@ static void test_xsph(void)
     sph_index i;
     double drop = 0.0, size = 0.0, worst = 0.0;
     int k;
-    CHECK(sph_velocity_xsph(KERNEL, 2, 0, f.c.n, cloud_points(&f.c), cloud_list(&f.c), cloud_h(&f.c), sph_scalars_array(f.m), sph_scalars_array(f.rho),
-                            flow_v(&f), SPH_R(0.5), flow_a(&f)) == 0);
+    CHECK(sph_velocity_xsph(KERNEL, 2, cloud_view(&f.c), sph_scalars_array(f.m), sph_scalars_array(f.rho), flow_v(&f), SPH_R(0.5), flow_a(&f)) == 0);
     q = conserved(&f, f.a);
     for (i = 0; i < f.c.n; i++)
         for (k = 0; k < 2; k++) {
@@ -399,8 +398,7 @@ static void test_xsph(void)
         for (k = 0; k < 2; k++) CHECK_CLOSE((double)f.a[k][i], by_hand[k], BY_PRECISION(1e-13, 1e-5));
     }
     for (i = 0; i < f.c.n; i++) f.v[0][i] = SPH_R(3), f.v[1][i] = SPH_R(-2);
-    CHECK(sph_velocity_xsph(KERNEL, 2, 0, f.c.n, cloud_points(&f.c), cloud_list(&f.c), cloud_h(&f.c), sph_scalars_array(f.m), sph_scalars_array(f.rho),
-                            flow_v(&f), SPH_R(0.5), flow_a(&f)) == 0);
+    CHECK(sph_velocity_xsph(KERNEL, 2, cloud_view(&f.c), sph_scalars_array(f.m), sph_scalars_array(f.rho), flow_v(&f), SPH_R(0.5), flow_a(&f)) == 0);
     for (i = 0; i < f.c.n; i++) worst = worse(worst, (double)f.a[0][i]);
     CHECK(worst == 0.0);
     flow_free(&f);
@@ -436,8 +434,7 @@ static void test_wall(void)
         f.v[0][i] = SPH_R(i >= walls ? 2.0 * y : -777.0);
         f.v[1][i] = SPH_R(i >= walls ? 0.3 : -777.0);
     }
-    CHECK(sph_wall_adami(KERNEL, 2, 3 * 17, walls, cloud_points(&f.c), cloud_list(&f.c), cloud_h(&f.c), sph_scalars_array(share), sph_scalars_array(f.rho),
-                         sph_scalars_array(f.p), flow_v(&f), at_rest, gravity, none, f.rate, flow_a(&f), status) == 0);
+    CHECK(sph_wall_adami(KERNEL, 2, sph_cloud_range(cloud_view(&f.c), 3 * 17, walls), sph_scalars_array(share), sph_scalars_array(f.rho), sph_scalars_array(f.p), flow_v(&f), at_rest, gravity, none, f.rate, flow_a(&f), status) == 0);
     for (i = 3 * 17; i < walls; i++) {
         const double y = (double)f.c.y[i] - 4.5 * f.c.dx;
         if ((double)f.c.x[i] < 0.3 || (double)f.c.x[i] > 0.7) continue;
@@ -448,8 +445,7 @@ static void test_wall(void)
     CHECK_CLOSE(worst_p, 0.0, BY_PRECISION(1e-9, 1e-1));
     CHECK_CLOSE(across, 0.0, BY_PRECISION(1e-12, 1e-5));
     CHECK(worst_v < 0.15 && worst_v > 0.0); /* the mean over the support is farther from the wall than the mirror image */
-    CHECK(sph_wall_adami(KERNEL, 2, 3 * 17, walls, cloud_points(&f.c), cloud_list(&f.c), cloud_h(&f.c), sph_scalars_array(share), sph_scalars_array(f.rho),
-                         sph_scalars_array(f.p), flow_v(&f), at_rest, gravity, up, f.rate, flow_a(&f), status) == 0);
+    CHECK(sph_wall_adami(KERNEL, 2, sph_cloud_range(cloud_view(&f.c), 3 * 17, walls), sph_scalars_array(share), sph_scalars_array(f.rho), sph_scalars_array(f.p), flow_v(&f), at_rest, gravity, up, f.rate, flow_a(&f), status) == 0);
     for (i = 4 * 17; i < walls; i++) {
         slip = fmax(slip, -(double)f.a[0][i]); /* the same direction as the fluid's */
         across = worse(across, (double)f.a[1][i] + 0.3);
@@ -463,21 +459,18 @@ static void test_wall(void)
         int k;
         moving.x = sph_scalars_same(&u[0]);
         moving.y = sph_scalars_same(&u[1]);
-        CHECK(sph_wall_adami(KERNEL, 2, 3 * 17, walls, cloud_points(&f.c), cloud_list(&f.c), cloud_h(&f.c), sph_scalars_array(share), sph_scalars_array(f.rho),
-                             sph_scalars_array(f.p), flow_v(&f), at_rest, gravity, slips ? up : none, f.rate, flow_a(&f), status) == 0);
+        CHECK(sph_wall_adami(KERNEL, 2, sph_cloud_range(cloud_view(&f.c), 3 * 17, walls), sph_scalars_array(share), sph_scalars_array(f.rho), sph_scalars_array(f.p), flow_v(&f), at_rest, gravity, slips ? up : none, f.rate, flow_a(&f), status) == 0);
         for (i = 0; i < n; i++)
             for (k = 0; k < 2; k++) {
                 f.v[k][i] += u[k];
                 if (i >= 3 * 17 && i < walls) before[k][i] = f.a[k][i];
             }
-        CHECK(sph_wall_adami(KERNEL, 2, 3 * 17, walls, cloud_points(&f.c), cloud_list(&f.c), cloud_h(&f.c), sph_scalars_array(share), sph_scalars_array(f.rho),
-                             sph_scalars_array(f.p), flow_v(&f), moving, gravity, slips ? up : none, f.rate, flow_a(&f), status) == 0);
+        CHECK(sph_wall_adami(KERNEL, 2, sph_cloud_range(cloud_view(&f.c), 3 * 17, walls), sph_scalars_array(share), sph_scalars_array(f.rho), sph_scalars_array(f.p), flow_v(&f), moving, gravity, slips ? up : none, f.rate, flow_a(&f), status) == 0);
         for (i = 3 * 17; i < walls; i++)
             for (k = 0; k < 2; k++) worst = worse(worst, (double)f.a[k][i] - (double)before[k][i] - (double)u[k]);
         CHECK_CLOSE(worst, 0.0, BY_PRECISION(1e-12, 1e-5));
     }
-    CHECK(sph_wall_adami(KERNEL, 2, 0, 17, cloud_points(&f.c), cloud_list(&f.c), cloud_h(&f.c), sph_scalars_array(share), sph_scalars_array(f.rho),
-                         sph_scalars_array(f.p), flow_v(&f), at_rest, gravity, none, f.rate, flow_a(&f), status) == 17);
+    CHECK(sph_wall_adami(KERNEL, 2, sph_cloud_range(cloud_view(&f.c), 0, 17), sph_scalars_array(share), sph_scalars_array(f.rho), sph_scalars_array(f.p), flow_v(&f), at_rest, gravity, none, f.rate, flow_a(&f), status) == 17);
     CHECK(status[3] == SPH_TOO_FEW && f.rate[3] == SPH_R(0) && f.a[0][3] == SPH_R(0));
     free(share);
     free(normal);
@@ -514,10 +507,10 @@ static void test_distribution(void)
     CHECK(sph_nearest_distance(2, 0, c.n, x, x, cloud_list(&c), out, status) == 0);
     for (i = 0; i < c.n; i++) worst = worse(worst, (double)out[i] / dx - 1.0);
     CHECK_CLOSE(worst, 0.0, BY_PRECISION(1e-12, 1e-4));
-    CHECK(sph_hexatic_order(0, c.n, x, cloud_list(&c), out, status) == 0);
+    CHECK(sph_hexatic_order(sph_cloud_range(sph_cloud_of(x, cloud_list(&c), sph_scalars_none(), sph_scalars_none()), 0, c.n), out, status) == 0);
     for (i = 0; i < c.n; i++) order = fmin(order, (double)out[i]);
     CHECK_CLOSE(order, 1.0, BY_PRECISION(1e-9, 1e-3));
-    CHECK(sph_radial_distribution(2, 0, c.n, x, cloud_list(&c), reach, SPH_R(1.0 / (dx * dx * sqrt(0.75))), BINS, g) == 0);
+    CHECK(sph_radial_distribution(2, sph_cloud_range(sph_cloud_of(x, cloud_list(&c), sph_scalars_none(), sph_scalars_none()), 0, c.n), reach, SPH_R(1.0 / (dx * dx * sqrt(0.75))), BINS, g) == 0);
     for (i = 0; i < BINS; i++) pairs += (double)g[i] * PI * (2.0 * i + 1.0) * pow((double)reach / BINS, 2.0) / (dx * dx * sqrt(0.75));
     CHECK_RELATIVE(pairs, (double)c.pairs / (double)c.n, 1e-5); /* what is counted is what is there */
     CHECK((double)g[11] > 2.0 || (double)g[10] > 2.0 || (double)g[12] > 2.0);
@@ -527,13 +520,13 @@ static void test_distribution(void)
     c.x[30] = c.x[31];
     x = cloud_points(&c);
     cloud_neighbors(&c, (double)reach);
-    CHECK(sph_hexatic_order(0, c.n, x, cloud_list(&c), out, status) == 0);
+    CHECK(sph_hexatic_order(sph_cloud_range(sph_cloud_of(x, cloud_list(&c), sph_scalars_none(), sph_scalars_none()), 0, c.n), out, status) == 0);
     CHECK((double)out[10 * 24 + 12] < 0.9);
-    CHECK(sph_count_coincident(2, 0, c.n, x, cloud_list(&c), SPH_R(1e-12)) == 2);
+    CHECK(sph_count_coincident(2, sph_cloud_range(sph_cloud_of(x, cloud_list(&c), sph_scalars_none(), sph_scalars_none()), 0, c.n), SPH_R(1e-12)) == 2);
     {
         sph_real *const moved = (sph_real *)cloud_memory(2 * (size_t)c.n, sizeof *moved);
         const sph_vector_out to = sph_vector_out_separate(moved, moved + c.n, 0);
-        CHECK(sph_separate_coincident(2, 0, c.n, x, cloud_list(&c), SPH_R(1e-12), SPH_R(0.1 * dx), to) == 2);
+        CHECK(sph_separate_coincident(2, sph_cloud_range(sph_cloud_of(x, cloud_list(&c), sph_scalars_none(), sph_scalars_none()), 0, c.n), SPH_R(1e-12), SPH_R(0.1 * dx), to) == 2);
         CHECK(hypot((double)(to.x[30] - to.x[31]), (double)(to.y[30] - to.y[31])) > 0.05 * dx);
         CHECK_CLOSE(hypot((double)(to.x[30] - c.x[30]), (double)(to.y[30] - c.y[30])), 0.1 * dx, 1e-6);
         for (i = 0; i < c.n; i++)
@@ -565,7 +558,7 @@ static void test_hexatic_and_separation(void)
     double worst = 0.0;
     sph_index i, p;
     int dim;
-    CHECK(sph_hexatic_order(0, c.n, cloud_points(&c), cloud_list(&c), out, 0) == 0);
+    CHECK(sph_hexatic_order(cloud_view(&c), out, 0) == 0);
     for (i = 0; i < c.n; i++) {
         double r[6] = {9, 9, 9, 9, 9, 9}, theta[6] = {0}, re = 0.0, im = 0.0;
         int k;
@@ -599,7 +592,7 @@ static void test_hexatic_and_separation(void)
         cloud_neighbors(&c, 2.0 * (double)c.h);
         moved = (sph_real *)cloud_memory(3 * (size_t)c.n, sizeof *moved);
         to = sph_vector_out_separate(moved, moved + c.n, moved + 2 * c.n);
-        CHECK(sph_separate_coincident(dim, 0, c.n, cloud_points(&c), cloud_list(&c), SPH_R(0), SPH_R(0.01), to) == 2);
+        CHECK(sph_separate_coincident(dim, cloud_view(&c), SPH_R(0), SPH_R(0.01), to) == 2);
         for (i = 4; i < 6; i++) {
             d2 = pow((double)(to.x[i] - c.x[i]), 2.0) + pow((double)(to.y[i] - c.y[i]), 2.0) + pow((double)(to.z[i] - c.z[i]), 2.0);
             CHECK_RELATIVE(sqrt(d2), 0.01, 1e-4);

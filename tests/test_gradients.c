@@ -43,39 +43,39 @@ static views views_of(const cloud *c)
 
 static sph_index difference(int dim, const views *v, sph_real *const *g)
 {
-    return dim == 1   ? sph_gradient_difference(KERNEL, 1, v->first, v->last, v->x, v->list, v->h, v->V, v->f, g[0], 0, 0)
-           : dim == 2 ? sph_gradient_difference(KERNEL, 2, v->first, v->last, v->x, v->list, v->h, v->V, v->f, g[0], g[1], 0)
-                      : sph_gradient_difference(KERNEL, 3, v->first, v->last, v->x, v->list, v->h, v->V, v->f, g[0], g[1], g[2]);
+    return dim == 1   ? sph_gradient_difference(KERNEL, 1, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, g[0], 0, 0)
+           : dim == 2 ? sph_gradient_difference(KERNEL, 2, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, g[0], g[1], 0)
+                      : sph_gradient_difference(KERNEL, 3, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, g[0], g[1], g[2]);
 }
 static sph_index corrected(int dim, const views *v, sph_real *const *g, sph_real *conditioning, unsigned char *status)
 {
-    return dim == 1   ? sph_gradient_cspm(KERNEL, 1, v->first, v->last, v->x, v->list, v->h, v->V, v->f, g[0], 0, 0, conditioning, status)
-           : dim == 2 ? sph_gradient_cspm(KERNEL, 2, v->first, v->last, v->x, v->list, v->h, v->V, v->f, g[0], g[1], 0, conditioning, status)
-                      : sph_gradient_cspm(KERNEL, 3, v->first, v->last, v->x, v->list, v->h, v->V, v->f, g[0], g[1], g[2], conditioning, status);
+    return dim == 1   ? sph_gradient_cspm(KERNEL, 1, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, g[0], 0, 0, conditioning, status)
+           : dim == 2 ? sph_gradient_cspm(KERNEL, 2, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, g[0], g[1], 0, conditioning, status)
+                      : sph_gradient_cspm(KERNEL, 3, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, g[0], g[1], g[2], conditioning, status);
 }
 static sph_index gamma_sum(int dim, const views *v, sph_real *out)
 {
-    return dim == 1   ? sph_shepard_sum(KERNEL, 1, v->first, v->last, v->x, v->list, v->h, v->V, out)
-           : dim == 2 ? sph_shepard_sum(KERNEL, 2, v->first, v->last, v->x, v->list, v->h, v->V, out)
-                      : sph_shepard_sum(KERNEL, 3, v->first, v->last, v->x, v->list, v->h, v->V, out);
+    return dim == 1   ? sph_shepard_sum(KERNEL, 1, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), out)
+           : dim == 2 ? sph_shepard_sum(KERNEL, 2, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), out)
+                      : sph_shepard_sum(KERNEL, 3, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), out);
 }
 static sph_index interpolate(int dim, const views *v, sph_real *out, unsigned char *status)
 {
-    return dim == 1   ? sph_interpolate_shepard(KERNEL, 1, v->first, v->last, v->x, v->list, v->h, v->V, v->f, out, status)
-           : dim == 2 ? sph_interpolate_shepard(KERNEL, 2, v->first, v->last, v->x, v->list, v->h, v->V, v->f, out, status)
-                      : sph_interpolate_shepard(KERNEL, 3, v->first, v->last, v->x, v->list, v->h, v->V, v->f, out, status);
+    return dim == 1   ? sph_interpolate_shepard(KERNEL, 1, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out, status)
+           : dim == 2 ? sph_interpolate_shepard(KERNEL, 2, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out, status)
+                      : sph_interpolate_shepard(KERNEL, 3, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out, status);
 }
 static sph_index brookshaw(int dim, const views *v, sph_real *out)
 {
-    return dim == 1   ? sph_laplacian_brookshaw(KERNEL, 1, v->first, v->last, v->x, v->list, v->h, v->V, v->f, out)
-           : dim == 2 ? sph_laplacian_brookshaw(KERNEL, 2, v->first, v->last, v->x, v->list, v->h, v->V, v->f, out)
-                      : sph_laplacian_brookshaw(KERNEL, 3, v->first, v->last, v->x, v->list, v->h, v->V, v->f, out);
+    return dim == 1   ? sph_laplacian_brookshaw(KERNEL, 1, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out)
+           : dim == 2 ? sph_laplacian_brookshaw(KERNEL, 2, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out)
+                      : sph_laplacian_brookshaw(KERNEL, 3, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out);
 }
 static sph_index kernel_laplacian(int dim, const views *v, sph_real *out)
 {
-    return dim == 1   ? sph_laplacian_kernel(KERNEL, 1, v->first, v->last, v->x, v->list, v->h, v->V, v->f, out)
-           : dim == 2 ? sph_laplacian_kernel(KERNEL, 2, v->first, v->last, v->x, v->list, v->h, v->V, v->f, out)
-                      : sph_laplacian_kernel(KERNEL, 3, v->first, v->last, v->x, v->list, v->h, v->V, v->f, out);
+    return dim == 1   ? sph_laplacian_kernel(KERNEL, 1, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out)
+           : dim == 2 ? sph_laplacian_kernel(KERNEL, 2, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out)
+                      : sph_laplacian_kernel(KERNEL, 3, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out);
 }
 
 /* three components, each of n numbers, that start as NaN */
@@ -425,10 +425,10 @@ static void test_sums(void)
     double off = 0.0;
     sph_index i, j;
     cloud_set(&c, field_smooth);
-    CHECK(sph_shepard_sum(OTHER, 2, 0, c.n, v.x, v.list, v.h, v.V, gamma) == 0);
-    CHECK(sph_gradient_difference(OTHER, 2, 0, c.n, v.x, v.list, v.h, v.V, v.f, g.p[0], g.p[1], 0) == 0);
-    CHECK(sph_laplacian_brookshaw(OTHER, 2, 0, c.n, v.x, v.list, v.h, v.V, v.f, b) == 0);
-    CHECK(sph_laplacian_kernel(OTHER, 2, 0, c.n, v.x, v.list, v.h, v.V, v.f, k) == 0);
+    CHECK(sph_shepard_sum(OTHER, 2, sph_cloud_range(sph_cloud_of(v.x, v.list, v.h, v.V), 0, c.n), gamma) == 0);
+    CHECK(sph_gradient_difference(OTHER, 2, sph_cloud_range(sph_cloud_of(v.x, v.list, v.h, v.V), 0, c.n), v.f, g.p[0], g.p[1], 0) == 0);
+    CHECK(sph_laplacian_brookshaw(OTHER, 2, sph_cloud_range(sph_cloud_of(v.x, v.list, v.h, v.V), 0, c.n), v.f, b) == 0);
+    CHECK(sph_laplacian_kernel(OTHER, 2, sph_cloud_range(sph_cloud_of(v.x, v.list, v.h, v.V), 0, c.n), v.f, k) == 0);
     for (i = 0; i < c.n; i++) { /* over all particles, without a list */
         const double h = (double)c.h;
         double sum = 0.0, gx = 0.0, gy = 0.0, lap = 0.0, old = 0.0;
@@ -468,11 +468,11 @@ enum { STRIDE = sizeof(particle) / sizeof(sph_real) };
 
 static sph_index derivatives_3d(const views *v, sph_derivative_out out)
 {
-    return sph_derivatives_wls(KERNEL, 3, v->first, v->last, v->x, v->list, v->h, v->V, v->f, SPH_R(0), out);
+    return sph_derivatives_wls(KERNEL, 3, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, SPH_R(0), out);
 }
 static sph_index derivatives_2d(const views *v, sph_derivative_out out)
 {
-    return sph_derivatives_wls(KERNEL, 2, v->first, v->last, v->x, v->list, v->h, v->V, v->f, SPH_R(0), out);
+    return sph_derivatives_wls(KERNEL, 2, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, SPH_R(0), out);
 }
 
 static sph_derivative_out arrays_out(sph_real *p, sph_index n)
@@ -680,7 +680,7 @@ static void test_far_positions(void)
     for (over = 0; over < 2; over++) {
         const sph_real x = half * SPH_R(over ? 1.001 : 0.999);
         sph_real out = SPH_R(7);
-        CHECK(sph_shepard_sum(SPH_CUBIC_SPLINE, 1, 0, 1, sph_points_separate(1, &x, 0, 0), list, sph_scalars_same(&one), sph_scalars_same(&one), &out) ==
+        CHECK(sph_shepard_sum(SPH_CUBIC_SPLINE, 1, sph_cloud_of(sph_points_separate(1, &x, 0, 0), list, sph_scalars_same(&one), sph_scalars_same(&one)), &out) ==
               (over ? SPH_ERROR_POSITION : 0));
         CHECK((out == SPH_R(7)) == over);
     }
@@ -695,7 +695,7 @@ static void test_row_before_list(void)
     sph_list list;
     list.start = start;
     list.index = index + 1;
-    CHECK(sph_shepard_sum(SPH_CUBIC_SPLINE, 1, 0, 2, sph_points_separate(2, x, 0, 0), list, sph_scalars_same(&one), sph_scalars_same(&one), out) ==
+    CHECK(sph_shepard_sum(SPH_CUBIC_SPLINE, 1, sph_cloud_of(sph_points_separate(2, x, 0, 0), list, sph_scalars_same(&one), sph_scalars_same(&one)), out) ==
           SPH_ERROR_LIST);
     CHECK((double)out[0] == 7.0 && (double)out[1] == 7.0);
 }
@@ -714,8 +714,7 @@ static void test_overflow(void)
             sph_real x[3][2] = {{0, 0}, {0, 0}, {0, 0}}, V = h * SPH_R(0.1), g[3][2] = {{7, 7}, {7, 7}, {7, 7}};
             for (k = 1; k < dim; k++) V *= h;
             x[axis][1] = h;
-            CHECK(sph_gradient_difference(SPH_CUBIC_SPLINE, dim, 0, 2, sph_points_separate(2, x[0], x[1], x[2]), list, sph_scalars_same(&h),
-                                          sph_scalars_same(&V), sph_scalars_array(f), g[0], g[1], g[2]) == 2);
+            CHECK(sph_gradient_difference(SPH_CUBIC_SPLINE, dim, sph_cloud_of(sph_points_separate(2, x[0], x[1], x[2]), list, sph_scalars_same(&h), sph_scalars_same(&V)), sph_scalars_array(f), g[0], g[1], g[2]) == 2);
             for (k = 0; k < dim; k++) CHECK((double)g[k][0] == 0.0 && (double)g[k][1] == 0.0);
         }
 }

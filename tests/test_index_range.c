@@ -137,10 +137,10 @@ static void test_sweep(sph_index length)
     out.hxx = hxx;
     rows.row = row;
     rows.diagonal = row_diagonal;
-    CHECK(sph_derivatives_wls(SPH_WENDLAND_C4, 1, I, I + 1, p, list, sph_scalars_same(&h), sph_scalars_same(&V), sph_scalars_array(f), SPH_R(0), out) == 0);
+    CHECK(sph_derivatives_wls(SPH_WENDLAND_C4, 1, sph_cloud_range(sph_cloud_of(p, list, sph_scalars_same(&h), sph_scalars_same(&V)), I, I + 1), sph_scalars_array(f), SPH_R(0), out) == 0);
     CHECK_CLOSE((double)gx[I], 2.0, 1e4 * (double)SPH_EPSILON);
     CHECK_CLOSE((double)hxx[I], 6.0, 1e4 * (double)SPH_EPSILON);
-    CHECK(sph_derivative_rows_wls(SPH_WENDLAND_C4, 1, I, I + 1, p, list, sph_scalars_same(&h), sph_scalars_same(&V), sph_jet_laplacian(1), rows) == 0);
+    CHECK(sph_derivative_rows_wls(SPH_WENDLAND_C4, 1, sph_cloud_range(sph_cloud_of(p, list, sph_scalars_same(&h), sph_scalars_same(&V)), I, I + 1), sph_jet_laplacian(1), rows) == 0);
     for (q = start[I]; q < start[I + 1]; q++) sum += (double)row[q] * ((double)f[index[q]] - (double)f[I]);
     CHECK_CLOSE(sum, 6.0, 1e4 * (double)SPH_EPSILON);
     free(row);

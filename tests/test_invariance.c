@@ -112,24 +112,25 @@ static sph_gas gas(const world *w)
 }
 typedef sph_index operator_fn(world *w, sph_index first, sph_index last);
 /* the arguments that most begin with */
-#define SWEEP KERNEL, w->c.dim, first, last, cloud_points(&w->c), cloud_list(&w->c), at(w, H)
+#define FRAME sph_cloud_range(sph_cloud_of(cloud_points(&w->c), cloud_list(&w->c), at(w, H), at(w, V)), first, last)
+#define SWEEP KERNEL, w->c.dim, FRAME
 #define OUT(k) w->out[k]
 #define OPERATOR(name, call) \
     static sph_index name(world *w, sph_index first, sph_index last) { return call; }
 
-OPERATOR(shepard_sum, sph_shepard_sum(SWEEP, at(w, V), OUT(0)))
-OPERATOR(interpolate, sph_interpolate_shepard(SWEEP, at(w, V), at(w, F), OUT(0), w->status))
+OPERATOR(shepard_sum, sph_shepard_sum(SWEEP, OUT(0)))
+OPERATOR(interpolate, sph_interpolate_shepard(SWEEP, at(w, F), OUT(0), w->status))
 OPERATOR(density_summation, sph_density_summation(SWEEP, at(w, M), OUT(0)))
 OPERATOR(density_number, sph_density_number(SWEEP, at(w, M), OUT(0)))
-OPERATOR(gradient_difference, sph_gradient_difference(SWEEP, at(w, V), at(w, F), OUT(0), OUT(1), OUT(2)))
-OPERATOR(gradient_cspm, sph_gradient_cspm(SWEEP, at(w, V), at(w, F), OUT(0), OUT(1), OUT(2), OUT(3), w->status))
-OPERATOR(laplacian_brookshaw, sph_laplacian_brookshaw(SWEEP, at(w, V), at(w, F), OUT(0)))
-OPERATOR(laplacian_kernel, sph_laplacian_kernel(SWEEP, at(w, V), at(w, F), OUT(0)))
-OPERATOR(elliptic_brookshaw, sph_elliptic_brookshaw(SWEEP, at(w, V), at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
+OPERATOR(gradient_difference, sph_gradient_difference(SWEEP, at(w, F), OUT(0), OUT(1), OUT(2)))
+OPERATOR(gradient_cspm, sph_gradient_cspm(SWEEP, at(w, F), OUT(0), OUT(1), OUT(2), OUT(3), w->status))
+OPERATOR(laplacian_brookshaw, sph_laplacian_brookshaw(SWEEP, at(w, F), OUT(0)))
+OPERATOR(laplacian_kernel, sph_laplacian_kernel(SWEEP, at(w, F), OUT(0)))
+OPERATOR(elliptic_brookshaw, sph_elliptic_brookshaw(SWEEP, at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
 OPERATOR(elliptic_corrected,
-         sph_elliptic_brookshaw_corrected(SWEEP, at(w, V), at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
-OPERATOR(elliptic_schwaiger, sph_elliptic_schwaiger(SWEEP, at(w, V), at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
-OPERATOR(elliptic_msph, sph_elliptic_msph(SWEEP, at(w, V), at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
+         sph_elliptic_brookshaw_corrected(SWEEP, at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
+OPERATOR(elliptic_schwaiger, sph_elliptic_schwaiger(SWEEP, at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
+OPERATOR(elliptic_msph, sph_elliptic_msph(SWEEP, at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
 OPERATOR(viscous_morris, sph_viscous_mu_morris(SWEEP, at(w, M), at(w, RHO), vectors(w, VX), at(w, MU), SPH_R(0.1), into(w, 0)))
 OPERATOR(viscous_cleary, sph_viscous_mu_monaghan_cleary(SWEEP, at(w, M), at(w, RHO), vectors(w, VX), at(w, MU), SPH_R(0.1), into(w, 0)))
 OPERATOR(xsph, sph_velocity_xsph(SWEEP, at(w, M), at(w, RHO), vectors(w, VX), SPH_R(0.5), into(w, 0)))
@@ -143,18 +144,17 @@ OPERATOR(cleaning_symmetric,
 OPERATOR(cleaning_nonconservative,
          sph_cleaning_rates_nonconservative(SWEEP, gas(w), vectors(w, BX), at(w, PSI), sph_scalars_array(0), SPH_R(1.3), w->sigma, into(w, 0), OUT(3), OUT(4)))
 OPERATOR(gravity_direct, sph_gravity_direct(KERNEL, first, last, cloud_points(&w->c), at(w, H), at(w, M), SPH_R(1), into(w, 0), OUT(3)))
-OPERATOR(gravity_zeta, sph_gravity_zeta(KERNEL, first, last, cloud_points(&w->c), cloud_list(&w->c), at(w, H), at(w, M), at(w, RHO), OUT(0)))
+OPERATOR(gravity_zeta, sph_gravity_zeta(KERNEL, FRAME, at(w, M), at(w, RHO), OUT(0)))
 OPERATOR(gravity_correction,
-         sph_gravity_correction(KERNEL, first, last, cloud_points(&w->c), cloud_list(&w->c), at(w, H), gas(w), at(w, ZETA), SPH_R(1), into(w, 0)))
+         sph_gravity_correction(KERNEL, FRAME, gas(w), at(w, ZETA), SPH_R(1), into(w, 0)))
 OPERATOR(nearest_distance, sph_nearest_distance(w->c.dim, first, last, cloud_points(&w->c), cloud_points(&w->c), cloud_list(&w->c), OUT(0), w->status))
-OPERATOR(hexatic_order, sph_hexatic_order(first, last, cloud_points(&w->c), cloud_list(&w->c), OUT(0), w->status))
+OPERATOR(hexatic_order, sph_hexatic_order(FRAME, OUT(0), w->status))
 
 static sph_index density_adaptive(world *w, sph_index first, sph_index last)
 {
     sph_index i;
     for (i = first; i < last; i++) OUT(0)[i] = w->a[H][i];
-    return sph_density_adaptive(KERNEL, w->c.dim, first, last, cloud_points(&w->c), cloud_list(&w->c), at(w, REACH), at(w, M), SPH_R(1.2),
-                                BY_PRECISION(SPH_R(1e-13), SPH_R(1e-5)), OUT(0), OUT(1), OUT(2), w->status);
+    return sph_density_adaptive(SWEEP, at(w, REACH), at(w, M), SPH_R(1.2), BY_PRECISION(SPH_R(1e-13), SPH_R(1e-5)), OUT(0), OUT(1), OUT(2), w->status);
 }
 static sph_derivative_out derivatives_into(const world *w)
 {
@@ -173,9 +173,9 @@ static sph_derivative_out derivatives_into(const world *w)
     o.stride = 1;
     return o;
 }
-OPERATOR(derivatives_cspm, sph_derivatives_cspm(SWEEP, at(w, V), at(w, F), SPH_R(0), derivatives_into(w)))
-OPERATOR(derivatives_icspm, sph_derivatives_icspm(SWEEP, at(w, V), at(w, F), SPH_R(0), 0, derivatives_into(w)))
-OPERATOR(derivatives_wls, sph_derivatives_wls(SWEEP, at(w, V), at(w, F), SPH_R(0), derivatives_into(w)))
+OPERATOR(derivatives_cspm, sph_derivatives_cspm(SWEEP, at(w, F), SPH_R(0), derivatives_into(w)))
+OPERATOR(derivatives_icspm, sph_derivatives_icspm(SWEEP, at(w, F), SPH_R(0), 0, derivatives_into(w)))
+OPERATOR(derivatives_wls, sph_derivatives_wls(SWEEP, at(w, F), SPH_R(0), derivatives_into(w)))
 
 static sph_index msph_rows(world *w, sph_index first, sph_index last)
 {
@@ -184,7 +184,7 @@ static sph_index msph_rows(world *w, sph_index first, sph_index last)
     sph_index failed;
     o.row = row;
     o.diagonal = OUT(1);
-    failed = sph_elliptic_rows_msph(SWEEP, at(w, V), at(w, MU), sph_elliptic_defaults(), o);
+    failed = sph_elliptic_rows_msph(SWEEP, at(w, MU), sph_elliptic_defaults(), o);
     if (!failed) failed = sph_rows_apply(first, last, w->c.n, cloud_list(&w->c), row, OUT(1), at(w, F), OUT(0));
     free(row);
     return failed;
@@ -219,10 +219,9 @@ static sph_index collisions(world *w, sph_index first, sph_index last)
 {
     const sph_real range = SPH_R(1.05) * SPH_R(w->c.dx);
     sph_index *const count = (sph_index *)cloud_memory((size_t)w->c.n, sizeof *count);
-    sph_index failed = sph_collision_count(w->c.dim, 0, w->c.n, cloud_points(&w->c), cloud_list(&w->c), range, at(w, M), vectors(w, VX), count);
+    sph_index failed = sph_collision_count(w->c.dim, cloud_view(&w->c), range, at(w, M), vectors(w, VX), count);
     if (!failed)
-        failed = sph_collision_change_weighted(w->c.dim, first, last, cloud_points(&w->c), cloud_list(&w->c), range, at(w, M), SPH_R(0.8), vectors(w, VX),
-                                               count, into(w, 0));
+        failed = sph_collision_change_weighted(w->c.dim, FRAME, range, at(w, M), SPH_R(0.8), vectors(w, VX), count, into(w, 0));
     free(count);
     return failed;
 }

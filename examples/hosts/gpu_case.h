@@ -57,9 +57,8 @@ static inline int case_make(gpu_case *c, const char *known)
     if (error) return error;
     list.start = c->start;
     list.index = c->index;
-    if (sph_density_summation(CASE_KERNEL, CASE_DIM, 0, CASE_N, x, list, h, sph_scalars_array(c->m), c->rho) != 0) return 1;
-    if (sph_elliptic_msph(CASE_KERNEL, CASE_DIM, 0, CASE_N, x, list, h, V, sph_scalars_array(c->mobility), sph_elliptic_defaults(), sph_scalars_array(c->u),
-                          sph_scalars_array(0), c->laplacian, 0) != 0)
+    if (sph_density_summation(CASE_KERNEL, CASE_DIM, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), 0, CASE_N), sph_scalars_array(c->m), c->rho) != 0) return 1;
+    if (sph_elliptic_msph(CASE_KERNEL, CASE_DIM, sph_cloud_range(sph_cloud_of(x, list, h, V), 0, CASE_N), sph_scalars_array(c->mobility), sph_elliptic_defaults(), sph_scalars_array(c->u), sph_scalars_array(0), c->laplacian, 0) != 0)
         return 1;
     c->rows = known_read(known, c->known);
     return c->rows == 0;

@@ -80,7 +80,7 @@ int main(int argc, char **argv)
     const sph_list list = {start.data(), index.data()};
 
     std::vector<double> gx(n), gy(n);
-    const sph_index not_ok = sph_gradient_cspm(kernel, dim, 0, n, points, list, H, V, temperature, gx.data(), gy.data(), nullptr, nullptr, nullptr);
+    const sph_index not_ok = sph_gradient_cspm(kernel, dim, sph_cloud_range(sph_cloud_of(points, list, H, V), 0, n), temperature, gx.data(), gy.data(), nullptr, nullptr, nullptr);
     if (not_ok != 0) return std::puts(sph_status_text(not_ok)), 1;
     expect("gradient at a corner, x", gx[0], 1.3, 1e-12);
     expect("gradient at a corner, y", gy[0], -0.8, 1e-12);
@@ -94,7 +94,7 @@ int main(int argc, char **argv)
     sph_row_out out = {};
     out.row = row.data();
     out.diagonal = diagonal.data();
-    if (sph_elliptic_rows_msph(kernel, dim, middle, middle + 1, points, list, H, V, m, options, out) != 0) return std::puts("no row"), 1;
+    if (sph_elliptic_rows_msph(kernel, dim, sph_cloud_range(sph_cloud_of(points, list, H, V), middle, middle + 1), m, options, out) != 0) return std::puts("no row"), 1;
     double linear = 0, square = 0, sum = diagonal[middle];
     const Particle &a = particle[middle];
     for (sph_index p = start[middle]; p < start[middle + 1]; p++) {

@@ -16,13 +16,13 @@
 __global__ void density(sph_points x, sph_list list, sph_scalars h, sph_scalars m, sph_real *rho)
 {
     const sph_index i = sph_index(blockIdx.x * blockDim.x + threadIdx.x);
-    if (i < x.n) sph_density_summation(CASE_KERNEL, CASE_DIM, i, i + 1, x, list, h, m, rho);
+    if (i < x.n) sph_density_summation(CASE_KERNEL, CASE_DIM, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), i, i + 1), m, rho);
 }
 __global__ void msph(sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars mobility, sph_scalars u, sph_real *laplacian)
 {
     const sph_index i = sph_index(blockIdx.x * blockDim.x + threadIdx.x);
     if (i < x.n)
-        sph_elliptic_msph(CASE_KERNEL, CASE_DIM, i, i + 1, x, list, h, V, mobility, sph_elliptic_defaults(), u, sph_scalars_array(nullptr), laplacian, nullptr);
+        sph_elliptic_msph(CASE_KERNEL, CASE_DIM, sph_cloud_range(sph_cloud_of(x, list, h, V), i, i + 1), mobility, sph_elliptic_defaults(), u, sph_scalars_array(nullptr), laplacian, nullptr);
 }
 // W and F of kernels that are chosen at run time
 __global__ void known(int rows, const known_row *row, sph_real *w, sph_real *f)

@@ -4,10 +4,7 @@
 
 struct sph_shim_cloud {
     int kernel, dim;
-    sph_index first, last;
-    sph_points points;
-    sph_scalars h, V;
-    sph_list list;
+    sph_cloud cloud;
 };
 
 /* The one switch around a sweep: SWEEP(K, D) with kernel and dimension as constants, which fold, for these kernels; the others share one copy that asks at each pair (and takes twice as long).
@@ -23,8 +20,6 @@ struct sph_shim_cloud {
 #endif
 /* clang-format on */
 #define EVERY_DIM(K) answer = c->dim == 1 ? SWEEP(K, 1) : c->dim == 2 ? SWEEP(K, 2) : SWEEP(K, 3);
-/* what all sweeps over the lists begin with */
-#define CLOUD c->first, c->last, c->points, c->list, c->h
 
 int sph_shim_version(void) { return SPH_VERSION; }
 int sph_shim_real_size(void) { return (int)sizeof(sph_real); }
@@ -64,7 +59,7 @@ int sph_shim_cloud_init(sph_shim_cloud *c, int kernel, int dim, sph_index n, con
     if (kernel < 0 || kernel >= (int)SPH_KERNEL_COUNT) return SPH_ERROR_KERNEL;
     c->kernel = kernel;
     c->dim = dim;
-    c->points = sph_points_strided(n, x, y, z, stride);
+    c->cloud.points = sph_points_strided(n, x, y, z, stride);
     sph_shim_cloud_range(c, 0, n);
     sph_shim_cloud_volumes(c, 0, 0, 0, 0);
     sph_shim_cloud_lists(c, 0, 0);
@@ -72,19 +67,18 @@ int sph_shim_cloud_init(sph_shim_cloud *c, int kernel, int dim, sph_index n, con
 }
 void sph_shim_cloud_volumes(sph_shim_cloud *c, const sph_real *h, size_t h_stride, const sph_real *V, size_t V_stride)
 {
-    c->h = sph_scalars_strided(h, h_stride);
-    c->V = sph_scalars_strided(V, V_stride);
+    c->cloud.h = sph_scalars_strided(h, h_stride);
+    c->cloud.volume = sph_scalars_strided(V, V_stride);
 }
 void sph_shim_cloud_lists(sph_shim_cloud *c, const sph_index *start, const sph_index *index)
 {
-    c->list.start = start;
-    c->list.index = index;
+    c->cloud.list.start = start;
+    c->cloud.list.index = index;
 }
-void sph_shim_cloud_periodic(sph_shim_cloud *c, sph_real lx, sph_real ly, sph_real lz) { c->points = sph_points_periodic(c->points, lx, ly, lz); }
+void sph_shim_cloud_periodic(sph_shim_cloud *c, sph_real lx, sph_real ly, sph_real lz) { c->cloud.points = sph_points_periodic(c->cloud.points, lx, ly, lz); }
 void sph_shim_cloud_range(sph_shim_cloud *c, sph_index first, sph_index last)
 {
-    c->first = first;
-    c->last = last;
+    c->cloud = sph_cloud_range(c->cloud, first, last);
 }
 
 size_t sph_shim_grid_workspace(int dim, sph_index n) { return sph_grid_workspace(dim, n); }
@@ -96,9 +90,9 @@ sph_index sph_shim_grid_lists(const sph_shim_cloud *c, int criterion, const sph_
     sph_grid grid;
     sph_index i, error;
     if (!radius) return SPH_ERROR_NULL;
-    for (i = 0; i < (radius_stride ? c->points.n : 1); i++) reach = radius[(size_t)i * radius_stride] > reach ? radius[(size_t)i * radius_stride] : reach;
-    error = sph_grid_build(c->dim, c->points, reach, work, work_size, &grid);
-    return error ? error : sph_grid_lists(c->dim, &grid, c->points, criterion, R, R, 0, start, index, (int64_t)capacity, pairs);
+    for (i = 0; i < (radius_stride ? c->cloud.points.n : 1); i++) reach = radius[(size_t)i * radius_stride] > reach ? radius[(size_t)i * radius_stride] : reach;
+    error = sph_grid_build(c->dim, c->cloud.points, reach, work, work_size, &grid);
+    return error ? error : sph_grid_lists(c->dim, &grid, c->cloud.points, criterion, R, R, 0, start, index, (int64_t)capacity, pairs);
 }
 
 /* ---------------------------------------------------------------- sweeps */
@@ -106,7 +100,7 @@ sph_index sph_shim_grid_lists(const sph_shim_cloud *c, int criterion, const sph_
 sph_index sph_shim_density_summation(const sph_shim_cloud *c, const sph_real *m, size_t m_stride, sph_real *rho)
 {
     sph_index answer = SPH_ERROR_KERNEL;
-#define SWEEP(K, D) sph_density_summation(K, D, CLOUD, sph_scalars_strided(m, m_stride), rho)
+#define SWEEP(K, D) sph_density_summation(K, D, c->cloud, sph_scalars_strided(m, m_stride), rho)
     SHIM_SWITCH_KERNEL(c->kernel, EVERY_DIM)
 #undef SWEEP
     return answer;
@@ -114,7 +108,7 @@ sph_index sph_shim_density_summation(const sph_shim_cloud *c, const sph_real *m,
 sph_index sph_shim_gradient_cspm(const sph_shim_cloud *c, const sph_real *f, size_t f_stride, sph_real *gx, sph_real *gy, sph_real *gz, unsigned char *status)
 {
     sph_index answer = SPH_ERROR_KERNEL;
-#define SWEEP(K, D) sph_gradient_cspm(K, D, CLOUD, c->V, sph_scalars_strided(f, f_stride), gx, gy, gz, 0, status)
+#define SWEEP(K, D) sph_gradient_cspm(K, D, c->cloud, sph_scalars_strided(f, f_stride), gx, gy, gz, 0, status)
     SHIM_SWITCH_KERNEL(c->kernel, EVERY_DIM)
 #undef SWEEP
     return answer;
@@ -122,7 +116,7 @@ sph_index sph_shim_gradient_cspm(const sph_shim_cloud *c, const sph_real *f, siz
 sph_index sph_shim_laplacian_brookshaw(const sph_shim_cloud *c, const sph_real *f, size_t f_stride, sph_real *out)
 {
     sph_index answer = SPH_ERROR_KERNEL;
-#define SWEEP(K, D) sph_laplacian_brookshaw(K, D, CLOUD, c->V, sph_scalars_strided(f, f_stride), out)
+#define SWEEP(K, D) sph_laplacian_brookshaw(K, D, c->cloud, sph_scalars_strided(f, f_stride), out)
     SHIM_SWITCH_KERNEL(c->kernel, EVERY_DIM)
 #undef SWEEP
     return answer;
@@ -139,7 +133,7 @@ sph_index sph_shim_derivatives_icspm(const sph_shim_cloud *c, const sph_real *f,
     if (c->dim > 2) o.gz = out + 2, o.hxz = o.hxx + 3, o.hyz = o.hxx + 4, o.hzz = o.hxx + 5;
     o.stride = c->dim == 1 ? 2 : c->dim == 2 ? 5 : 9;
     o.status = status;
-#define SWEEP(K, D) sph_derivatives_icspm(K, D, CLOUD, c->V, sph_scalars_strided(f, f_stride), conditioning_min, fallback_wls, o)
+#define SWEEP(K, D) sph_derivatives_icspm(K, D, c->cloud, sph_scalars_strided(f, f_stride), conditioning_min, fallback_wls, o)
     EVERY_DIM((sph_kernel)c->kernel) /* one copy: what its 14 or 50 sums cost hides the switch */
 #undef SWEEP
     return answer;
@@ -155,7 +149,7 @@ sph_index sph_shim_elliptic_rows_msph(const sph_shim_cloud *c, const sph_real *m
     out.row = row;
     out.diagonal = diagonal;
     out.status = status;
-#define SWEEP(K, D) sph_elliptic_rows_msph(K, D, CLOUD, c->V, sph_scalars_strided(m, m_stride), options, out)
+#define SWEEP(K, D) sph_elliptic_rows_msph(K, D, c->cloud, sph_scalars_strided(m, m_stride), options, out)
     SHIM_SWITCH_KERNEL(c->kernel, EVERY_DIM)
 #undef SWEEP
     return answer;
@@ -163,11 +157,10 @@ sph_index sph_shim_elliptic_rows_msph(const sph_shim_cloud *c, const sph_real *m
 
 sph_index sph_shim_rows_apply(const sph_shim_cloud *c, const sph_real *row, const sph_real *diagonal, const sph_real *u, size_t u_stride, sph_real *out)
 {
-    return sph_rows_apply(c->first, c->last, c->points.n, c->list, row, diagonal, sph_scalars_strided(u, u_stride), out);
+    return sph_rows_apply(c->cloud.first, c->cloud.last, c->cloud.points.n, c->cloud.list, row, diagonal, sph_scalars_strided(u, u_stride), out);
 }
 sph_index sph_shim_collide_sequential(const sph_shim_cloud *c, sph_real distance, const sph_real *inverse_mass, size_t inverse_mass_stride,
                                       sph_real restitution, sph_real *vx, sph_real *vy, sph_real *vz, size_t stride)
 {
-    return sph_collide_sequential(c->dim, c->first, c->last, c->points, c->list, distance, sph_scalars_strided(inverse_mass, inverse_mass_stride), restitution,
-                                  vx, vy, vz, stride, 0);
+    return sph_collide_sequential(c->dim, c->cloud, distance, sph_scalars_strided(inverse_mass, inverse_mass_stride), restitution, vx, vy, vz, stride, 0);
 }

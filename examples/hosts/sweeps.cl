@@ -11,7 +11,7 @@ __kernel void density(sph_index n, __global const sph_real *x, __global const sp
 {
     const sph_index i = (sph_index)get_global_id(0);
     const sph_list list = {start, index};
-    if (i < n) sph_density_summation(SPH_WENDLAND_C2, 3, i, i + 1, sph_points_separate(n, x, y, z), list, sph_scalars_same(h), sph_scalars_array(m), rho);
+    if (i < n) sph_density_summation(SPH_WENDLAND_C2, 3, sph_cloud_range(sph_cloud_of(sph_points_separate(n, x, y, z), list, sph_scalars_same(h), sph_scalars_none()), i, i + 1), sph_scalars_array(m), rho);
 }
 
 __kernel void msph(sph_index n, __global const sph_real *x, __global const sph_real *y, __global const sph_real *z, __global const sph_index *start, __global const sph_index *index,
@@ -20,8 +20,7 @@ __kernel void msph(sph_index n, __global const sph_real *x, __global const sph_r
     const sph_index i = (sph_index)get_global_id(0);
     const sph_list list = {start, index};
     if (i < n)
-        sph_elliptic_msph(SPH_WENDLAND_C2, 3, i, i + 1, sph_points_separate(n, x, y, z), list, sph_scalars_same(h), sph_scalars_array(V), sph_scalars_array(mobility),
-                          sph_elliptic_defaults(), sph_scalars_array(u), sph_scalars_array(0), laplacian, 0);
+        sph_elliptic_msph(SPH_WENDLAND_C2, 3, sph_cloud_range(sph_cloud_of(sph_points_separate(n, x, y, z), list, sph_scalars_same(h), sph_scalars_array(V)), i, i + 1), sph_scalars_array(mobility), sph_elliptic_defaults(), sph_scalars_array(u), sph_scalars_array(0), laplacian, 0);
 }
 
 /* W and F of kernels that are chosen at run time */

@@ -93,11 +93,9 @@ static void settle_adaptive(state *s, double widest)
     cleaning_neighbours(&s->lists, s->dim, points(s), sph_scalars_same(&reach), reach);
     for (i = 0; i < s->n; i++) s->a[H][i] = CLEANING_ETA * widest;
     if (s->dim == 2)
-        cleaning_expect(sph_density_adaptive(SPH_CUBIC_SPLINE, 2, 0, s->n, points(s), cleaning_list(&s->lists), sph_scalars_same(&reach), field(s, M),
-                                             CLEANING_ETA, 1e-12, s->a[H], s->a[RHO], s->a[OMEGA], NULL));
+        cleaning_expect(sph_density_adaptive(SPH_CUBIC_SPLINE, 2, sph_cloud_range(sph_cloud_of(points(s), cleaning_list(&s->lists), sph_scalars_none(), sph_scalars_none()), 0, s->n), sph_scalars_same(&reach), field(s, M), CLEANING_ETA, 1e-12, s->a[H], s->a[RHO], s->a[OMEGA], NULL));
     else
-        cleaning_expect(sph_density_adaptive(SPH_CUBIC_SPLINE, 3, 0, s->n, points(s), cleaning_list(&s->lists), sph_scalars_same(&reach), field(s, M),
-                                             CLEANING_ETA, 1e-12, s->a[H], s->a[RHO], s->a[OMEGA], NULL));
+        cleaning_expect(sph_density_adaptive(SPH_CUBIC_SPLINE, 3, sph_cloud_range(sph_cloud_of(points(s), cleaning_list(&s->lists), sph_scalars_none(), sph_scalars_none()), 0, s->n), sph_scalars_same(&reach), field(s, M), CLEANING_ETA, 1e-12, s->a[H], s->a[RHO], s->a[OMEGA], NULL));
     neighbours(s);
 }
 /* (40) about (x, y), and the uniform Bz of the disc */
@@ -167,9 +165,9 @@ SPH_FN sph_index rates_in(sph_kernel k, int dim, state *s)
     const sph_vectors B = vectors(s, BX);
     const sph_vector_out rate = vectors_out(s, RBX);
     if (s->form == DIFFERENCES)
-        return sph_cleaning_rates_nonconservative(k, dim, 0, s->n, x, l, h, gas(s), B, psi, div_v, s->ch, s->sigma, rate, s->a[RPSI], s->a[DIVB]);
-    if (s->form == OTHER) return sph_cleaning_rates_symmetric(k, dim, 0, s->n, x, l, h, gas(s), B, psi, div_v, s->ch, s->sigma, rate, s->a[RPSI], s->a[DIVB]);
-    return sph_cleaning_rates(k, dim, 0, s->n, x, l, h, gas(s), B, psi, div_v, s->ch, s->sigma, rate, s->a[RPSI], s->a[DIVB]);
+        return sph_cleaning_rates_nonconservative(k, dim, sph_cloud_range(sph_cloud_of(x, l, h, sph_scalars_none()), 0, s->n), gas(s), B, psi, div_v, s->ch, s->sigma, rate, s->a[RPSI], s->a[DIVB]);
+    if (s->form == OTHER) return sph_cleaning_rates_symmetric(k, dim, sph_cloud_range(sph_cloud_of(x, l, h, sph_scalars_none()), 0, s->n), gas(s), B, psi, div_v, s->ch, s->sigma, rate, s->a[RPSI], s->a[DIVB]);
+    return sph_cleaning_rates(k, dim, sph_cloud_range(sph_cloud_of(x, l, h, sph_scalars_none()), 0, s->n), gas(s), B, psi, div_v, s->ch, s->sigma, rate, s->a[RPSI], s->a[DIVB]);
 }
 /* The sweeps fold for a constant kernel and dimension, so there is one copy for each. They find a state that is no number. */
 static void rates(state *s)
@@ -441,7 +439,7 @@ static void identities(report *r)
     for (i = 0; i < s.n; i++)
         for (k = 0; k < 2; k++) s.a[SAVED + k][i] = -s.a[X + k][i];
     cleaning_expect(
-        sph_divergence_difference(SPH_CUBIC_SPLINE, 2, 0, s.n, points(&s), cleaning_list(&s.lists), field(&s, H), gas(&s), vectors(&s, SAVED), s.a[DIVV]));
+        sph_divergence_difference(SPH_CUBIC_SPLINE, 2, sph_cloud_range(sph_cloud_of(points(&s), cleaning_list(&s.lists), field(&s, H), sph_scalars_none()), 0, s.n), gas(&s), vectors(&s, SAVED), s.a[DIVV]));
     for (s.moving = 0; s.moving < 2; s.moving++) {
         double rate = 0, size = 0;
         rates(&s);
@@ -701,12 +699,12 @@ static void resistivity(report *r)
         dt = 1 / (lattice * STEPS);
         for (i = 0; i < s.n; i++) B[i] = 1e-4 * sin(k * s.a[X][i]);
         for (step = 0; step < STEPS; step++) { /* midpoint rule, to 1/e */
-            cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 2, 0, s.n, points(&s), cleaning_list(&s.lists), sph_scalars_same(s.a[H]), m, out));
+            cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 2, sph_cloud_range(sph_cloud_of(points(&s), cleaning_list(&s.lists), sph_scalars_same(s.a[H]), sph_scalars_none()), 0, s.n), m, out));
             for (i = 0; i < s.n; i++) {
                 s.a[MEAN][i] = B[i];
                 B[i] += 0.5 * dt * change[i];
             }
-            cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 2, 0, s.n, points(&s), cleaning_list(&s.lists), sph_scalars_same(s.a[H]), m, out));
+            cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 2, sph_cloud_range(sph_cloud_of(points(&s), cleaning_list(&s.lists), sph_scalars_same(s.a[H]), sph_scalars_none()), 0, s.n), m, out));
             for (i = 0; i < s.n; i++) B[i] = s.a[MEAN][i] + dt * change[i];
         }
         for (i = 0; i < s.n; i++) amplitude += 2e4 * B[i] * sin(k * s.a[X][i]) / s.n;

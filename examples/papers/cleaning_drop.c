@@ -69,8 +69,7 @@ SPH_FN sph_index accelerate_by(int viscosity, drop *d)
     f.alpha = d->alpha;
     f.beta = viscosity == (int)SPH_VISCOSITY_MONAGHAN ? 2 * d->alpha : 2; /* of 1992: beside alpha; of 1997: within alpha v_sig */
     f.eta = 0.1;
-    return sph_fluid_rates_monaghan(SPH_CUBIC_SPLINE, 2, 0, d->n, points(d), cleaning_list(&d->lists), sph_scalars_same(&h), f,
-                                    sph_vector_out_separate(d->a[AX], d->a[AY], NULL), NULL, NULL);
+    return sph_fluid_rates_monaghan(SPH_CUBIC_SPLINE, 2, sph_cloud_range(sph_cloud_of(points(d), cleaning_list(&d->lists), sph_scalars_same(&h), sph_scalars_none()), 0, d->n), f, sph_vector_out_separate(d->a[AX], d->a[AY], NULL), NULL, NULL);
 }
 /* The sweep folds for a constant viscosity, too. */
 static void accelerate(drop *d, int viscosity)
@@ -99,7 +98,7 @@ static void divergence(drop *d)
     g.rho = field(d, RHO);
     g.omega = sph_scalars_same(&one);
     neighbours(d);
-    well(d, sph_divergence_difference(SPH_CUBIC_SPLINE, 2, 0, d->n, points(d), cleaning_list(&d->lists), sph_scalars_same(&h), g, velocities(d), d->a[DIVV]));
+    well(d, sph_divergence_difference(SPH_CUBIC_SPLINE, 2, sph_cloud_range(sph_cloud_of(points(d), cleaning_list(&d->lists), sph_scalars_same(&h), sph_scalars_none()), 0, d->n), g, velocities(d), d->a[DIVV]));
 }
 
 static drop drop_new(double alpha, int viscosity, int cleans)

@@ -90,7 +90,7 @@ static void induction(cylinder *c)
     s.B = vectors(c, BX);
     out.acceleration = vectors_out(c, AX);
     out.rate_B = vectors_out(c, RBX);
-    cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 3, 0, c->n, points(c), cleaning_list(&c->lists), sph_scalars_same(&c->h), s, out));
+    cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 3, sph_cloud_range(sph_cloud_of(points(c), cleaning_list(&c->lists), sph_scalars_same(&c->h), sph_scalars_none()), 0, c->n), s, out));
 }
 static void step(cylinder *c, double turn, double change) /* midpoint rule */
 {
@@ -123,10 +123,8 @@ static match compare(cylinder *c, int way, double turn)
     int i;
     turn_to(c, turn);
     if (way == POTENTIALS) {
-        cleaning_expect(sph_gradient_cspm(SPH_CUBIC_SPLINE, 3, 0, c->n, points(c), cleaning_list(&c->lists), h, V, sph_scalars_array(c->a[ALPHA]), c->a[GX],
-                                          c->a[GY], c->a[GZ], NULL, NULL));
-        cleaning_expect(sph_gradient_cspm(SPH_CUBIC_SPLINE, 3, 0, c->n, points(c), cleaning_list(&c->lists), h, V, sph_scalars_array(c->a[BETA]), c->a[QX],
-                                          c->a[QY], c->a[QZ], NULL, NULL));
+        cleaning_expect(sph_gradient_cspm(SPH_CUBIC_SPLINE, 3, sph_cloud_range(sph_cloud_of(points(c), cleaning_list(&c->lists), h, V), 0, c->n), sph_scalars_array(c->a[ALPHA]), c->a[GX], c->a[GY], c->a[GZ], NULL, NULL));
+        cleaning_expect(sph_gradient_cspm(SPH_CUBIC_SPLINE, 3, sph_cloud_range(sph_cloud_of(points(c), cleaning_list(&c->lists), h, V), 0, c->n), sph_scalars_array(c->a[BETA]), c->a[QX], c->a[QY], c->a[QZ], NULL, NULL));
     }
     for (i = 0; i < c->n; i++) {
         const double x = c->a[X][i], y = c->a[Y][i], r = hypot(x, y), bend = 2 * MATH_PI * turn * cos(2 * MATH_PI * c->a[Z][i]), exact = r * bend;

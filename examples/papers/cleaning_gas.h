@@ -110,8 +110,7 @@ static inline void gas_lists(gas *g)
 }
 SPH_FN sph_index gas_density_in(int dim, gas *g, sph_index last)
 {
-    return sph_density_adaptive(SPH_CUBIC_SPLINE, dim, 0, last, gas_points(g), cleaning_list(&g->lists), gas_field(g, REACH), gas_field(g, M), CLEANING_ETA,
-                                1e-4, g->a[H], g->a[RHO], g->a[OMEGA], g->status);
+    return sph_density_adaptive(SPH_CUBIC_SPLINE, dim, sph_cloud_range(sph_cloud_of(gas_points(g), cleaning_list(&g->lists), sph_scalars_none(), sph_scalars_none()), 0, last), gas_field(g, REACH), gas_field(g, M), CLEANING_ETA, 1e-4, g->a[H], g->a[RHO], g->a[OMEGA], g->status);
 }
 /* (4), (5) for the particles before `last` */
 static inline void gas_density(gas *g, sph_index last)
@@ -159,12 +158,11 @@ SPH_FN sph_index gas_rates_in(int dim, gas *g)
     out.div_B = g->a[DIV_B];
     out.div_v = g->a[DIV_V];
     out.v_sig = g->a[SPEED];
-    failed = sph_mhd_rates(SPH_CUBIC_SPLINE, dim, 0, g->free, x, l, gas_field(g, H), s, out);
+    failed = sph_mhd_rates(SPH_CUBIC_SPLINE, dim, sph_cloud_range(sph_cloud_of(x, l, gas_field(g, H), sph_scalars_none()), 0, g->free), s, out);
     if (failed == 0 && other) { /* its rates of B in the place of those of x, which come last */
         sph_index i;
         int k;
-        failed = sph_cleaning_rates_nonconservative(SPH_CUBIC_SPLINE, dim, 0, g->free, x, l, gas_field(g, H), s.gas, gas_vectors(g, BX, dim), gas_field(g, PSI),
-                                                    gas_field(g, DIV_V), g->ch, g->sigma, gas_out(g->rate + X), g->rate[PSI], NULL);
+        failed = sph_cleaning_rates_nonconservative(SPH_CUBIC_SPLINE, dim, sph_cloud_range(sph_cloud_of(x, l, gas_field(g, H), sph_scalars_none()), 0, g->free), s.gas, gas_vectors(g, BX, dim), gas_field(g, PSI), gas_field(g, DIV_V), g->ch, g->sigma, gas_out(g->rate + X), g->rate[PSI], NULL);
         for (k = 0; k < dim; k++)
             for (i = 0; i < g->free; i++) g->rate[BX + k][i] += g->rate[X + k][i];
     }

@@ -210,8 +210,7 @@ static void gas_lists(gas *g)
 static sph_index density_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
     (void)c;
-    return sph_density_adaptive(KERNEL, 2, first, last, points(g), list(g), field(g, REACH), sph_scalars_same(&g->m), 1.2, TOLERANCE, g->a[H], g->a[RHO],
-                                g->a[OMEGA], g->status);
+    return sph_density_adaptive(KERNEL, 2, sph_cloud_range(sph_cloud_of(points(g), list(g), sph_scalars_none(), sph_scalars_none()), first, last), field(g, REACH), sph_scalars_same(&g->m), 1.2, TOLERANCE, g->a[H], g->a[RHO], g->a[OMEGA], g->status);
 }
 static void gas_density(gas *g, double t)
 {
@@ -236,8 +235,7 @@ static void gas_density(gas *g, double t)
 static sph_index gradient_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
     (void)c;
-    return sph_gradient_cspm(KERNEL, 2, first, last, points(g), list(g), field(g, H), field(g, VOLUME), field(g, POTENTIAL), g->a[SCRATCH_X], g->a[SCRATCH_Y],
-                             NULL, NULL, NULL);
+    return sph_gradient_cspm(KERNEL, 2, sph_cloud_range(sph_cloud_of(points(g), list(g), field(g, H), field(g, VOLUME)), first, last), field(g, POTENTIAL), g->a[SCRATCH_X], g->a[SCRATCH_Y], NULL, NULL, NULL);
 }
 /* B = grad A x e_z by the gradient that is exact for linear fields */
 static void euler_field(gas *g, const plan *c)
@@ -283,13 +281,11 @@ static sph_index rates_sweep(gas *g, const plan *c, sph_index first, sph_index l
     out.div_B = g->a[DIV_B];
     out.div_v = g->a[DIV_V];
     out.v_sig = g->a[SPEED];
-    return sph_mhd_rates(KERNEL, 2, first, last, points(g), list(g), field(g, H), magnetised(g, c, c->cleans == CONJUGATE), out);
+    return sph_mhd_rates(KERNEL, 2, sph_cloud_range(sph_cloud_of(points(g), list(g), field(g, H), sph_scalars_none()), first, last), magnetised(g, c, c->cleans == CONJUGATE), out);
 }
 static sph_index nonconservative_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
-    return sph_cleaning_rates_nonconservative(KERNEL, 2, first, last, points(g), list(g), field(g, H), densities(g), vectors(g, BX), field(g, PSI),
-                                              field(g, DIV_V), g->ch, c->sigma, sph_vector_out_separate(g->a[SCRATCH_X], g->a[SCRATCH_Y], NULL), g->rate[PSI],
-                                              NULL);
+    return sph_cleaning_rates_nonconservative(KERNEL, 2, sph_cloud_range(sph_cloud_of(points(g), list(g), field(g, H), sph_scalars_none()), first, last), densities(g), vectors(g, BX), field(g, PSI), field(g, DIV_V), g->ch, c->sigma, sph_vector_out_separate(g->a[SCRATCH_X], g->a[SCRATCH_Y], NULL), g->rate[PSI], NULL);
 }
 
 /* what follows from u, rho and B */
@@ -418,7 +414,7 @@ static void measure_gas(const gas *g, const plan *c, measure *m)
     sph_index i;
     int k;
     memset(m, 0, sizeof *m);
-    expect(sph_divergence_difference(KERNEL, 2, 0, g->n, points(g), list(g), field(g, H), densities(g), vectors(g, BX), g->a[SCRATCH]),
+    expect(sph_divergence_difference(KERNEL, 2, sph_cloud_range(sph_cloud_of(points(g), list(g), field(g, H), sph_scalars_none()), 0, g->n), densities(g), vectors(g, BX), g->a[SCRATCH]),
            "sph_divergence_difference");
     for (i = 0; i < g->n; i++) {
         const double vx = g->a[VX][i], vy = g->a[VY][i], rho = g->a[RHO][i], B = hypot(g->a[BX][i], g->a[BY][i]),
@@ -487,8 +483,8 @@ static balance gas_balance(gas *g, const plan *c, double t)
         for (i = 0; i < g->n; i++) g->a[PSI][i] = 0.01 * g->ch * (2 * pcg32_uniform(&random) - 1);
     }
 #define CLEAN(damping) \
-    expect(sph_cleaning_rates(KERNEL, 2, 0, g->n, points(g), list(g), field(g, H), densities(g), vectors(g, BX), field(g, PSI), sph_scalars_array(NULL), \
-                              g->ch, damping, sph_vector_out_separate(g->rate[BX], g->rate[BY], NULL), g->rate[PSI], NULL), \
+    expect(sph_cleaning_rates(KERNEL, 2, sph_cloud_range(sph_cloud_of(points(g), list(g), field(g, H), sph_scalars_none()), 0, g->n), densities(g), vectors(g, BX), field(g, PSI), sph_scalars_array(NULL), \
+           g->ch, damping, sph_vector_out_separate(g->rate[BX], g->rate[BY], NULL), g->rate[PSI], NULL), \
            "sph_cleaning_rates")
     CLEAN(0);
     for (i = 0, sum = size = 0; i < g->n; i++) {
@@ -517,7 +513,7 @@ static balance gas_balance(gas *g, const plan *c, double t)
         out.div_B = g->a[DIV_B];
         out.div_v = g->a[DIV_V];
         out.v_sig = NULL;
-        expect(sph_mhd_rates(KERNEL, 2, 0, g->n, points(g), list(g), field(g, H), s, out), "sph_mhd_rates");
+        expect(sph_mhd_rates(KERNEL, 2, sph_cloud_range(sph_cloud_of(points(g), list(g), field(g, H), sph_scalars_none()), 0, g->n), s, out), "sph_mhd_rates");
     }
     for (i = 0, sum = size = 0; i < g->n; i++) {
         const double V = g->m / g->a[RHO][i], psi = g->a[PSI][i], ch2 = g->ch * g->ch, B2 = g->a[BX][i] * g->a[BX][i] + g->a[BY][i] * g->a[BY][i];

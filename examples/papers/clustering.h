@@ -379,17 +379,17 @@ static inline void flow_neighbours(flow *f)
 SPH_FN sph_index flow_density_by(sph_kernel k, const flow *f, sph_scalars h)
 {
     const sph_scalars m = sph_scalars_array(f->m);
-    return f->form == FLOW_SUMMATION ? sph_density_summation(k, 2, 0, f->n_fluid, flow_points(f), neighbours_list(&f->all), h, m, f->rho)
-                                     : sph_density_number(k, 2, 0, f->n_fluid, flow_points(f), neighbours_list(&f->all), h, m, f->rho);
+    return f->form == FLOW_SUMMATION ? sph_density_summation(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all), h, sph_scalars_none()), 0, f->n_fluid), m, f->rho)
+                                     : sph_density_number(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all), h, sph_scalars_none()), 0, f->n_fluid), m, f->rho);
 }
 SPH_FN sph_index flow_rates_by(sph_kernel k, const flow *f, sph_scalars h, sph_fluid s)
 {
     const sph_list l = neighbours_list(&f->all);
     const sph_vector_out a = flow_accelerations(f);
-    if (f->form == FLOW_SUMMATION) return sph_fluid_rates_monaghan(k, 2, 0, f->n_fluid, flow_points(f), l, h, s, a, NULL, NULL);
-    if (f->form == FLOW_CONTINUITY && f->rate_after_kick) return sph_fluid_rates_colagrossi(k, 2, 0, flow_moved(f), flow_points(f), l, h, s, a, NULL, NULL);
-    if (f->form == FLOW_CONTINUITY) return sph_fluid_rates_colagrossi(k, 2, 0, flow_moved(f), flow_points(f), l, h, s, a, f->rate, NULL);
-    return sph_fluid_rates_hu_adams(k, 2, 0, f->n_fluid, flow_points(f), l, h, s, a, NULL, NULL);
+    if (f->form == FLOW_SUMMATION) return sph_fluid_rates_monaghan(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), l, h, sph_scalars_none()), 0, f->n_fluid), s, a, NULL, NULL);
+    if (f->form == FLOW_CONTINUITY && f->rate_after_kick) return sph_fluid_rates_colagrossi(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), l, h, sph_scalars_none()), 0, flow_moved(f)), s, a, NULL, NULL);
+    if (f->form == FLOW_CONTINUITY) return sph_fluid_rates_colagrossi(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), l, h, sph_scalars_none()), 0, flow_moved(f)), s, a, f->rate, NULL);
+    return sph_fluid_rates_hu_adams(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), l, h, sph_scalars_none()), 0, f->n_fluid), s, a, NULL, NULL);
 }
 SPH_FN sph_index flow_divergence_by(sph_kernel k, const flow *f, sph_scalars h)
 {
@@ -397,7 +397,7 @@ SPH_FN sph_index flow_divergence_by(sph_kernel k, const flow *f, sph_scalars h)
     sph_gas g;
     g.m = sph_scalars_array(f->volume);
     g.rho = g.omega = sph_scalars_same(&one);
-    return sph_divergence_difference(k, 2, 0, flow_moved(f), flow_points(f), neighbours_list(&f->all), h, g, flow_velocities(f), f->rate);
+    return sph_divergence_difference(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all), h, sph_scalars_none()), 0, flow_moved(f)), g, flow_velocities(f), f->rate);
 }
 
 static inline sph_index flow_density(flow *f)
@@ -476,19 +476,18 @@ static inline void flow_collide(flow *f)
     if (f->remedy == FLOW_NO_COLLISIONS) return;
     if (f->remedy == FLOW_SEQUENTIAL) {
         sph_collision_report r;
-        clustering_expect(sph_collide_sequential(2, 0, f->n_fluid, flow_points(f), l, distance, w, f->restitution, f->vx, f->vy, NULL, 1, &r));
+        clustering_expect(sph_collide_sequential(2, sph_cloud_range(sph_cloud_of(flow_points(f), l, sph_scalars_none(), sph_scalars_none()), 0, f->n_fluid), distance, w, f->restitution, f->vx, f->vy, NULL, 1, &r));
         f->collisions += r.collisions;
         f->coincident += r.coincident;
         f->collision_energy += r.energy;
         return;
     }
     if (f->remedy == FLOW_WEIGHTED) {
-        clustering_expect(sph_collision_count(2, 0, f->n_fluid, flow_points(f), l, distance, w, flow_velocities(f), f->count));
-        clustering_expect(sph_collision_change_weighted(2, 0, f->n_fluid, flow_points(f), l, distance, w, f->restitution, flow_velocities(f), f->count,
-                                                        flow_accelerations(f)));
+        clustering_expect(sph_collision_count(2, sph_cloud_range(sph_cloud_of(flow_points(f), l, sph_scalars_none(), sph_scalars_none()), 0, f->n_fluid), distance, w, flow_velocities(f), f->count));
+        clustering_expect(sph_collision_change_weighted(2, sph_cloud_range(sph_cloud_of(flow_points(f), l, sph_scalars_none(), sph_scalars_none()), 0, f->n_fluid), distance, w, f->restitution, flow_velocities(f), f->count, flow_accelerations(f)));
     } else
         clustering_expect(
-            sph_collision_change_literal(2, 0, f->n_fluid, flow_points(f), l, distance, w, f->restitution, flow_velocities(f), flow_accelerations(f)));
+            sph_collision_change_literal(2, sph_cloud_range(sph_cloud_of(flow_points(f), l, sph_scalars_none(), sph_scalars_none()), 0, f->n_fluid), distance, w, f->restitution, flow_velocities(f), flow_accelerations(f)));
     before = flow_kinetic_energy(f);
     for (i = 0; i < f->n_fluid; i++) {
         f->vx[i] += f->ax[i];
@@ -653,7 +652,7 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
     d.mean /= counted;
     d.below_50 /= counted;
     d.below_75 /= counted;
-    clustering_expect(sph_hexatic_order(0, f->n_fluid, x, neighbours_list(&l), value, status));
+    clustering_expect(sph_hexatic_order(sph_cloud_range(sph_cloud_of(x, neighbours_list(&l), sph_scalars_none(), sph_scalars_none()), 0, f->n_fluid), value, status));
     for (i = 0; i < f->n_fluid; i++)
         if (!status[i] && (phase == FLOW_ALL || f->phase[i] == phase)) {
             d.hexatic += value[i];
@@ -702,7 +701,7 @@ static inline void flow_radial(flow *f, double area, double reach, int bins, dou
     x.n = f->n_fluid;
     flow_grid(f, x, reach * f->dref, &grid);
     neighbours_find(2, &l, &grid, x, reach * f->dref, 0);
-    clustering_expect(sph_radial_distribution(2, 0, f->n_fluid, x, neighbours_list(&l), reach * f->dref, f->n_fluid / area, bins, g));
+    clustering_expect(sph_radial_distribution(2, sph_cloud_range(sph_cloud_of(x, neighbours_list(&l), sph_scalars_none(), sph_scalars_none()), 0, f->n_fluid), reach * f->dref, f->n_fluid / area, bins, g));
     *peak = *peak_at = 0;
     for (b = 0; b < bins; b++)
         if (g[b] > *peak) {

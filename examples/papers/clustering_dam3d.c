@@ -120,18 +120,16 @@ SPH_FN void step(int dim, dam *d, double dt)
     s.beta = 0;
     s.eta = 0.1;
     clustering_expect(
-        sph_fluid_rates_colagrossi(wendland, dim, 0, d->n_fluid, points(d, d->x), neighbours_list(&d->all), sph_scalars_same(&d->h), s, a, NULL, NULL));
+        sph_fluid_rates_colagrossi(wendland, dim, sph_cloud_range(sph_cloud_of(points(d, d->x), neighbours_list(&d->all), sph_scalars_same(&d->h), sph_scalars_none()), 0, d->n_fluid), s, a, NULL, NULL));
     for (i = 0; i < d->n_fluid; i++) {
         d->a[1][i] -= column_gravity;
         for (k = 0; k < dim; k++) d->v[k][i] += dt * d->a[k][i];
     }
-    clustering_expect(sph_collide_sequential(dim, 0, d->n_fluid, points(d, d->x), neighbours_list(&d->colliding), distance * d->dref,
-                                             sph_scalars_array(d->inverse_mass), restitution, d->v[0], d->v[1], dim > 2 ? d->v[2] : NULL, 1, NULL));
+    clustering_expect(sph_collide_sequential(dim, sph_cloud_range(sph_cloud_of(points(d, d->x), neighbours_list(&d->colliding), sph_scalars_none(), sph_scalars_none()), 0, d->n_fluid), distance * d->dref, sph_scalars_array(d->inverse_mass), restitution, d->v[0], d->v[1], dim > 2 ? d->v[2] : NULL, 1, NULL));
     for (i = 0; i < d->n; i++) d->volume[i] = d->m[i] / d->rho[i];
     g.m = sph_scalars_array(d->volume);
     g.rho = g.omega = sph_scalars_same(&one);
-    clustering_expect(sph_divergence_difference(wendland, dim, 0, d->n_fluid, points(d, d->x), neighbours_list(&d->all), sph_scalars_same(&d->h), g,
-                                                velocities(d), d->divergence));
+    clustering_expect(sph_divergence_difference(wendland, dim, sph_cloud_range(sph_cloud_of(points(d, d->x), neighbours_list(&d->all), sph_scalars_same(&d->h), sph_scalars_none()), 0, d->n_fluid), g, velocities(d), d->divergence));
     for (i = 0; i < d->n_fluid; i++) {
         d->rho[i] -= dt * d->rho[i] * d->divergence[i];
         for (k = 0; k < dim; k++) d->x[k][i] += dt * d->v[k][i];

@@ -80,9 +80,7 @@ static void wall(flow *f)
     sph_vec g = {0, 0, 0};
     int i;
     g.y = -gravity;
-    clustering_expect(sph_wall_adami(f->kernel, 2, f->n_fluid, f->n, flow_points(f), neighbours_list(&f->all), h, sph_scalars_array(t->share),
-                                     sph_scalars_array(f->rho), sph_scalars_array(f->p), flow_velocities(f), t->rest, g, none, f->p,
-                                     sph_vector_out_separate(f->vx, f->vy, NULL), NULL));
+    clustering_expect(sph_wall_adami(f->kernel, 2, sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all), h, sph_scalars_none()), f->n_fluid, f->n), sph_scalars_array(t->share), sph_scalars_array(f->rho), sph_scalars_array(f->p), flow_velocities(f), t->rest, g, none, f->p, sph_vector_out_separate(f->vx, f->vy, NULL), NULL));
     for (i = f->n_fluid; i < f->n; i++) f->rho[i] = sph_density_tait(f->p[i], water, sound, 1, 0);
 }
 

@@ -28,8 +28,7 @@ SPH_FN sph_index viscous_walls_by(sph_kernel k, flow *f, viscous *w)
     const sph_vec nothing = {0, 0, 0};
     const sph_vectors none = sph_vectors_separate(NULL, NULL, NULL);
     const sph_vector_out v = sph_vector_out_separate(w->wall_vx, w->wall_vy, NULL);
-    return sph_wall_adami(k, 2, f->n_fluid, f->n, flow_points(f), neighbours_list(&f->all), sph_scalars_same(&f->h), sph_scalars_array(w->share),
-                          sph_scalars_array(f->rho), sph_scalars_array(f->p), flow_velocities(f), flow_velocities(f), nothing, none, w->wall_p, v, NULL);
+    return sph_wall_adami(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all), sph_scalars_same(&f->h), sph_scalars_none()), f->n_fluid, f->n), sph_scalars_array(w->share), sph_scalars_array(f->rho), sph_scalars_array(f->p), flow_velocities(f), flow_velocities(f), nothing, none, w->wall_p, v, NULL);
 }
 /* psi joins the pressure. Then pressure, and the density that belongs to it, of ghosts, and the velocity that makes the fluid stick to them; their own stays that of the wall. */
 static inline void viscous_pressures(flow *f)
@@ -54,9 +53,7 @@ static inline void viscous_pressures(flow *f)
 
 SPH_FN sph_index viscous_accelerations_by(sph_kernel k, const flow *f, const viscous *w)
 {
-    return sph_viscous_mu_morris(k, 2, 0, f->n_fluid, flow_points(f), neighbours_list(&f->all), sph_scalars_same(&f->h), sph_scalars_array(f->m),
-                                 sph_scalars_array(f->rho), sph_vectors_separate(w->vx, w->vy, NULL), sph_scalars_same(&w->mu), 0.1,
-                                 sph_vector_out_separate(w->ax, w->ay, NULL));
+    return sph_viscous_mu_morris(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all), sph_scalars_same(&f->h), sph_scalars_none()), 0, f->n_fluid), sph_scalars_array(f->m), sph_scalars_array(f->rho), sph_vectors_separate(w->vx, w->vy, NULL), sph_scalars_same(&w->mu), 0.1, sph_vector_out_separate(w->ax, w->ay, NULL));
 }
 static inline void viscous_forces(flow *f)
 {

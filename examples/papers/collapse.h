@@ -209,8 +209,7 @@ static inline int collapse_sort(collapse *g)
 
 static inline sph_index collapse_density_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_density_adaptive(COLLAPSE_KERNEL, 3, first, last, collapse_points(g), collapse_list(g), collapse_field(g, REACH), sph_scalars_same(&g->model.m),
-                                COLLAPSE_ETA, COLLAPSE_TOLERANCE, g->a[H], g->a[RHO], g->a[OMEGA], g->status);
+    return sph_density_adaptive(COLLAPSE_KERNEL, 3, sph_cloud_range(sph_cloud_of(collapse_points(g), collapse_list(g), sph_scalars_none(), sph_scalars_none()), first, last), collapse_field(g, REACH), sph_scalars_same(&g->model.m), COLLAPSE_ETA, COLLAPSE_TOLERANCE, g->a[H], g->a[RHO], g->a[OMEGA], g->status);
 }
 static inline int collapse_density(collapse *g)
 {
@@ -281,19 +280,16 @@ static inline sph_index collapse_direct_sweep(collapse *g, sph_index first, sph_
 /* Neighbours across the edge of the box count in the density, and so in the correction; they are no neighbours for gravity, which is isolated: zeta takes the open distances. */
 static inline sph_index collapse_zeta_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_gravity_zeta(COLLAPSE_KERNEL, first, last, collapse_open(g), collapse_list(g), collapse_field(g, H), sph_scalars_same(&g->model.m),
-                            collapse_field(g, RHO), g->a[ZETA]);
+    return sph_gravity_zeta(COLLAPSE_KERNEL, sph_cloud_range(sph_cloud_of(collapse_open(g), collapse_list(g), collapse_field(g, H), sph_scalars_none()), first, last), sph_scalars_same(&g->model.m), collapse_field(g, RHO), g->a[ZETA]);
 }
 static inline sph_index collapse_correction_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_gravity_correction(COLLAPSE_KERNEL, first, last, collapse_points(g), collapse_list(g), collapse_field(g, H), collapse_gas(g),
-                                  collapse_field(g, ZETA), 1, collapse_into(&g->a[SX]));
+    return sph_gravity_correction(COLLAPSE_KERNEL, sph_cloud_range(sph_cloud_of(collapse_points(g), collapse_list(g), collapse_field(g, H), sph_scalars_none()), first, last), collapse_gas(g), collapse_field(g, ZETA), 1, collapse_into(&g->a[SX]));
 }
 /* the curl, in the place of the rate of B that comes after it */
 static inline sph_index collapse_resistivity_sweep(collapse *g, sph_index first, sph_index last)
 {
-    const sph_index failed = sph_curl_difference(COLLAPSE_KERNEL, 3, first, last, collapse_points(g), collapse_list(g), collapse_field(g, H), collapse_gas(g),
-                                                 collapse_vectors(g, BX), collapse_into(&g->rate[BX]));
+    const sph_index failed = sph_curl_difference(COLLAPSE_KERNEL, 3, sph_cloud_range(sph_cloud_of(collapse_points(g), collapse_list(g), collapse_field(g, H), sph_scalars_none()), first, last), collapse_gas(g), collapse_vectors(g, BX), collapse_into(&g->rate[BX]));
     sph_index i;
     for (i = first; i < last; i++)
         g->a[ALPHA_B][i] = sph_resistivity_switch(g->model.alpha_B, g->a[H][i], collapse_length_of(g->rate, BX, i), collapse_length_of(g->a, BX, i));
@@ -309,7 +305,7 @@ static inline sph_index collapse_rates_sweep(collapse *g, sph_index first, sph_i
     out.div_B = g->a[DIV_B];
     out.div_v = g->a[DIV_V];
     out.v_sig = g->a[SPEED];
-    return sph_mhd_rates(COLLAPSE_KERNEL, 3, first, last, collapse_points(g), collapse_list(g), collapse_field(g, H), collapse_mhd(g), out);
+    return sph_mhd_rates(COLLAPSE_KERNEL, 3, sph_cloud_range(sph_cloud_of(collapse_points(g), collapse_list(g), collapse_field(g, H), sph_scalars_none()), first, last), collapse_mhd(g), out);
 }
 static inline int collapse_gravity(collapse *g)
 {

@@ -222,20 +222,20 @@ SPH_FN sph_index cloud_rows_in(int dim, cloud *c, int scheme, sph_elliptic_optio
     out.row = c->row;
     out.diagonal = c->diagonal;
     out.status = c->status;
-    if (scheme == SCHEME_B) return sph_elliptic_rows_brookshaw(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, out);
-    if (scheme == SCHEME_CB) return sph_elliptic_rows_brookshaw_corrected(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, out);
-    if (scheme == SCHEME_S) return sph_elliptic_rows_schwaiger(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, out);
-    return sph_elliptic_rows_msph(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, out);
+    if (scheme == SCHEME_B) return sph_elliptic_rows_brookshaw(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, out);
+    if (scheme == SCHEME_CB) return sph_elliptic_rows_brookshaw_corrected(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, out);
+    if (scheme == SCHEME_S) return sph_elliptic_rows_schwaiger(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, out);
+    return sph_elliptic_rows_msph(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, out);
 }
 SPH_FN sph_index cloud_apply_in(int dim, cloud *c, int scheme, sph_elliptic_options o)
 {
     const sph_points x = cloud_points(c);
     const sph_scalars h = sph_scalars_same(&c->h), V = sph_scalars_array(c->V), m = sph_scalars_array(c->m);
     const sph_scalars u = sph_scalars_array(c->u), none = sph_scalars_array(NULL);
-    if (scheme == SCHEME_B) return sph_elliptic_brookshaw(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, u, none, c->value, c->status);
-    if (scheme == SCHEME_CB) return sph_elliptic_brookshaw_corrected(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, u, none, c->value, c->status);
-    if (scheme == SCHEME_S) return sph_elliptic_schwaiger(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, u, none, c->value, c->status);
-    return sph_elliptic_msph(ELLIPTIC_KERNEL, dim, 0, c->n, x, cloud_list(c), h, V, m, o, u, none, c->value, c->status);
+    if (scheme == SCHEME_B) return sph_elliptic_brookshaw(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, u, none, c->value, c->status);
+    if (scheme == SCHEME_CB) return sph_elliptic_brookshaw_corrected(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, u, none, c->value, c->status);
+    if (scheme == SCHEME_S) return sph_elliptic_schwaiger(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, u, none, c->value, c->status);
+    return sph_elliptic_msph(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, u, none, c->value, c->status);
 }
 
 /* div(m grad u) as rows, or of c->u into c->value. Both return how many particles are not ok (c->status tells). */

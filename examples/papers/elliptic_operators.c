@@ -546,8 +546,7 @@ static void two_point_form(report *r, cloud *c)
     }
     diagnosis.n = c->value;
     for (gradient = 0; gradient < 2; gradient++) {
-        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, 0, c->n, cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V),
-                                              elliptic_with_gradient(gradient), diagnosis));
+        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V)), 0, c->n), elliptic_with_gradient(gradient), diagnosis));
         for (i = 0; i < c->n; i++) largest_n[gradient] = fmax(largest_n[gradient], c->value[i] * c->h);
     }
     snprintf(text, sizeof text, "largest |N| h: %.1e with (16), %.2g with (15)", largest_n[1], largest_n[0]);
@@ -596,8 +595,7 @@ static void continuity(report *r, cloud *c)
         o.continuity = c->u;
         o.n = c->value;
         o.n_bound = c->diagonal;
-        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, 0, c->n, cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V),
-                                              sph_elliptic_defaults(), o));
+        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V)), 0, c->n), sph_elliptic_defaults(), o));
         for (i = 0; i < c->n; i++) {
             largest = fmax(largest, c->u[i]);
             if (c->diagonal[i] > 0) ratio = fmax(ratio, c->value[i] / c->diagonal[i]);
@@ -959,10 +957,10 @@ static void anisotropic(report *r, cloud *c)
         for (form = 0; form < 2; form++) {
             const sph_scalars h = sph_scalars_same(&c->h), V = sph_scalars_array(c->V);
             const int middle = 220;
-            if (form) elliptic_expect(sph_elliptic_rows_anisotropic(ELLIPTIC_KERNEL, 2, 0, c->n, cloud_points(c), cloud_list(c), h, V, M, out));
+            if (form) elliptic_expect(sph_elliptic_rows_anisotropic(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c), h, V), 0, c->n), M, out));
             else
                 elliptic_expect(
-                    sph_elliptic_rows_msph_diagonal(ELLIPTIC_KERNEL, 2, 0, c->n, cloud_points(c), cloud_list(c), h, V, M, sph_elliptic_defaults(), out));
+                    sph_elliptic_rows_msph_diagonal(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c), h, V), 0, c->n), M, sph_elliptic_defaults(), out));
             for (axis = 0; axis < 2; axis++) {
                 for (i = 0; i < c->n; i++) c->u[i] = cloud_axis(c, axis)[i] * cloud_axis(c, axis)[i];
                 elliptic_expect(sph_rows_apply(middle, middle + 1, c->n, cloud_list(c), c->row, NULL, sph_scalars_array(c->u), c->value));
@@ -993,8 +991,7 @@ static void free_surface(report *r, cloud *c)
     int k;
     patch(c, 2, 21, 1.2);
     o.eigenvalue_least = c->value;
-    elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, 0, c->n, cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V),
-                                          elliptic_with_gradient(SPH_GRADIENT_SHEPARD_DIFFUSE), o));
+    elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V)), 0, c->n), elliptic_with_gradient(SPH_GRADIENT_SHEPARD_DIFFUSE), o));
     report_section(r, "Section 2.1: the least eigenvalue of C^-1");
     for (k = 0; k < 3; k++) {
         value[k] = c->value[particle[k]];

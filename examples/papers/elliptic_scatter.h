@@ -219,8 +219,8 @@ static inline void scatter_volumes(scatter *s)
     const double one = 1;
     const sph_scalars h = sph_scalars_array(s->h), m = sph_scalars_same(&one);
     int i;
-    if (s->c.dim == 2) elliptic_expect(sph_density_summation(ELLIPTIC_KERNEL, 2, 0, s->c.n, scatter_points(s), cloud_list(&s->c), h, m, s->c.V));
-    else elliptic_expect(sph_density_summation(ELLIPTIC_KERNEL, 3, 0, s->c.n, scatter_points(s), cloud_list(&s->c), h, m, s->c.V));
+    if (s->c.dim == 2) elliptic_expect(sph_density_summation(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(scatter_points(s), cloud_list(&s->c), h, sph_scalars_none()), 0, s->c.n), m, s->c.V));
+    else elliptic_expect(sph_density_summation(ELLIPTIC_KERNEL, 3, sph_cloud_range(sph_cloud_of(scatter_points(s), cloud_list(&s->c), h, sph_scalars_none()), 0, s->c.n), m, s->c.V));
     for (i = 0; i < s->c.n; i++) s->c.V[i] = 1 / s->c.V[i];
 }
 
@@ -240,9 +240,9 @@ SPH_FN sph_index scatter_rows_in(int dim, int variant, int harmonic, scatter *s,
     out.row = s->c.row;
     out.diagonal = s->c.diagonal;
     out.status = s->c.status;
-    if (scheme == SCHEME_B) return sph_elliptic_rows_brookshaw(ELLIPTIC_KERNEL, dim, 0, s->c.n, x, list, h, V, m, o, out);
-    if (scheme == SCHEME_CB) return sph_elliptic_rows_brookshaw_corrected(ELLIPTIC_KERNEL, dim, 0, s->c.n, x, list, h, V, m, o, out);
-    return sph_elliptic_rows_msph(ELLIPTIC_KERNEL, dim, 0, s->c.n, x, list, h, V, m, o, out);
+    if (scheme == SCHEME_B) return sph_elliptic_rows_brookshaw(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), 0, s->c.n), m, o, out);
+    if (scheme == SCHEME_CB) return sph_elliptic_rows_brookshaw_corrected(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), 0, s->c.n), m, o, out);
+    return sph_elliptic_rows_msph(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), 0, s->c.n), m, o, out);
 }
 /* full: the gradient (16), else (15); harmonic: that mean of m, else the arithmetic. Constants in each call, so that the loops fold. */
 static inline void scatter_rows(scatter *s, int scheme, int variant, int harmonic)
@@ -296,9 +296,7 @@ SPH_FN sph_index scatter_conditions_in(int dim, scatter *s, int first, double *c
     n.z = sph_scalars_array(normal[2]);
     out.row = s->c.row;
     out.diagonal = s->c.diagonal;
-    return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, first, s->c.n, scatter_points(s), cloud_list(&s->c), sph_scalars_array(s->h),
-                                      sph_scalars_array(s->c.V), sph_scalars_array(s->c.m), sph_elliptic_defaults(), n, sph_scalars_array(alpha),
-                                      sph_scalars_array(beta), out);
+    return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(scatter_points(s), cloud_list(&s->c), sph_scalars_array(s->h), sph_scalars_array(s->c.V)), first, s->c.n), sph_scalars_array(s->c.m), sph_elliptic_defaults(), n, sph_scalars_array(alpha), sph_scalars_array(beta), out);
 }
 /* alpha u + beta m du/dn for the particles from `first` on that have one of them */
 static inline void scatter_conditions(scatter *s, int first, double *const normal[3], const double *alpha, const double *beta)

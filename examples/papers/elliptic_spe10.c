@@ -77,8 +77,7 @@ SPH_FN void anisotropic_in(int dim, problem *p)
     M.z = sph_scalars_array(p->k[2]);
     out.row = p->c.row;
     out.diagonal = p->c.diagonal;
-    elliptic_expect(sph_elliptic_rows_anisotropic(ELLIPTIC_KERNEL, dim, 0, p->c.n, cloud_points(&p->c), cloud_list(&p->c), sph_scalars_same(&p->c.h),
-                                                  sph_scalars_array(p->c.V), M, out));
+    elliptic_expect(sph_elliptic_rows_anisotropic(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(cloud_points(&p->c), cloud_list(&p->c), sph_scalars_same(&p->c.h), sph_scalars_array(p->c.V)), 0, p->c.n), M, out));
 }
 
 enum { ANISOTROPIC = SCHEMES };

@@ -153,8 +153,7 @@ static xi_statistics xi_of(cloud *c, double h, int n, int draws, uint64_t stream
             c->V[i] = 1; /* cancels */
         }
         c->V[0] = 1;
-        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, 0, 1, cloud_points(c), cloud_list(c), sph_scalars_same(&h), sph_scalars_array(c->V),
-                                              sph_elliptic_defaults(), out));
+        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c), sph_scalars_same(&h), sph_scalars_array(c->V)), 0, 1), sph_elliptic_defaults(), out));
         s.mean += xi / draws;
         square += xi * xi / draws;
         s.violated_93 += least > 0 ? 0 : 1.0 / draws;
@@ -246,8 +245,7 @@ static signs signs_of(cloud *c, int N, double f, double jitter, int draws)
         cloud_neighbours(c, f * c->dx);
         out.sign_least = least;
         out.sign_most = most;
-        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, 0, c->n, cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V),
-                                              sph_elliptic_defaults(), out));
+        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V)), 0, c->n), sph_elliptic_defaults(), out));
         cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
         count = sph_rows_monotone(0, dof, c->n, cloud_list(c), c->row, c->diagonal, monotone);
         elliptic_expect(count);

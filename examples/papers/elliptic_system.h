@@ -38,8 +38,7 @@ SPH_FN sph_index cloud_conditions_in(int dim, cloud *c, int first, double *const
     n.z = sph_scalars_array(normal[2]);
     out.row = c->row;
     out.diagonal = c->diagonal;
-    return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, first, c->n, cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V),
-                                      sph_scalars_array(c->m), sph_elliptic_defaults(), n, sph_scalars_array(alpha), sph_scalars_array(beta), out);
+    return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V)), first, c->n), sph_scalars_array(c->m), sph_elliptic_defaults(), n, sph_scalars_array(alpha), sph_scalars_array(beta), out);
 }
 /* alpha u + beta m du/dn for the particles from `first` on that have one of them */
 static inline void cloud_conditions(cloud *c, int first, double *const normal[3], const double *alpha, const double *beta)

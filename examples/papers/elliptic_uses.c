@@ -76,8 +76,7 @@ typedef struct projection {
 
 static void gradient_of(const scatter *s, const double *f, double *gx, double *gy)
 {
-    elliptic_expect(sph_gradient_cspm(ELLIPTIC_KERNEL, 2, 0, s->c.n, scatter_points(s), cloud_list(&s->c), sph_scalars_array(s->h), sph_scalars_array(s->c.V),
-                                      sph_scalars_array(f), gx, gy, NULL, NULL, NULL));
+    elliptic_expect(sph_gradient_cspm(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(scatter_points(s), cloud_list(&s->c), sph_scalars_array(s->h), sph_scalars_array(s->c.V)), 0, s->c.n), sph_scalars_array(f), gx, gy, NULL, NULL, NULL));
 }
 static void divergence_of(const projection *q, const double *ux, const double *uy, double *out)
 {
@@ -156,8 +155,7 @@ static double projection_symbol(const scatter *s)
     const sph_vec wave = {2 * pi, 2 * pi, 0};
     double *const wx = elliptic_vector(s->c.start[s->c.n]), *const wy = elliptic_vector(s->c.start[s->c.n]), symbol = 0, re = 0, im = 0;
     int p;
-    elliptic_expect(sph_gradient_rows_cspm(ELLIPTIC_KERNEL, 2, 0, s->c.n, scatter_points(s), cloud_list(&s->c), sph_scalars_array(s->h),
-                                           sph_scalars_array(s->c.V), wx, wy, NULL, NULL, NULL));
+    elliptic_expect(sph_gradient_rows_cspm(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(scatter_points(s), cloud_list(&s->c), sph_scalars_array(s->h), sph_scalars_array(s->c.V)), 0, s->c.n), wx, wy, NULL, NULL, NULL));
     for (p = s->c.start[0]; p < s->c.start[1]; p++) {
         const sph_vec e = scatter_separation(s, 0, s->c.index[p]);
         symbol += wx[p] * sin(wave.x * e.x) * cos(wave.y * e.y);
@@ -302,13 +300,13 @@ static void disc_rows(scatter *s, int method, double *b)
         out.row = c->row;
         out.diagonal = c->diagonal;
         out.factor = elliptic_vector(c->n);
-        elliptic_expect(sph_derivative_rows_wls(ELLIPTIC_KERNEL, 2, 0, s->inner, x, cloud_list(c), h, V, sph_jet_laplacian(2), out));
+        elliptic_expect(sph_derivative_rows_wls(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, s->inner), sph_jet_laplacian(2), out));
         for (i = s->inner; i < c->n; i++) { /* every rim particle has a derivative of its own */
             sph_jet d = sph_jet_laplacian(2);
             d.hessian.xx = d.hessian.yy = 0;
             d.gradient.x = c->x[i];
             d.gradient.y = c->y[i];
-            elliptic_expect(sph_derivative_rows_wls(ELLIPTIC_KERNEL, 2, i, i + 1, x, cloud_list(c), h, V, d, out));
+            elliptic_expect(sph_derivative_rows_wls(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), i, i + 1), d, out));
             c->diagonal[i] += out.factor[i];
         }
         for (i = 0; i < c->n; i++) b[i] *= out.factor[i];

@@ -156,9 +156,9 @@ static inline int line_second_derivative(line *s, int method)
     out.hxx = s->value;
     out.conditioning = s->conditioning;
     out.status = s->status;
-    if (method == CSPM) bad = sph_derivatives_cspm(ICSPM_KERNEL, 1, 0, s->n, line_points(s), line_list(s), h, V, f, 0, out);
-    else if (method == ICSPM) bad = sph_derivatives_icspm(ICSPM_KERNEL, 1, 0, s->n, line_points(s), line_list(s), h, V, f, 0, 0, out);
-    else bad = sph_second_derivative_bim(ICSPM_KERNEL, 0, s->n, line_points(s), line_list(s), h, V, f, 0, s->n - 1, s->value, s->status);
+    if (method == CSPM) bad = sph_derivatives_cspm(ICSPM_KERNEL, 1, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), h, V), 0, s->n), f, 0, out);
+    else if (method == ICSPM) bad = sph_derivatives_icspm(ICSPM_KERNEL, 1, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), h, V), 0, s->n), f, 0, 0, out);
+    else bad = sph_second_derivative_bim(ICSPM_KERNEL, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), h, V), 0, s->n), f, 0, s->n - 1, s->value, s->status);
     line_expect(bad);
     return (int)bad;
 }
@@ -190,10 +190,10 @@ static inline void line_rows(line *s, int method)
     out.row = s->row;
     out.diagonal = s->diagonal;
     out.factor = s->factor;
-    if (method == CSPM) line_expect(sph_derivative_rows_cspm(ICSPM_KERNEL, 1, 0, s->n, line_points(s), line_list(s), h, V, sph_jet_laplacian(1), out));
-    else if (method == ICSPM) line_expect(sph_derivative_rows_icspm(ICSPM_KERNEL, 1, 0, s->n, line_points(s), line_list(s), h, V, sph_jet_laplacian(1), out));
+    if (method == CSPM) line_expect(sph_derivative_rows_cspm(ICSPM_KERNEL, 1, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), h, V), 0, s->n), sph_jet_laplacian(1), out));
+    else if (method == ICSPM) line_expect(sph_derivative_rows_icspm(ICSPM_KERNEL, 1, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), h, V), 0, s->n), sph_jet_laplacian(1), out));
     else {
-        line_expect(sph_second_derivative_rows_bim(ICSPM_KERNEL, 0, s->n, line_points(s), line_list(s), h, V, 0, s->n - 1, s->row, NULL));
+        line_expect(sph_second_derivative_rows_bim(ICSPM_KERNEL, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), h, V), 0, s->n), 0, s->n - 1, s->row, NULL));
         for (i = 0; i < s->n; i++) {
             s->factor[i] = 1;
             s->diagonal[i] = 0;

@@ -110,8 +110,7 @@ static void first_derivative(report *r, line *s)
     for (level = 0; level < 2; level++) {
         const int n = level ? 321 : 161;
         line_uniform(s, n, 2);
-        line_expect(sph_gradient_cspm(ICSPM_KERNEL, 1, 0, n, line_points(s), line_list(s), sph_scalars_same(&s->h), sph_scalars_array(s->V),
-                                      sph_scalars_array(s->f), s->value, NULL, NULL, NULL, NULL));
+        line_expect(sph_gradient_cspm(ICSPM_KERNEL, 1, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), sph_scalars_same(&s->h), sph_scalars_array(s->V)), 0, n), sph_scalars_array(s->f), s->value, NULL, NULL, NULL, NULL));
         for (i = 0; i < n; i++) {
             const double e = fabs(s->value[i] - icspm_df(s->x[i]));
             double *const worst = s->x[i] >= 0.25 && s->x[i] <= 0.75 ? inside : end;
@@ -259,8 +258,8 @@ static void dismissed(report *r, line *s)
             const char *const name = which ? "second kernel derivative" : "first derivative, no boundary terms";
             const sph_scalars h = sph_scalars_same(&s->h), V = sph_scalars_array(s->V), f = sph_scalars_array(s->f);
             char text[96];
-            if (which) line_expect(sph_laplacian_kernel(ICSPM_KERNEL, 1, 0, s->n, line_points(s), line_list(s), h, V, f, s->value));
-            else line_expect(sph_laplacian_brookshaw(ICSPM_KERNEL, 1, 0, s->n, line_points(s), line_list(s), h, V, f, s->value));
+            if (which) line_expect(sph_laplacian_kernel(ICSPM_KERNEL, 1, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), h, V), 0, s->n), f, s->value));
+            else line_expect(sph_laplacian_brookshaw(ICSPM_KERNEL, 1, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), h, V), 0, s->n), f, s->value));
             inside[which][jittered] = all[which][jittered] = 0;
             for (i = 0; i < s->n; i++) {
                 const double e = fabs(s->value[i] - icspm_d2f(s->x[i]));

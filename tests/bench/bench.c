@@ -192,19 +192,19 @@ SPH_FN sph_index apply_range(int which, int dim, sph_index first, sph_index last
     list.index = c->index;
     switch (which) {
     case DENSITY:
-        return sph_density_summation(KERNEL, dim, first, last, x, list, h, V, o->g[0]);
+        return sph_density_summation(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), first, last), V, o->g[0]);
     case GRADIENT:
-        return sph_gradient_cspm(KERNEL, dim, first, last, x, list, h, V, f, o->g[0], o->g[1], o->g[2], 0, 0);
+        return sph_gradient_cspm(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), first, last), f, o->g[0], o->g[1], o->g[2], 0, 0);
     case BROOKSHAW:
-        return sph_laplacian_brookshaw(KERNEL, dim, first, last, x, list, h, V, f, o->g[0]);
+        return sph_laplacian_brookshaw(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), first, last), f, o->g[0]);
     case ROWS:
-        return sph_laplacian_rows_brookshaw(KERNEL, dim, first, last, x, list, h, V, o->row);
+        return sph_laplacian_rows_brookshaw(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), first, last), o->row);
     case APPLY:
         return apply_rows(first, last, c, o->row, o->g[0]);
 #if !SPH_CHECK && !defined(_OPENMP)
     case ICSPM: {
         const sph_derivative_out d = {o->g[0], o->g[1], o->g[2], o->g[3], o->g[4], o->g[5], o->g[6], o->g[7], o->g[8], o->g[9], 0, 1, 0};
-        return sph_derivatives_icspm(KERNEL, dim, first, last, x, list, h, V, f, SPH_R(0), 0, d);
+        return sph_derivatives_icspm(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), first, last), f, SPH_R(0), 0, d);
     }
     case ACCELERATION: /* pressure alone */
     case FLUID: {      /* with artificial viscosity, density rate and heating */
@@ -215,15 +215,15 @@ SPH_FN sph_index apply_range(int which, int dim, sph_index first, sph_index last
         fluid.alpha = fluid.eta = SPH_R(0.1);
         fluid.beta = SPH_R(0);
         fluid.viscosity = SPH_VISCOSITY_NONE;
-        if (which == ACCELERATION) return sph_fluid_rates_monaghan(KERNEL, dim, first, last, x, list, h, fluid, a, 0, 0);
+        if (which == ACCELERATION) return sph_fluid_rates_monaghan(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), first, last), fluid, a, 0, 0);
         fluid.viscosity = SPH_VISCOSITY_MONAGHAN;
-        return sph_fluid_rates_monaghan(KERNEL, dim, first, last, x, list, h, fluid, a, o->g[3], o->g[4]);
+        return sph_fluid_rates_monaghan(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), first, last), fluid, a, o->g[3], o->g[4]);
     }
     case MSPH_ROWS: {
         sph_row_out r = {0, 0, 0, 0, 0};
         r.row = o->row;
         r.diagonal = o->g[0];
-        return sph_elliptic_rows_msph(KERNEL, dim, first, last, x, list, h, V, V, sph_elliptic_defaults(), r);
+        return sph_elliptic_rows_msph(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), first, last), V, sph_elliptic_defaults(), r);
     }
     case MHD: /* as many components as dimensions */
     case MHD_CLEANED: {
@@ -242,9 +242,9 @@ SPH_FN sph_index apply_range(int which, int dim, sph_index first, sph_index last
         r.div_B = o->g[8];
         r.div_v = o->g[9];
         r.v_sig = o->g[10];
-        if (which == MHD) return sph_mhd_rates(KERNEL, dim, first, last, x, list, h, s, r);
+        if (which == MHD) return sph_mhd_rates(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), first, last), s, r);
         s.psi = f;
-        return sph_mhd_rates(KERNEL, dim, first, last, x, list, h, s, r);
+        return sph_mhd_rates(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), first, last), s, r);
     }
 #endif
     default:

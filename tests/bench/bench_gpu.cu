@@ -46,11 +46,10 @@ SPH_FN sph_index range(int what, const cloud &c, sph_index first, sph_index last
     list.start = c.start;
     list.index = c.index;
     switch (what) {
-    case DENSITY: return sph_density_summation(KERNEL, DIM, first, last, x, list, h, m, c.a[OUT]);
-    case GRADIENT: return sph_gradient_cspm(KERNEL, DIM, first, last, x, list, h, volume, u, c.a[OUT], c.a[OUT + 1], c.a[OUT + 2], nullptr, nullptr);
+    case DENSITY: return sph_density_summation(KERNEL, DIM, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), first, last), m, c.a[OUT]);
+    case GRADIENT: return sph_gradient_cspm(KERNEL, DIM, sph_cloud_range(sph_cloud_of(x, list, h, volume), first, last), u, c.a[OUT], c.a[OUT + 1], c.a[OUT + 2], nullptr, nullptr);
     case MSPH:
-        return sph_elliptic_msph(KERNEL, DIM, first, last, x, list, h, volume, sph_scalars_array(c.a[RHO]), sph_elliptic_defaults(), u, sph_scalars_array(nullptr),
-                                 c.a[OUT], nullptr);
+        return sph_elliptic_msph(KERNEL, DIM, sph_cloud_range(sph_cloud_of(x, list, h, volume), first, last), sph_scalars_array(c.a[RHO]), sph_elliptic_defaults(), u, sph_scalars_array(nullptr), c.a[OUT], nullptr);
     default: {
         sph_mhd s;
         sph_mhd_out o;
@@ -73,7 +72,7 @@ SPH_FN sph_index range(int what, const cloud &c, sph_index first, sph_index last
         o.div_B = c.a[OUT + 8];
         o.div_v = c.a[OUT + 9];
         o.v_sig = c.a[OUT + 10];
-        return sph_mhd_rates(KERNEL, DIM, first, last, x, list, h, s, o);
+        return sph_mhd_rates(KERNEL, DIM, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), first, last), s, o);
     }
     }
 }

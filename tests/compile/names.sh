@@ -17,7 +17,7 @@ cat > "$scratch/use.c" << 'END'
 sph_index use(sph_points x, sph_list list, sph_real h, sph_scalars V, sph_scalars f, sph_real *gx, sph_real *gy, sph_real *gz);
 sph_index use(sph_points x, sph_list list, sph_real h, sph_scalars V, sph_scalars f, sph_real *gx, sph_real *gy, sph_real *gz)
 {
-    return sph_gradient_cspm(SPH_WENDLAND_C2, 3, 0, x.n, x, list, sph_scalars_same(&h), V, f, gx, gy, gz, 0, 0);
+    return sph_gradient_cspm(SPH_WENDLAND_C2, 3, sph_cloud_of(x, list, sph_scalars_same(&h), V), f, gx, gy, gz, 0, 0);
 }
 END
 size_of() { size "$1" | awk 'NR == 2 { print $1 + $2 + $3 }'; }

@@ -12,18 +12,18 @@
     echo 'SPH_FN sph_fluid fluid(sph_scalars h, sph_scalars V, sph_scalars f) { sph_fluid s; s.m = s.rho = V; s.p = s.c = f; s.v.x = s.v.y = s.v.z = f; s.viscosity = SPH_VISCOSITY_MONAGHAN;'
     echo 's.alpha = s.eta = sph_kernel_support(SPH_CUBIC_SPLINE); s.beta = 0; (void)h; return s; }'
     for dim in 1 2 3; do
-        for sweep in 'shepard|sph_shepard_sum(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, a)' \
-            'interpolate|sph_interpolate_shepard(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, a, s)' \
-            'difference|sph_gradient_difference(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, a, b, c)' \
-            'gradient|sph_gradient_cspm(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, a, b, c, 0, s)' \
-            'brookshaw|sph_laplacian_brookshaw(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, a)' \
-            'brookshawrows|sph_laplacian_rows_brookshaw(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, a)' \
-            'tilecspm|sph_derivatives_cspm(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, 0, out)' \
-            'tileicspm|sph_derivatives_icspm(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, 0, 0, out)' \
-            'tilewls|sph_derivatives_wls(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, V, f, 0, out)' \
-            'msph|sph_elliptic_msph(SPH_CUBIC_SPLINE, D, 0, x.n, x, l, h, V, f, sph_elliptic_defaults(), f, V, a, s)' \
-            'msphrows|sph_elliptic_rows_msph(SPH_CUBIC_SPLINE, D, 0, x.n, x, l, h, V, f, sph_elliptic_defaults(), rows(b))' \
-            'fluid|sph_fluid_rates_colagrossi(SPH_WENDLAND_C2, D, 0, x.n, x, l, h, fluid(h, V, f), vector(a, b, c), out.gx, out.gy)'; do
+        for sweep in 'shepard|sph_shepard_sum(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), a)' \
+            'interpolate|sph_interpolate_shepard(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), f, a, s)' \
+            'difference|sph_gradient_difference(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), f, a, b, c)' \
+            'gradient|sph_gradient_cspm(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), f, a, b, c, 0, s)' \
+            'brookshaw|sph_laplacian_brookshaw(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), f, a)' \
+            'brookshawrows|sph_laplacian_rows_brookshaw(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), a)' \
+            'tilecspm|sph_derivatives_cspm(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), f, 0, out)' \
+            'tileicspm|sph_derivatives_icspm(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), f, 0, 0, out)' \
+            'tilewls|sph_derivatives_wls(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), f, 0, out)' \
+            'msph|sph_elliptic_msph(SPH_CUBIC_SPLINE, D, sph_cloud_of(x, l, h, V), f, sph_elliptic_defaults(), f, V, a, s)' \
+            'msphrows|sph_elliptic_rows_msph(SPH_CUBIC_SPLINE, D, sph_cloud_of(x, l, h, V), f, sph_elliptic_defaults(), rows(b))' \
+            'fluid|sph_fluid_rates_colagrossi(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, sph_scalars_none()), fluid(h, V, f), vector(a, b, c), out.gx, out.gy)'; do
             name=sweep_${sweep%%|*}_$dim
             arguments='sph_points x, sph_list l, sph_scalars h, sph_scalars V, sph_scalars f, sph_real *a, sph_real *b, sph_real *c, unsigned char *s, sph_derivative_out out'
             case $name in sweep_tile*) echo '#if 1' ;; *) echo '#ifndef TILES_ALONE' ;; esac

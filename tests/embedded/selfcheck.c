@@ -186,8 +186,7 @@ static void check_cloud(void)
         }
         check("the neighbours are those of all pairs", same && at == start[i + 1]);
     }
-    check("corrected gradient", sph_gradient_cspm(KERNEL, 2, 0, (sph_index)n, points, list, sph_scalars_same(&length), sph_scalars_same(&volume),
-                                                  sph_scalars_array(field), ax, ay, 0, 0, 0) == 0);
+    check("corrected gradient", sph_gradient_cspm(KERNEL, 2, sph_cloud_range(sph_cloud_of(points, list, sph_scalars_same(&length), sph_scalars_same(&volume)), 0, (sph_index)n), sph_scalars_array(field), ax, ay, 0, 0, 0) == 0);
     for (i = 0; i < n; i++) {
         const sph_real ex = magnitude(ax[i] - SPH_R(2)), ey = magnitude(ay[i] + SPH_R(3)), e = ex > ey ? ex : ey;
         check("the corrected gradient of a linear field", e < SPH_R(300) * SPH_EPSILON);
@@ -245,13 +244,13 @@ static int tank_rates(sph_points points, sph_real dt)
     fluid.alpha = SPH_R(0.1);
     fluid.beta = SPH_R(0);
     fluid.eta = SPH_R(0.1);
-    if (!search(points) || sph_divergence_difference(KERNEL, 2, 0, (sph_index)n, points, list, H, gas, fluid.v, divergence) != 0) return 0;
+    if (!search(points) || sph_divergence_difference(KERNEL, 2, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), 0, (sph_index)n), gas, fluid.v, divergence) != 0) return 0;
     for (i = 0; i < n; i++) {
         rho[i] -= dt * rho[i] * divergence[i];
         p[i] = sph_pressure_tait(rho[i], SPH_R(1), sound, SPH_R(7), SPH_R(0));
         if (i >= WATER && p[i] < SPH_R(0)) p[i] = SPH_R(0); /* a wall pushes, it does not pull */
     }
-    return sph_fluid_rates_monaghan(KERNEL, 2, 0, (sph_index)WATER, points, list, H, fluid, a, 0, 0) == 0;
+    return sph_fluid_rates_monaghan(KERNEL, 2, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), 0, (sph_index)WATER), fluid, a, 0, 0) == 0;
 }
 
 /* kinetic and potential, per mass of a particle */

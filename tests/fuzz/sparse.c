@@ -50,7 +50,7 @@ static void check_assembly(fuzz_input *in)
     column = (sph_index *)fuzz_memory((size_t)capacity, sizeof *column);
     value = (sph_real *)fuzz_memory((size_t)capacity, sizeof *value);
     answer = sph_csr_assemble(first, last, (sph_index)n, list, row, diagonal, drop, begin, column, value, capacity, &entries);
-    FUZZ_REQUIRE(answer <= 0 && answer >= SPH_ERROR_RADIUS);
+    FUZZ_REQUIRE(answer <= 0 && answer >= SPH_ERROR_PAIRS);
     if (good && n > 1) FUZZ_REQUIRE(answer == (capacity < size ? SPH_ERROR_CAPACITY : 0));
     if (answer == 0) {
         FUZZ_REQUIRE(begin[0] == 0 && begin[rows] == entries && entries <= size);

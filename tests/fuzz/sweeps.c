@@ -23,7 +23,8 @@ typedef struct arguments {
     sph_index answer;
 } arguments;
 
-#define SWEEP (sph_kernel)a->k, a->dim, a->first, a->last, a->x, a->list, a->h
+#define FRAME sph_cloud_range(sph_cloud_of(a->x, a->list, a->h, a->s[0]), a->first, a->last)
+#define SWEEP (sph_kernel)a->k, a->dim, FRAME
 #define OUT(i) a->out[i]
 
 static sph_vectors vectors(const arguments *a, int from)
@@ -135,37 +136,37 @@ static sph_vec gravity(const arguments *a)
 enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16, THREE = 32, NO_COUNT = 64, ONE = 128, SOME = 256 };
 /* clang-format off */
 #define SWEEPS(X) \
-    X(sph_shepard_sum(SWEEP, a->s[0], OUT(0)), 1, 0, PLAIN) \
-    X(sph_interpolate_shepard(SWEEP, a->s[0], a->s[3], OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_shepard_sum(SWEEP, OUT(0)), 1, 0, PLAIN) \
+    X(sph_interpolate_shepard(SWEEP, a->s[3], OUT(0), a->status), 1, 0, STATUS) \
     X(sph_density_summation(SWEEP, a->s[0], OUT(0)), 1, 0, PLAIN) \
     X(sph_density_number(SWEEP, a->s[0], OUT(0)), 1, 0, PLAIN) \
-    X(sph_gradient_difference(SWEEP, a->s[0], a->s[3], OUT(0), OUT(1), OUT(2)), 3, 0, VECTOR) \
-    X(sph_gradient_cspm(SWEEP, a->s[0], a->s[3], OUT(0), OUT(1), OUT(2), OUT(3), a->status), 4, 0, VECTOR | STATUS) \
-    X(sph_gradient_rows_cspm(SWEEP, a->s[0], OUT(0), OUT(1), OUT(2), OUT(3), a->status), 4, 3, VECTOR | STATUS) \
-    X(sph_laplacian_brookshaw(SWEEP, a->s[0], a->s[3], OUT(0)), 1, 0, PLAIN) \
-    X(sph_laplacian_kernel(SWEEP, a->s[0], a->s[3], OUT(0)), 1, 0, PLAIN) \
-    X(sph_laplacian_rows_brookshaw(SWEEP, a->s[0], OUT(0)), 1, 1, PLAIN) \
-    X(sph_laplacian_rows_kernel(SWEEP, a->s[0], OUT(0)), 1, 1, PLAIN) \
-    X(sph_derivatives_cspm(SWEEP, a->s[0], a->s[3], a->number[0], derivative_out(a)), 11, 0, HESSIAN | STATUS) \
-    X(sph_derivatives_icspm(SWEEP, a->s[0], a->s[3], a->number[0], a->what & 1, derivative_out(a)), 11, 0, HESSIAN | STATUS) \
-    X(sph_derivatives_wls(SWEEP, a->s[0], a->s[3], a->number[0], derivative_out(a)), 11, 0, HESSIAN | STATUS) \
-    X(sph_derivative_rows_cspm(SWEEP, a->s[0], jet(a), row_out(a)), 4, 1, STATUS) \
-    X(sph_derivative_rows_icspm(SWEEP, a->s[0], jet(a), row_out(a)), 4, 1, STATUS) \
-    X(sph_derivative_rows_wls(SWEEP, a->s[0], jet(a), row_out(a)), 4, 1, STATUS) \
-    X(sph_second_derivative_bim((sph_kernel)a->k, a->first, a->last, a->x, a->list, a->h, a->s[0], a->s[3], 0, (sph_index)(a->what % MOST), OUT(0), a->status), 1, 0, STATUS) \
-    X(sph_second_derivative_rows_bim((sph_kernel)a->k, a->first, a->last, a->x, a->list, a->h, a->s[0], 0, (sph_index)(a->what % MOST), OUT(0), a->status), 1, 1, STATUS) \
-    X(sph_elliptic_brookshaw(SWEEP, a->s[0], a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
-    X(sph_elliptic_brookshaw_corrected(SWEEP, a->s[0], a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
-    X(sph_elliptic_schwaiger(SWEEP, a->s[0], a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
-    X(sph_elliptic_msph(SWEEP, a->s[0], a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
-    X(sph_elliptic_rows_brookshaw(SWEEP, a->s[0], a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
-    X(sph_elliptic_rows_brookshaw_corrected(SWEEP, a->s[0], a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
-    X(sph_elliptic_rows_schwaiger(SWEEP, a->s[0], a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
-    X(sph_elliptic_rows_msph(SWEEP, a->s[0], a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
-    X(sph_elliptic_rows_msph_diagonal(SWEEP, a->s[0], diagonal(a, 1), elliptic(a), row_out(a)), 4, 1, STATUS) \
-    X(sph_elliptic_rows_anisotropic(SWEEP, a->s[0], diagonal(a, 1), row_out(a)), 4, 1, STATUS) \
-    X(sph_elliptic_rows_boundary(SWEEP, a->s[0], a->s[1], elliptic(a), diagonal(a, 5), a->s[8], a->s[9], row_out(a)), 4, 1, STATUS | SOME) \
-    X(sph_elliptic_diagnose(SWEEP, a->s[0], elliptic(a), report(a)), 8, 0, STATUS) \
+    X(sph_gradient_difference(SWEEP, a->s[3], OUT(0), OUT(1), OUT(2)), 3, 0, VECTOR) \
+    X(sph_gradient_cspm(SWEEP, a->s[3], OUT(0), OUT(1), OUT(2), OUT(3), a->status), 4, 0, VECTOR | STATUS) \
+    X(sph_gradient_rows_cspm(SWEEP, OUT(0), OUT(1), OUT(2), OUT(3), a->status), 4, 3, VECTOR | STATUS) \
+    X(sph_laplacian_brookshaw(SWEEP, a->s[3], OUT(0)), 1, 0, PLAIN) \
+    X(sph_laplacian_kernel(SWEEP, a->s[3], OUT(0)), 1, 0, PLAIN) \
+    X(sph_laplacian_rows_brookshaw(SWEEP, OUT(0)), 1, 1, PLAIN) \
+    X(sph_laplacian_rows_kernel(SWEEP, OUT(0)), 1, 1, PLAIN) \
+    X(sph_derivatives_cspm(SWEEP, a->s[3], a->number[0], derivative_out(a)), 11, 0, HESSIAN | STATUS) \
+    X(sph_derivatives_icspm(SWEEP, a->s[3], a->number[0], a->what & 1, derivative_out(a)), 11, 0, HESSIAN | STATUS) \
+    X(sph_derivatives_wls(SWEEP, a->s[3], a->number[0], derivative_out(a)), 11, 0, HESSIAN | STATUS) \
+    X(sph_derivative_rows_cspm(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_derivative_rows_icspm(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_derivative_rows_wls(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_second_derivative_bim((sph_kernel)a->k, FRAME, a->s[3], 0, (sph_index)(a->what % MOST), OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_second_derivative_rows_bim((sph_kernel)a->k, FRAME, 0, (sph_index)(a->what % MOST), OUT(0), a->status), 1, 1, STATUS) \
+    X(sph_elliptic_brookshaw(SWEEP, a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_elliptic_brookshaw_corrected(SWEEP, a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_elliptic_schwaiger(SWEEP, a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_elliptic_msph(SWEEP, a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_elliptic_rows_brookshaw(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_elliptic_rows_brookshaw_corrected(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_elliptic_rows_schwaiger(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_elliptic_rows_msph(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_elliptic_rows_msph_diagonal(SWEEP, diagonal(a, 1), elliptic(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_elliptic_rows_anisotropic(SWEEP, diagonal(a, 1), row_out(a)), 4, 1, STATUS) \
+    X(sph_elliptic_rows_boundary(SWEEP, a->s[1], elliptic(a), diagonal(a, 5), a->s[8], a->s[9], row_out(a)), 4, 1, STATUS | SOME) \
+    X(sph_elliptic_diagnose(SWEEP, elliptic(a), report(a)), 8, 0, STATUS) \
     X(sph_rows_apply(a->first, a->last, a->x.n, a->list, a->s[13].p, a->s[14].p, a->s[3], OUT(0)), 1, 0, PLAIN) \
     X(sph_rows_monotone(a->first, a->last, a->x.n, a->list, a->s[13].p, a->s[14].p, a->status), 0, 0, STATUS | NO_COUNT) \
     X(sph_rows_time_step(a->first, a->last, a->x.n, a->list, a->s[13].p, OUT(0)), 1, 0, ONE | NO_COUNT) \
@@ -176,12 +177,12 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_viscous_mu_monaghan_cleary(SWEEP, a->s[0], a->s[1], vectors(a, 5), a->s[2], a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_velocity_xsph(SWEEP, a->s[0], a->s[1], vectors(a, 5), a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_wall_adami(SWEEP, a->s[0], a->s[1], a->s[3], vectors(a, 5), vectors(a, 8), gravity(a), vectors(a, 5), OUT(3), vector_out(a, 0), a->status), 4, 0, VECTOR | STATUS) \
-    X(sph_collision_count(a->dim, a->first, a->last, a->x, a->list, a->number[0], a->s[1], vectors(a, 5), a->count), 0, 0, COUNTS) \
-    X(sph_collision_change_literal(a->dim, a->first, a->last, a->x, a->list, a->number[0], a->s[1], a->number[1], vectors(a, 5), vector_out(a, 0)), 3, 0, VECTOR) \
-    X(sph_collision_acceleration_literal(a->dim, a->first, a->last, a->x, a->list, a->number[0], a->s[1], a->number[1], vectors(a, 5), a->number[2], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_collision_count(a->dim, FRAME, a->number[0], a->s[1], vectors(a, 5), a->count), 0, 0, COUNTS) \
+    X(sph_collision_change_literal(a->dim, FRAME, a->number[0], a->s[1], a->number[1], vectors(a, 5), vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_collision_acceleration_literal(a->dim, FRAME, a->number[0], a->s[1], a->number[1], vectors(a, 5), a->number[2], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_nearest_distance(a->dim, a->first, a->last, a->x, a->x, a->list, OUT(0), a->status), 1, 0, STATUS) \
-    X(sph_hexatic_order(a->first, a->last, a->x, a->list, OUT(0), a->status), 1, 0, STATUS) \
-    X(sph_count_coincident(a->dim, a->first, a->last, a->x, a->list, a->number[0]), 0, 0, NO_COUNT) \
+    X(sph_hexatic_order(FRAME, OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_count_coincident(a->dim, FRAME, a->number[0]), 0, 0, NO_COUNT) \
     X(sph_divergence_difference(SWEEP, gas(a), vectors(a, 5), OUT(0)), 1, 0, PLAIN) \
     X(sph_divergence_symmetric(SWEEP, gas(a), vectors(a, 5), OUT(0)), 1, 0, PLAIN) \
     X(sph_gradient_symmetric(SWEEP, gas(a), a->s[3], vector_out(a, 0)), 3, 0, VECTOR) \
@@ -191,8 +192,8 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_cleaning_rates_symmetric(SWEEP, gas(a), vectors(a, 8), a->s[11], a->s[4], a->number[0], a->number[1], vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
     X(sph_mhd_rates(SWEEP, mhd(a), mhd_out(a)), 11, 0, VECTORS) \
     X(sph_gravity_direct((sph_kernel)a->k, a->first, a->last, a->x, a->h, a->s[0], a->number[0], vector_out(a, 0), OUT(3)), 4, 0, THREE) \
-    X(sph_gravity_zeta((sph_kernel)a->k, a->first, a->last, a->x, a->list, a->h, a->s[0], a->s[1], OUT(0)), 1, 0, PLAIN) \
-    X(sph_gravity_correction((sph_kernel)a->k, a->first, a->last, a->x, a->list, a->h, gas(a), a->s[4], a->number[0], vector_out(a, 0)), 3, 0, THREE)
+    X(sph_gravity_zeta((sph_kernel)a->k, FRAME, a->s[0], a->s[1], OUT(0)), 1, 0, PLAIN) \
+    X(sph_gravity_correction((sph_kernel)a->k, FRAME, gas(a), a->s[4], a->number[0], vector_out(a, 0)), 3, 0, THREE)
 /* clang-format on */
 
 static sph_index call(int which, const arguments *a)
@@ -249,7 +250,7 @@ static void check_answer(const arguments *a, size_t room)
     const sph_index answer = a->answer;
     sph_index i;
     int o;
-    REQUIRE(answer >= SPH_ERROR_RADIUS);
+    REQUIRE(answer >= SPH_ERROR_PAIRS);
     if (!(now->flags & NO_COUNT)) REQUIRE(answer <= (a->last > a->first ? a->last - a->first : 0));
     for (o = 0; o < OUTPUTS; o++) {
         const int pairs = o < now->pairs, used = answer >= 0 && o < now->outputs && is_written(a, o);
@@ -282,7 +283,7 @@ static void own_density_adaptive(const arguments *a)
     size_t i;
     sph_index answer;
     for (i = 0; i < n && a->out[0]; i++) a->out[0][i] = a->h.p ? a->h.p[a->h.stride ? i * a->h.stride : 0] : SPH_R(1);
-    answer = sph_density_adaptive(SWEEP, a->s[0], SPH_R(1.2), SPH_R(1e-3), OUT(0), OUT(1), OUT(2), a->status);
+    answer = sph_density_adaptive((sph_kernel)a->k, a->dim, FRAME, a->h, a->s[0], SPH_R(1.2), SPH_R(1e-3), OUT(0), OUT(1), OUT(2), a->status);
     for (i = 0; answer >= 0 && i < n; i++) {
         if ((sph_index)i < a->first || (sph_index)i >= a->last) continue;
         REQUIRE(isfinite(a->out[0][i]) && a->out[0][i] > SPH_R(0));
@@ -298,7 +299,7 @@ static void own_collide(const arguments *a)
     int c, finite = 1;
     for (c = 0; c < 3; c++)
         for (i = 0; i < n && a->out[c]; i++) a->out[c][i] = SPH_R((double)(i % 3) - (double)c);
-    answer = sph_collide_sequential(a->dim, a->first, a->last, a->x, a->list, a->number[0], a->s[1], a->number[1], OUT(0), OUT(1), OUT(2), 1, &r);
+    answer = sph_collide_sequential(a->dim, FRAME, a->number[0], a->s[1], a->number[1], OUT(0), OUT(1), OUT(2), 1, &r);
     for (c = 0; c < a->dim && c < 3; c++) finite = finite && (!a->out[c] || all_finite(a->out[c], n));
     if (answer >= 0) REQUIRE((finite && isfinite(r.energy) && r.collisions >= 0) || answer > 0);
 }
@@ -308,20 +309,20 @@ static void own_weighted(const arguments *a)
     size_t i;
     int c;
     for (i = 0; i < n && a->count; i++) a->count[i] = (sph_index)((int)(i * 7 + (size_t)a->what) % 5 - (a->what > 200));
-    if (sph_collision_change_weighted(a->dim, a->first, a->last, a->x, a->list, a->number[0], a->s[1], a->number[1], vectors(a, 5), a->count, vector_out(a, 0)) < 0) return;
+    if (sph_collision_change_weighted(a->dim, FRAME, a->number[0], a->s[1], a->number[1], vectors(a, 5), a->count, vector_out(a, 0)) < 0) return;
     for (c = 0; c < a->dim; c++) REQUIRE(all_finite(a->out[c] + a->first, (size_t)(a->last - a->first)));
 }
 static void own_separate(const arguments *a)
 {
     int c;
-    if (sph_separate_coincident(a->dim, a->first, a->last, a->x, a->list, a->number[0], a->number[1], vector_out(a, 0)) < 0) return;
+    if (sph_separate_coincident(a->dim, FRAME, a->number[0], a->number[1], vector_out(a, 0)) < 0) return;
     for (c = 0; c < a->dim; c++) REQUIRE(all_finite(a->out[c] + a->first, (size_t)(a->last - a->first)));
 }
 static void own_radial(const arguments *a)
 {
     const int bins = a->what % 9;
     sph_real *const g = (sph_real *)fuzz_memory((size_t)bins, sizeof *g);
-    if (sph_radial_distribution(a->dim, a->first, a->last, a->x, a->list, a->number[0], a->number[1], bins, g) >= 0) REQUIRE(all_finite(g, (size_t)bins));
+    if (sph_radial_distribution(a->dim, FRAME, a->number[0], a->number[1], bins, g) >= 0) REQUIRE(all_finite(g, (size_t)bins));
     free(g);
 }
 static void own_sums(const arguments *a)

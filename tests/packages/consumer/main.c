@@ -24,7 +24,7 @@ int main(void)
             return 1;
         list.start = start;
         list.index = index;
-        if (sph_density_summation(SPH_WENDLAND_C4_1D, 1, 0, N, points, list, sph_scalars_same(&h), sph_scalars_same(&m), rho)) return 1;
+        if (sph_density_summation(SPH_WENDLAND_C4_1D, 1, sph_cloud_range(sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_none()), 0, N), sph_scalars_same(&m), rho)) return 1;
     }
     printf("sph.h %d.%d.%d: density %.4f\n", SPH_VERSION_MAJOR, SPH_VERSION_MINOR, SPH_VERSION_PATCH, rho[N / 2]);
     return rho[N / 2] < 0.99 || rho[N / 2] > 1.01;
