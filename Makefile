@@ -28,7 +28,7 @@ TESTS_OPTIONAL = gsl
 TESTS = $(filter-out $(TESTS_DOUBLE) $(TESTS_OPTIONAL),$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))
 TESTS_FLOAT = $(TESTS)
 TEST_PROGRAMS = $(TESTS:%=$(BUILD)/tests/%) $(TESTS_FLOAT:%=$(BUILD)/tests/%-float) $(TESTS_DOUBLE:%=$(BUILD)/tests/%)
-TEST_SCRIPTS = tests/index.sh tests/readme.sh tests/compile/matrix.sh tests/compile/names.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/faults.sh tests/single.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
+TEST_SCRIPTS = tests/index.sh tests/signatures.sh tests/readme.sh tests/compile/matrix.sh tests/compile/names.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/faults.sh tests/single.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
 
 help:
 	@echo "make reproduce        run the papers' benchmarks, published beside measured values, and print a scoreboard"

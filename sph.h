@@ -1,43 +1,73 @@
 /* SPDX-License-Identifier: MIT
  *
- * sph.h - the toolkit: kernels (sph_kernels.h), operators (sph_ops.h) and, here, the neighbour search on the caller's memory. Include this one, or sph_ops.h if
- * your code has neighbour lists already. Copy the three headers next to each other; there is nothing to build.
+ * sph.h - the toolkit: kernels (sph_kernels.h), operators (sph_ops.h) and, here, the search for neighbours.
+ * Include this one, or sph_ops.h if your code has neighbour lists already. Copy the three headers next to
+ * each other; there is nothing to build.
  *
- *     sph_points x = sph_points_separate(n, px, py, pz);
- *     size_t size = sph_grid_workspace(3, n);
- *     void *work = malloc(size);
- *     sph_grid grid;
- *     int64_t pairs;
- *     sph_grid_build(3, x, R, work, size, &grid);                                            R: support radius, kernel support times h
- *     sph_grid_lists(3, &grid, x, SPH_GATHER, sph_scalars_same(&R), sph_scalars_same(&R), 0, start, 0, 0, &pairs);   counts: fills start[0 ... n]
+ * Who is near whom, in one call. You own the memory; the call says how much it needs:
+ *
+ *     sph_points x = sph_points_separate(n, px, py, pz);            your arrays, where they are
+ *     sph_scalars radius = sph_scalars_same(&R);                    R: support radius, kernel support times h
+ *     sph_neighbors found;
+ *     void *memory = NULL;
+ *     size_t size = 0;
+ *
+ *     while (sph_search(3, x, radius, SPH_GATHER, memory, size, &found) == SPH_ERROR_CAPACITY) {
+ *         size = sph_search_size(3, n, found.pairs);
+ *         memory = realloc(memory, size);
+ *     }
+ *     cloud = sph_cloud_of(x, found.list, h, volume);               what the operators take
+ *
+ * Do the same in each step, with the same memory: most calls then find it large enough. To do with one
+ * allocation, begin with room for 8, 32 or 128 pairs a particle in 1, 2 or 3 dimensions (or more: see what
+ * found.pairs says).
+ *
+ * THE SAME IN PARTS, for targets that are not sources, for other lists, and for your own layout of memory:
+ *
+ *     work = malloc(sph_grid_workspace(3, n));
+ *     sph_grid_build(3, x, R, work, sph_grid_workspace(3, n), &grid);                particles into cells
+ *     sph_grid_count(3, &grid, x, SPH_GATHER, radius, radius, 0, start, &pairs);     counts: start[0 ... n]
  *     index = malloc((size_t)pairs * sizeof *index);
- *     sph_grid_lists(3, &grid, x, SPH_GATHER, sph_scalars_same(&R), sph_scalars_same(&R), 0, start, index, pairs, &pairs);
+ *     sph_grid_lists(3, &grid, x, SPH_GATHER, radius, radius, 0, start, index, pairs, &pairs);
  *
- * Counting costs about as much as filling: keep the memory from step to step, with some room to spare, and call once; SPH_ERROR_CAPACITY says how much is needed.
- * Particles in storage order near to the order of the cells make every sweep faster, and lists take half of the time: sort once in a while, between build and lists,
+ * Counting costs about as much as filling. Keep the memory from step to step, with some room to spare, and
+ * call sph_grid_lists alone: where the room does not do, SPH_ERROR_CAPACITY says how much is needed.
+ * Particles that are stored in an order near to that of the cells make every sweep faster, and lists take
+ * half of the time: sort once in a while. The order is sph_grid_order(&grid), or sph_grid_order(&found.grid),
  *
- *     sph_permute(n, sph_grid_order(&grid), px, 1, sorted); ...                              each array of yours, positions too
- *     sph_grid_renumber(&grid);
+ *     sph_permute(n, sph_grid_order(&grid), px, 1, sorted); ...     each array of yours, positions too
+ *     sph_grid_renumber(&grid);                                     for lists of this grid; or search again
  *
- * Lists can be kept for several steps: build them with the radius + a skin, and again when sph_rebuild_due says so. A workspace may be used again for any cloud that is not larger.
+ * Lists can be kept for several steps: build them with the radius + a skin, and again when sph_rebuild_due
+ * says so. A workspace may be used again for any cloud that is not larger. Memory may be aligned in any way.
+ * Nothing is a number, too: with 0 particles, or no targets, all functions answer 0, and arrays may be null.
  *
- * Pairs whose distance is within a few rounding errors of the radius (8 units in the last place of the radius; in a box, of the largest of radius, box length and coordinates) may be in or out, depending
- * on compiler, flags and path. The same binary gives the same lists, whatever the number of threads. Under
+ * Pairs whose distance is within a few rounding errors of the radius (8 units in the last place of the
+ * radius; in a box, of the largest of radius, box length and coordinates) may be in or out, depending on
+ * compiler, flags and path. The same binary gives the same lists, whatever the number of threads. Under
  * -ffast-math a pair at just half a periodic box may stand in a row twice, once for each image.
  *
  * INDEX
- *   size_t    sph_grid_workspace(dim, n)                                      bytes of workspace for n sources; 0 if dim or n is bad or too large
- *   sph_index sph_grid_build(dim, sources, reach, work, work_size, grid)      sorts the sources into cells of about the size of reach
- *   sph_index sph_grid_lists(dim, grid, targets, criterion, target_radius, source_radius, flags, start, index, capacity, pairs)   neighbour lists
- *   const sph_index *sph_grid_order(grid)                                     order[slot] = particle: the permutation into cell order
- *   sph_index sph_grid_renumber(grid)                                         once the arrays are permuted: the grid goes by the new numbers, with no second build
- *   sph_index sph_permute(n, order, in, stride, out)                          out[slot] = in[order[slot]], for each of the caller's arrays
- *   sph_index sph_permute_inverse(n, order, inverse)                          inverse[order[slot]] = slot
- *   int       sph_rebuild_due(dim, now, then, skin)                           1 if a particle has moved by more than skin / 2
+ *   sph_index sph_search(dim, points, radius, criterion, memory, size, found)   neighbours, in one block
+ *   size_t    sph_search_size(dim, n, pairs)              bytes of that block; 0 if it cannot be
+ *   sph_neighbors                                         what is found: number of pairs, list, grid
+ *   size_t    sph_grid_workspace(dim, n)                  bytes of workspace for n sources; 0 if it cannot be
+ *   sph_index sph_grid_build(dim, sources, reach, work, work_size, grid)        sources into cells
+ *   sph_index sph_grid_count(dim, grid, targets, criterion, target_radius, source_radius, flags, start,
+ *                            pairs)                       the lengths of the lists alone
+ *   sph_index sph_grid_lists(dim, grid, targets, criterion, target_radius, source_radius, flags, start,
+ *                            index, capacity, pairs)      neighbour lists
+ *   const sph_index *sph_grid_order(grid)                 order[slot] = particle: into cell order
+ *   sph_index sph_grid_renumber(grid)                     the arrays have been permuted: the grid follows
+ *   sph_index sph_permute(n, order, in, stride, out)      out[slot] = in[order[slot]], for each array
+ *   sph_index sph_permute_inverse(n, order, inverse)      inverse[order[slot]] = slot
+ *   int       sph_rebuild_due(dim, now, then, skin)       1 if a particle moved by more than skin / 2
  *
  * OPTIONS
- *   SPH_OPENMP   0   1: the search uses OpenMP's threads (compile with -fopenmp). The sweeps never start threads: call them on ranges from your own.
- *   SPH_AVX512   1 where the compiler may use AVX-512 F and VL, else 0       hand-written inner loop of the search
+ *   SPH_OPENMP   0   1: the search uses OpenMP's threads (compile with -fopenmp). The sweeps never start
+ *                threads: call them on ranges from your own.
+ *   SPH_AVX512   1 where the compiler may use AVX-512 F and VL, else 0       hand-written inner loop of the
+ *                search
  *   SPH_AVX2     1 where the compiler may use AVX2 and BMI2, else 0          likewise; both 0: portable C
  */
 #ifndef SPH_H
@@ -74,7 +104,8 @@
 #if SPH_AVX512 || SPH_AVX2
 #  include <immintrin.h>
 #endif
-/* Functions too large to be inlined at every call. Without optimisation nothing is inlined, but gcc keeps what is static, not inline and never called. */
+/* Functions too large to be inlined at every call. Without optimisation nothing is inlined, but gcc keeps
+   what is static, not inline and never called. */
 #if defined(__CUDACC__)
 #  define SPHI_LARGE static __host__ __device__ __noinline__
 #elif (defined(__GNUC__) || defined(__clang__)) && defined(__OPTIMIZE__)
@@ -93,7 +124,8 @@
 #endif
 #define SPHI_INDEX_MAX ((((int64_t)1 << (8 * sizeof(sph_index) - 2)) - 1) * 2 + 1)
 
-/* Which pairs are neighbours; R: support radius. A gather list is what the operators of sph_ops.h need; pair-symmetric operators need the larger of both. */
+/* Which pairs are neighbours; R: support radius. A gather list is what the operators of sph_ops.h need;
+   pair-symmetric operators need the larger of both. */
 typedef enum sph_criterion {
     SPH_GATHER,  /* r < R_i */
     SPH_SCATTER, /* r < R_j */
@@ -105,17 +137,20 @@ typedef enum sph_list_flags {
     SPH_LIST_SELF = 1,   /* a row holds its own particle, too */
     SPH_LIST_HALF = 2,   /* each pair once: only j > i (for a symmetric criterion) */
     SPH_LIST_SORTED = 4, /* ascending j in each row */
-    SPH_LIST_FOREIGN = 8 /* targets are not sources: target i has nothing to do with source i (excludes SELF and HALF) */
+    SPH_LIST_FOREIGN =
+        8 /* targets are not sources: target i has nothing to do with source i (excludes SELF and HALF) */
 } sph_list_flags;
 
-/* The sources in cells. Cells are rows along x of SPHI_FINE cells per reach, and reach wide in y and z, so that the neighbours in y and z of a particle are a few contiguous
-   runs of slots. Where the bounding box has no more than 2 n cells a cell is its own number; where it is larger (mostly empty) cells are hashed into about n buckets, a row along
-   x still contiguous. Fields are for the functions below. */
+/* The sources in cells. Cells are rows along x of SPHI_FINE cells per reach, and reach wide in y and z, so
+   that the neighbours in y and z of a particle are a few contiguous runs of slots. Where the bounding box has
+   no more than 2 n cells a cell is its own number; where it is larger (mostly empty) cells are hashed into
+   about n buckets, a row along x still contiguous. Fields are for the functions below. */
 typedef struct sph_grid {
     sph_index n;
-    int dim, hashed, scattered; /* scattered: particles that follow each other are mostly not near each other */
-    int64_t cells[3];           /* along each axis */
-    size_t buckets;             /* a power of two if hashed */
+    int dim, hashed,
+        scattered;    /* scattered: particles that follow each other are mostly not near each other */
+    int64_t cells[3]; /* along each axis */
+    size_t buckets;   /* a power of two if hashed */
     sph_real reach;
     sph_vec low, inverse_width, box;
     sph_index *first, *member; /* first slot of each bucket; particle of each slot */
@@ -126,29 +161,41 @@ enum {
     SPHI_FINE = 8,      /* cells along x per reach */
     SPHI_PAD = 16,      /* slots beyond the last that whole lanes may read */
     SPHI_FARTHEST = 32, /* largest radius / reach: bounds the number of cells that a row looks at */
+    SPHI_ALIGN = 8,     /* what memory is aligned to, inside the caller's */
     SPHI_CROWDS = 8     /* crowded cells whose bounds are remembered from one target to the next */
 };
 #ifndef SPHI_CROWDED
 #define SPHI_CROWDED 1024 /* a cell of so many particles is crowded; tests take fewer */
 #endif
 
-/* Bytes of a slot's coordinates: in this memory the buckets of the particles wait until all have their slots. */
+/* Bytes of a slot's coordinates: in this memory the buckets of the particles wait until all have their slots.
+   */
 SPH_FN size_t sphi_place_size(int dim)
 {
     const size_t coordinates = (size_t)dim * sizeof(sph_real);
     return coordinates > sizeof(sph_index) ? coordinates : sizeof(sph_index);
 }
-/* even, so that arrays of four-byte numbers do not take those of eight bytes behind them off their alignment */
+/* even, so that arrays of four-byte numbers do not take those of eight bytes behind them off their alignment
+   */
 SPH_FN size_t sphi_padded(sph_index n) { return ((size_t)n + SPHI_PAD + 1) / 2 * 2; }
+/* Bytes of workspace that sph_grid_build needs for n sources, with some to align it; 0 if dim is not 1, 2
+   or 3, or if n is negative or more than can be counted. It is never 0 for 0 sources, though they need
+   none. */
 SPH_FN size_t sph_grid_workspace(int dim, sph_index n)
 {
     const size_t bytes = sphi_place_size(dim > 0 && dim < 4 ? dim : 1) + 3 * sizeof(sph_index);
-    if (dim < 1 || dim > 3 || n < 1 || (uint64_t)n + SPHI_PAD + 1 > SIZE_MAX / bytes / 2) return 0;
+    if (dim < 1 || dim > 3 || n < 0 || (uint64_t)n + SPHI_PAD + 1 > SIZE_MAX / bytes / 2) return 0;
     if (n > SPHI_INDEX_MAX - SPHI_TILE) return 0; /* loops over slots go by tiles, and look a tile ahead */
-    return sphi_padded(n) * bytes;
+    return sphi_padded(n) * bytes + SPHI_ALIGN;
+}
+/* the first aligned byte of memory */
+SPH_FN void *sphi_aligned(void *memory)
+{
+    return (char *)memory + (SPHI_ALIGN - (uintptr_t)memory % SPHI_ALIGN) % SPHI_ALIGN;
 }
 
-/* Number of a cell along an axis, within [0, cells): never falls as x rises, so all between x - R and x + R lie between the cells of these. */
+/* Number of a cell along an axis, within [0, cells): never falls as x rises, so all between x - R and x + R
+   lie between the cells of these. */
 SPH_FN int64_t sphi_cell(sph_real x, sph_real low, sph_real inverse_width, int64_t cells)
 {
     const sph_real c = (x - low) * inverse_width, last = (sph_real)(cells - 1);
@@ -178,14 +225,18 @@ SPH_FN sph_vec sphi_wrap_point(int dim, const sph_grid *g, sph_vec p)
     return p;
 }
 
-SPH_FN int sphi_boxed(int dim, sph_vec box) { return box.x > SPH_R(0) || (dim > 1 && box.y > SPH_R(0)) || (dim > 2 && box.z > SPH_R(0)); }
+SPH_FN int sphi_boxed(int dim, sph_vec box)
+{
+    return box.x > SPH_R(0) || (dim > 1 && box.y > SPH_R(0)) || (dim > 2 && box.z > SPH_R(0));
+}
 
 /* bucket of the first cell of a row along x */
 SPH_FN size_t sphi_row_bucket(const sph_grid *g, int64_t cy, int64_t cz)
 {
     if (!g->hashed) return (size_t)((cz * g->cells[1] + cy) * g->cells[0]);
     {
-        const uint64_t h = (uint64_t)cy * 0x9e3779b97f4a7c15u ^ ((uint64_t)cz + 0x7f4a7c15u) * 0xc2b2ae3d27d4eb4fu;
+        const uint64_t h =
+            (uint64_t)cy * 0x9e3779b97f4a7c15u ^ ((uint64_t)cz + 0x7f4a7c15u) * 0xc2b2ae3d27d4eb4fu;
         return (size_t)((h ^ h >> 29) * 0xbf58476d1ce4e5b9u >> 20) & (g->buckets - 1);
     }
 }
@@ -193,17 +244,23 @@ SPH_FN size_t sphi_bucket(int dim, const sph_grid *g, sph_vec p)
 {
     const int64_t cy = dim > 1 ? sphi_cell(p.y, g->low.y, g->inverse_width.y, g->cells[1]) : 0;
     const int64_t cz = dim > 2 ? sphi_cell(p.z, g->low.z, g->inverse_width.z, g->cells[2]) : 0;
-    const size_t b = sphi_row_bucket(g, cy, cz) + (size_t)sphi_cell(p.x, g->low.x, g->inverse_width.x, g->cells[0]);
+    const size_t b =
+        sphi_row_bucket(g, cy, cz) + (size_t)sphi_cell(p.x, g->low.x, g->inverse_width.x, g->cells[0]);
     return g->hashed ? b & (g->buckets - 1) : b;
 }
 
 /* positive, and its square far from under- and overflow */
-SPH_FN int sphi_radius_ok(sph_real R) { return sphi_finite(R) && R >= SPHI_TINY && R <= SPH_R(1) / SPHI_TINY; }
+SPH_FN int sphi_radius_ok(sph_real radius)
+{
+    return sphi_finite(radius) && radius >= SPHI_TINY && radius <= SPH_R(1) / SPHI_TINY;
+}
 SPH_FN int sphi_check_points(int dim, sph_points x)
 {
     if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
+    if (x.n < 0) return SPH_ERROR_COUNT;
+    if (x.n == 0) return 0; /* nothing to point at */
     if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z)) return SPH_ERROR_NULL;
-    if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
+    if (x.stride < 1) return SPH_ERROR_COUNT;
     return sphi_check_positions(dim, x);
 }
 SPH_FN void sphi_enclose(sph_vec p, sph_vec *low, sph_vec *high)
@@ -215,7 +272,8 @@ SPH_FN void sphi_enclose(sph_vec p, sph_vec *low, sph_vec *high)
     high->y = p.y > high->y ? p.y : high->y;
     high->z = p.z > high->z ? p.z : high->z;
 }
-/* Lays the grid out over the axes: low, inverse_width, cells. `fine` cells per reach. Returns their product, which may be huge. */
+/* Lays the grid out over the axes: low, inverse_width, cells. `fine` cells per reach. Returns their product,
+   which may be huge. */
 SPH_FN double sphi_axes(int dim, sph_grid *g, sph_vec low, sph_vec high, sph_real reach, int fine)
 {
     sph_real lows[3] = {low.x, low.y, low.z};
@@ -228,15 +286,20 @@ SPH_FN double sphi_axes(int dim, sph_grid *g, sph_vec low, sph_vec high, sph_rea
         g->cells[c] = 1;
         if (c >= dim) continue;
         inverse[c] = SPH_R(c == 0 ? fine : 1) / reach;
-        if (box[c] > SPH_R(0) && !(highs[c] - lows[c] < box[c])) lows[c] = SPH_R(0); /* some have to be moved: into [0, box) */
-        if (box[c] > SPH_R(0)) { /* a whole number of cells around the box, none of them so narrow that rounding could matter (see sphi_range) */
+        if (box[c] > SPH_R(0) && !(highs[c] - lows[c] < box[c]))
+            lows[c] = SPH_R(0); /* some have to be moved: into [0, box) */
+        if (box[c] > SPH_R(0)) {
+            /* a whole number of cells around the box, none of them so narrow that rounding could matter (see
+               sphi_range) */
             const sph_real most = box[c] / (SPH_R(64) * SPH_EPSILON * (box[c] + SPHI_ABS(lows[c])));
             count = box[c] * inverse[c] < most ? box[c] * inverse[c] : most;
             g->cells[c] = count < SPH_R(1) ? 1 : (int64_t)count;
             inverse[c] = (sph_real)g->cells[c] / box[c];
         } else {
             count = (highs[c] - lows[c]) * inverse[c];
-            g->cells[c] = count < SPH_R(4e18) ? (int64_t)count + 1 : (int64_t)4000000000000000000; /* beyond: the last cell is wide */
+            g->cells[c] = count < SPH_R(4e18)
+                              ? (int64_t)count + 1
+                              : (int64_t)4000000000000000000; /* beyond: the last cell is wide */
         }
         product *= (double)g->cells[c];
     }
@@ -250,7 +313,10 @@ SPH_FN double sphi_axes(int dim, sph_grid *g, sph_vec low, sph_vec high, sph_rea
 }
 
 /* part of n, in so many parts */
-SPH_FN sph_index sphi_first(sph_index n, int part, int parts) { return (sph_index)((int64_t)n * part / parts); }
+SPH_FN sph_index sphi_first(sph_index n, int part, int parts)
+{
+    return (sph_index)((int64_t)n * part / parts);
+}
 SPH_FN int sphi_parts(void)
 {
 #if SPH_OPENMP
@@ -260,15 +326,21 @@ SPH_FN int sphi_parts(void)
 #endif
 }
 
-/* Where a source is kept. The one compiled copy of its kind: the loop that finds a particle's bucket and the one that stores its place must take it to the same side of the box to the
-   last bit, also where the compiler may round as it likes (-ffast-math). */
-SPHI_LARGE sph_vec sphi_source(int dim, const sph_grid *g, sph_points s, sph_index i) { return sphi_wrap_point(dim, g, sphi_point(dim, s, i)); }
+/* Where a source is kept. The one compiled copy of its kind: the loop that finds a particle's bucket and the
+   one that stores its place must take it to the same side of the box to the last bit, also where the compiler
+   may round as it likes (-ffast-math). */
+SPHI_LARGE sph_vec sphi_source(int dim, const sph_grid *g, sph_points s, sph_index i)
+{
+    return sphi_wrap_point(dim, g, sphi_point(dim, s, i));
+}
 
-/* Three loops over the particles - buckets, slots, coordinates - of which the second alone has to go in turn: where the storage order is far from that of the cells, each then waits
-   for one kind of far memory only, and for many at a time. */
+/* Three loops over the particles - buckets, slots, coordinates - of which the second alone has to go in turn:
+   where the storage order is far from that of the cells, each then waits for one kind of far memory only, and
+   for many at a time. */
 SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real reach, sph_grid *g)
 {
-    const double most = 2.0 * (double)s.n < (double)SPHI_INDEX_MAX ? 2.0 * (double)s.n : (double)SPHI_INDEX_MAX;
+    const double most =
+        2.0 * (double)s.n < (double)SPHI_INDEX_MAX ? 2.0 * (double)s.n : (double)SPHI_INDEX_MAX;
     const int parts = sphi_parts(), boxed = sphi_boxed(dim, g->box);
     sph_index *const bucket_of = (sph_index *)(void *)g->x;
     sph_vec low = sphi_point(dim, s, 0), high = low;
@@ -315,7 +387,8 @@ SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real reach, sph_grid *
             bucket_of[k] = (sph_index)sphi_bucket(dim, g, p);
         }
     }
-    /* counting sort: first[b + 2] counts, then first[b + 1] is the next free slot of bucket b, and ends as the first of b + 1 */
+    /* counting sort: first[b + 2] counts, then first[b + 1] is the next free slot of bucket b, and ends as
+       the first of b + 1 */
     for (b = 0; b < g->buckets + 2; b++) g->first[b] = 0;
     for (i = 0; i < s.n; i++) {
         const sph_index bucket = bucket_of[i];
@@ -347,19 +420,42 @@ SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real reach, sph_grid *
     }
 }
 
-/* Sorts the sources into cells; reach is the radius that will mostly be searched (others work, too). The coordinates are copied: later changes of the arrays do not matter until the
-   next build. work must be aligned for sph_real and sph_index, as memory of malloc is. Along axes with a box length, reach may be half of it. Returns 0 or a negative sph_error: SPH_ERROR_CAPACITY if work_size is below
-   sph_grid_workspace(dim, sources.n). */
-SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_real reach, void *work, size_t work_size, sph_grid *grid)
+/* A grid of no sources. */
+SPH_FN void sphi_grid_empty(int dim, sph_grid *grid)
+{
+    grid->n = 0;
+    grid->dim = dim;
+    grid->hashed = grid->scattered = 0;
+    grid->cells[0] = grid->cells[1] = grid->cells[2] = 0;
+    grid->buckets = 0;
+    grid->reach = SPH_R(0);
+    grid->low.x = grid->low.y = grid->low.z = SPH_R(0);
+    grid->inverse_width = grid->box = grid->low;
+    grid->first = grid->member = 0;
+    grid->x = grid->y = grid->z = 0;
+}
+
+/* Sorts the sources into cells; reach is the radius that will mostly be searched (others work, too). The
+   coordinates are copied: later changes of the arrays do not matter until the next build. work may be
+   aligned in any way. Along axes with a box length, reach may be half of it. Without sources the grid is
+   empty; work and reach are then not looked at, and work may be null. Returns 0 or a negative sph_error:
+   SPH_ERROR_CAPACITY if work_size is below sph_grid_workspace(dim, sources.n). */
+SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_real reach, void *work, size_t work_size,
+                                sph_grid *grid)
 {
     const int error = sphi_check_points(dim, sources);
     const size_t padded = sphi_padded(sources.n > 0 ? sources.n : 0);
     if (error) return error;
-    if (!work || !grid) return SPH_ERROR_NULL;
+    if (!grid || (!work && sources.n > 0)) return SPH_ERROR_NULL;
+    if (sources.n == 0) {
+        sphi_grid_empty(dim, grid);
+        return 0;
+    }
     if (sph_grid_workspace(dim, sources.n) == 0) return SPH_ERROR_COUNT;
     if (!sphi_radius_ok(reach)) return SPH_ERROR_H;
     if (sphi_check_box(dim, sources, reach)) return SPH_ERROR_BOX;
     if (work_size < sph_grid_workspace(dim, sources.n)) return SPH_ERROR_CAPACITY;
+    work = sphi_aligned(work);
     grid->n = sources.n;
     grid->dim = dim;
     grid->box = sources.box;
@@ -375,10 +471,12 @@ SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_real reach, voi
     return 0;
 }
 
+/* order[slot] = particle: the permutation into cell order; null for no grid, or an empty one */
 SPH_FN const sph_index *sph_grid_order(const sph_grid *grid) { return grid ? grid->member : 0; }
 
-/* For a host that has put all its arrays into cell order (sph_permute with sph_grid_order): from here on the grid speaks of particles by their new numbers, as if it had been built
-   of the new arrays, and sph_grid_order is the identity. The old order is lost: permute first. Returns 0, or SPH_ERROR_NULL. */
+/* For a host that has put all its arrays into cell order (sph_permute with sph_grid_order): from here on the
+   grid speaks of particles by their new numbers, as if it had been built of the new arrays, and
+   sph_grid_order is the identity. The old order is lost: permute first. Returns 0, or SPH_ERROR_NULL. */
 SPH_FN sph_index sph_grid_renumber(sph_grid *grid)
 {
     sph_index s;
@@ -390,7 +488,8 @@ SPH_FN sph_index sph_grid_renumber(sph_grid *grid)
 
 /* ================================================================ lists */
 
-/* The particles of a crowded cell lie between these corners, and none of their radii is below the least one. */
+/* The particles of a crowded cell lie between these corners, and none of their radii is below the least one.
+   */
 typedef struct sphi_crowd {
     size_t bucket;
     sph_vec low, high;
@@ -403,12 +502,12 @@ typedef struct sphi_crowds {
 
 /* What a row asks for. */
 typedef struct sphi_search {
-    sph_vec p;             /* the target, inside the box */
-    sph_real radius;       /* nothing farther is a neighbour */
-    sph_real own;          /* R_i */
-    sph_real widest;       /* half of the smallest box: at no larger radius is a pair seen in one image only */
-    sph_scalars source;    /* R_j */
-    int criterion;         /* how own and source make the pair's radius */
+    sph_vec p;          /* the target, inside the box */
+    sph_real radius;    /* nothing farther is a neighbour */
+    sph_real own;       /* R_i */
+    sph_real widest;    /* half of the smallest box: at no larger radius is a pair seen in one image only */
+    sph_scalars source; /* R_j */
+    int criterion;      /* how own and source make the pair's radius */
     sph_index skip, least; /* not the particle skip; only particles from least on */
     sphi_crowds *crowds;
 } sphi_search;
@@ -434,7 +533,8 @@ SPH_FN sph_real sphi_pair_radius(int criterion, sph_real R_i, sph_real R_j)
     }
 }
 
-/* Whether a slot belongs to a run: buckets of a hashed grid hold other cells, too, and a slot must count in its own row only. */
+/* Whether a slot belongs to a run: buckets of a hashed grid hold other cells, too, and a slot must count in
+   its own row only. */
 SPH_FN int sphi_in_run(int dim, const sph_grid *g, sph_index slot, const sphi_run *run)
 {
     const int64_t x = sphi_cell(g->x[slot], g->low.x, g->inverse_width.x, g->cells[0]);
@@ -443,18 +543,21 @@ SPH_FN int sphi_in_run(int dim, const sph_grid *g, sph_index slot, const sphi_ru
     return dim < 3 || sphi_cell(g->z[slot], g->low.z, g->inverse_width.z, g->cells[2]) == run->z;
 }
 
-/* What is known when the loops are compiled: hashed cells and any radii, or no hashed cells and radii of pairs, one radius in some box, one radius in an open domain. */
+/* What is known when the loops are compiled: hashed cells and any radii, or no hashed cells and radii of
+   pairs, one radius in some box, one radius in an open domain. */
 enum { SPHI_HASHED, SPHI_RADII, SPHI_BOXED, SPHI_OPEN };
 
 /* The squares of the pairs' radii for slots m ... m + n - 1. */
-SPH_FN void sphi_limits_by(int criterion, const sph_grid *g, const sphi_search *s, sph_index m, int n, sph_real *limit)
+SPH_FN void sphi_limits_by(int criterion, const sph_grid *g, const sphi_search *s, sph_index m, int n,
+                           sph_real *limit)
 {
     const sph_real own = s->own, widest = s->widest;
     int l;
     SPH_ASSERT(n >= SPHI_LANES);
     for (l = 0; l < n; l++) {
-        const sph_real R = sphi_lesser(sphi_pair_radius(criterion, own, sphi_at(s->source, g->member[m + l])), widest);
-        limit[l] = R * R;
+        const sph_real radius =
+            sphi_lesser(sphi_pair_radius(criterion, own, sphi_at(s->source, g->member[m + l])), widest);
+        limit[l] = radius * radius;
     }
 }
 SPH_FN void sphi_limits(const sph_grid *g, const sphi_search *s, sph_index m, int n, sph_real *limit)
@@ -488,18 +591,22 @@ SPH_FN unsigned sphi_negative(sph_real x)
 #endif
 }
 
-/* Slots a ... b - 1: puts the neighbours to out[count] as long as count < room, and counts on; returns the new count. */
-SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, sph_index a, sph_index b, sph_index *out,
+/* Slots a ... b - 1: puts the neighbours to out[count] as long as count < room, and counts on; returns the
+   new count. */
+SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const sphi_search *s,
+                                    const sphi_run *run, sph_index a, sph_index b, sph_index *out,
                                     int64_t room, int64_t count)
 {
     const sph_vec p = s->p, shift = run->shift;
     const sph_real limit = s->radius * s->radius;
     const sph_index skip = s->skip, least = s->least;
-    const int store = kind != SPHI_HASHED && count + (int64_t)(b - a) + 1 <= room, tally = kind != SPHI_HASHED && room <= 0;
+    const int store = kind != SPHI_HASHED && count + (int64_t)(b - a) + 1 <= room,
+              tally = kind != SPHI_HASHED && room <= 0;
     for (; a < b; a += SPHI_TILE) {
         const int n = b - a < SPHI_TILE ? (int)(b - a) : (int)SPHI_TILE;
         const sph_index *const member = g->member + a;
-        sph_real limits[SPHI_TILE], excess[SPHI_TILE]; /* of the square of the distance over that of the radius: negative for neighbours */
+        /* excess: of the square of the distance over that of the radius: negative for neighbours */
+        sph_real limits[SPHI_TILE], excess[SPHI_TILE];
         int c, l;
         if (kind <= SPHI_RADII) sphi_limits(g, s, a, (n + SPHI_LANES - 1) / SPHI_LANES * SPHI_LANES, limits);
         for (c = 0; c < n; c += SPHI_LANES)
@@ -510,7 +617,8 @@ SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const 
                 const sph_real d2 = dx * dx + (dim > 1 ? dy * dy : SPH_R(0)) + (dim > 2 ? dz * dz : SPH_R(0));
                 excess[l] = d2 - (kind <= SPHI_RADII ? limits[l] : limit);
             }
-        if (store) { /* without a branch: every candidate is stored, and overwritten by the next if it is no neighbour */
+        if (store) {
+            /* without a branch: every candidate is stored, and overwritten by the next if it is none */
             sph_index *next = out + count;
             if (least == 0)
                 for (l = 0; l < n; l++) {
@@ -525,12 +633,15 @@ SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const 
             count = next - out;
         } else if (tally) {
             unsigned found = 0;
-            for (l = 0; l < n; l++) found += sphi_negative(excess[l]) & (member[l] != skip) & (member[l] >= least);
+            for (l = 0; l < n; l++)
+                found += sphi_negative(excess[l]) & (member[l] != skip) & (member[l] >= least);
             count += found;
         } else
             for (l = 0; l < n; l++) {
                 const sph_index j = member[l];
-                if (!sphi_negative(excess[l]) || j == skip || j < least || (kind == SPHI_HASHED && !sphi_in_run(dim, g, a + l, run))) continue;
+                if (!sphi_negative(excess[l]) || j == skip || j < least ||
+                    (kind == SPHI_HASHED && !sphi_in_run(dim, g, a + l, run)))
+                    continue;
                 if (count < room) out[count] = j;
                 count++;
             }
@@ -552,27 +663,33 @@ SPH_FN void sphi_compress8(sph_index *out, __m256i j, unsigned mask)
 #endif
 }
 
-/* Of the eight slots from m on, those nearer than the limit, or than the eight limits if there are any. Squares. */
+/* Of the eight slots from m on, those nearer than the limit, or than the eight limits if there are any.
+   Squares. */
 #if SPH_SINGLE
 SPH_FN __m256 sphi_square8(float p, const float *x, float shift)
 {
-    const __m256 d = _mm256_sub_ps(_mm256_sub_ps(_mm256_set1_ps(p), _mm256_loadu_ps(x)), _mm256_set1_ps(shift));
+    const __m256 d =
+        _mm256_sub_ps(_mm256_sub_ps(_mm256_set1_ps(p), _mm256_loadu_ps(x)), _mm256_set1_ps(shift));
     return _mm256_mul_ps(d, d);
 }
-SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, float limit, const float *limits)
+SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift,
+                             float limit, const float *limits)
 {
     __m256 d2 = sphi_square8(s->p.x, g->x + m, shift.x);
     if (dim > 1) d2 = _mm256_add_ps(d2, sphi_square8(s->p.y, g->y + m, shift.y));
     if (dim > 2) d2 = _mm256_add_ps(d2, sphi_square8(s->p.z, g->z + m, shift.z));
-    return (unsigned)_mm256_movemask_ps(_mm256_cmp_ps(d2, limits ? _mm256_loadu_ps(limits) : _mm256_set1_ps(limit), _CMP_LT_OQ));
+    return (unsigned)_mm256_movemask_ps(
+        _mm256_cmp_ps(d2, limits ? _mm256_loadu_ps(limits) : _mm256_set1_ps(limit), _CMP_LT_OQ));
 }
 #elif SPH_AVX512
 SPH_FN __m512d sphi_square8(double p, const double *x, double shift)
 {
-    const __m512d d = _mm512_sub_pd(_mm512_sub_pd(_mm512_set1_pd(p), _mm512_loadu_pd(x)), _mm512_set1_pd(shift));
+    const __m512d d =
+        _mm512_sub_pd(_mm512_sub_pd(_mm512_set1_pd(p), _mm512_loadu_pd(x)), _mm512_set1_pd(shift));
     return _mm512_mul_pd(d, d);
 }
-SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, double limit, const double *limits)
+SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift,
+                             double limit, const double *limits)
 {
     __m512d d2 = sphi_square8(s->p.x, g->x + m, shift.x);
     if (dim > 1) d2 = _mm512_add_pd(d2, sphi_square8(s->p.y, g->y + m, shift.y));
@@ -582,25 +699,30 @@ SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, s
 #else
 SPH_FN __m256d sphi_square4(double p, const double *x, double shift)
 {
-    const __m256d d = _mm256_sub_pd(_mm256_sub_pd(_mm256_set1_pd(p), _mm256_loadu_pd(x)), _mm256_set1_pd(shift));
+    const __m256d d =
+        _mm256_sub_pd(_mm256_sub_pd(_mm256_set1_pd(p), _mm256_loadu_pd(x)), _mm256_set1_pd(shift));
     return _mm256_mul_pd(d, d);
 }
-SPH_FN unsigned sphi_nearer4(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, double limit, const double *limits)
+SPH_FN unsigned sphi_nearer4(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift,
+                             double limit, const double *limits)
 {
     __m256d d2 = sphi_square4(s->p.x, g->x + m, shift.x);
     if (dim > 1) d2 = _mm256_add_pd(d2, sphi_square4(s->p.y, g->y + m, shift.y));
     if (dim > 2) d2 = _mm256_add_pd(d2, sphi_square4(s->p.z, g->z + m, shift.z));
-    return (unsigned)_mm256_movemask_pd(_mm256_cmp_pd(d2, limits ? _mm256_loadu_pd(limits) : _mm256_set1_pd(limit), _CMP_LT_OQ));
+    return (unsigned)_mm256_movemask_pd(
+        _mm256_cmp_pd(d2, limits ? _mm256_loadu_pd(limits) : _mm256_set1_pd(limit), _CMP_LT_OQ));
 }
-SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift, double limit, const double *limits)
+SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, sph_index m, sph_vec shift,
+                             double limit, const double *limits)
 {
-    return sphi_nearer4(dim, g, s, m, shift, limit, limits) | sphi_nearer4(dim, g, s, m + 4, shift, limit, limits ? limits + 4 : 0) << 4;
+    return sphi_nearer4(dim, g, s, m, shift, limit, limits) |
+           sphi_nearer4(dim, g, s, m + 4, shift, limit, limits ? limits + 4 : 0) << 4;
 }
 #endif
 
 /* store = 0: counts only, and out is not touched */
-SPH_FN int64_t sphi_filter_wide(int dim, int kind, const sph_grid *g, const sphi_search *s, sph_vec shift, sph_index a, sph_index b, sph_index *out, int store,
-                                int64_t count)
+SPH_FN int64_t sphi_filter_wide(int dim, int kind, const sph_grid *g, const sphi_search *s, sph_vec shift,
+                                sph_index a, sph_index b, sph_index *out, int store, int64_t count)
 {
     const sph_real limit = s->radius * s->radius;
     const __m256i skip = _mm256_set1_epi32((int)s->skip), least = _mm256_set1_epi32((int)s->least);
@@ -611,18 +733,22 @@ SPH_FN int64_t sphi_filter_wide(int dim, int kind, const sph_grid *g, const sphi
         const __m256i j = _mm256_loadu_si256((const __m256i *)(const void *)(g->member + m));
         const __m256i drop = _mm256_or_si256(_mm256_cmpeq_epi32(j, skip), _mm256_cmpgt_epi32(least, j));
         unsigned mask;
-        if (kind == SPHI_RADII && at == 0) sphi_limits(g, s, m, b - m < SPHI_TILE ? (int)((b - m + 7) / 8 * 8) : (int)SPHI_TILE, limits);
-        mask = sphi_nearer8(dim, g, s, m, shift, limit, kind == SPHI_RADII ? limits + at : 0) & ~(unsigned)_mm256_movemask_ps(_mm256_castsi256_ps(drop));
+        if (kind == SPHI_RADII && at == 0)
+            sphi_limits(g, s, m, b - m < SPHI_TILE ? (int)((b - m + 7) / 8 * 8) : (int)SPHI_TILE, limits);
+        mask = sphi_nearer8(dim, g, s, m, shift, limit, kind == SPHI_RADII ? limits + at : 0) &
+               ~(unsigned)_mm256_movemask_ps(_mm256_castsi256_ps(drop));
         mask &= b - m < 8 ? (1u << (b - m)) - 1u : 0xffu;
         if (store) sphi_compress8(out + count, j, mask);
         count += __builtin_popcount(mask);
     }
     return count;
 }
-/* The same where the room may not do for whole lanes: not the portable loop, because that may be rounded otherwise (where the compiler contracts it to fused operations), and a row would
-   not be as long as it was counted. */
-SPHI_LARGE int64_t sphi_filter_tight(int dim, int kind, const sph_grid *g, const sphi_search *s, sph_vec shift, sph_index a, sph_index b, sph_index *out,
-                                     int64_t room, int64_t count)
+/* The same where the room may not do for whole lanes: not the portable loop, because that may be rounded
+   otherwise (where the compiler contracts it to fused operations), and a row would not be as long as it was
+   counted. */
+SPHI_LARGE int64_t sphi_filter_tight(int dim, int kind, const sph_grid *g, const sphi_search *s,
+                                     sph_vec shift, sph_index a, sph_index b, sph_index *out, int64_t room,
+                                     int64_t count)
 {
     for (; a < b; a += 8) {
         sph_index some[8];
@@ -635,8 +761,8 @@ SPHI_LARGE int64_t sphi_filter_tight(int dim, int kind, const sph_grid *g, const
 }
 #endif
 
-SPH_FN int64_t sphi_filter(int dim, int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, sph_index a, sph_index b, sph_index *out,
-                           int64_t room, int64_t count)
+SPH_FN int64_t sphi_filter(int dim, int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
+                           sph_index a, sph_index b, sph_index *out, int64_t room, int64_t count)
 {
 #if SPH_AVX512 || SPH_AVX2
     const int store = count + (int64_t)(b - a) + 8 <= room;
@@ -649,15 +775,18 @@ SPH_FN int64_t sphi_filter(int dim, int kind, const sph_grid *g, const sphi_sear
 }
 
 /* The cells from x - R to x + R along an axis; along a periodic one they may lie outside of the box. */
-SPH_FN void sphi_range(sph_real x, sph_real R, sph_real low, sph_real inverse_width, sph_real length, int64_t cells, int64_t *c0, int64_t *c1)
+SPH_FN void sphi_range(sph_real x, sph_real radius, sph_real low, sph_real inverse_width, sph_real length,
+                       int64_t cells, int64_t *c0, int64_t *c1)
 {
     if (length > SPH_R(0)) {
-        const sph_real more = R + SPH_R(16) * SPH_EPSILON * (length + SPHI_ABS(low)); /* rounding differs from image to image */
+        const sph_real more =
+            radius +
+            SPH_R(16) * SPH_EPSILON * (length + SPHI_ABS(low)); /* rounding differs from image to image */
         *c0 = sphi_cell_periodic(x - more, low, inverse_width);
         *c1 = sphi_cell_periodic(x + more, low, inverse_width);
     } else {
-        *c0 = sphi_cell(x - R, low, inverse_width, cells);
-        *c1 = sphi_cell(x + R, low, inverse_width, cells);
+        *c0 = sphi_cell(x - radius, low, inverse_width, cells);
+        *c1 = sphi_cell(x + radius, low, inverse_width, cells);
     }
 }
 /* a cell outside of the box: which image (0 inside), moving c inside */
@@ -670,11 +799,14 @@ SPH_FN int64_t sphi_image(int64_t cells, int64_t *c)
     return image;
 }
 
-/* ---- crowded cells: where many particles have collapsed into a small place, rows are as long as the cloud. A cell
-   that lies within the radius as a whole is then taken, or counted, without a look at its particles. The result is
+/* ---- crowded cells: where many particles have collapsed into a small place, rows are as long as the cloud.
+   A cell
+   that lies within the radius as a whole is then taken, or counted, without a look at its particles. The
+   result is
    the one that distances give. */
 
-/* the first slot of a ... b - 1 whose particle is not below j; the slots of a bucket are in the order of their particles */
+/* the first slot of a ... b - 1 whose particle is not below j; the slots of a bucket are in the order of
+   their particles */
 SPH_FN sph_index sphi_lower_bound(const sph_grid *g, sph_index a, sph_index b, sph_index j)
 {
     while (a < b) {
@@ -688,17 +820,19 @@ SPH_FN sph_real sphi_source_radius(const sph_grid *g, const sphi_search *s, sph_
 {
     return s->criterion == SPH_GATHER ? SPH_R(0) : sphi_at(s->source, g->member[slot]);
 }
-SPH_FN void sphi_crowd_add(int dim, const sph_grid *g, const sphi_search *s, sph_index slot, sphi_crowd *crowd)
+SPH_FN void sphi_crowd_add(int dim, const sph_grid *g, const sphi_search *s, sph_index slot,
+                           sphi_crowd *crowd)
 {
     sph_vec p;
-    const sph_real R = sphi_source_radius(g, s, slot);
+    const sph_real radius = sphi_source_radius(g, s, slot);
     p.x = g->x[slot];
     p.y = dim > 1 ? g->y[slot] : SPH_R(0);
     p.z = dim > 2 ? g->z[slot] : SPH_R(0);
     sphi_enclose(p, &crowd->low, &crowd->high);
-    if (R < crowd->least) crowd->least = R;
+    if (radius < crowd->least) crowd->least = radius;
 }
-SPH_FN sphi_crowd sphi_crowd_of(int dim, const sph_grid *g, const sphi_search *s, size_t bucket, sph_index a, sph_index b, sph_index step)
+SPH_FN sphi_crowd sphi_crowd_of(int dim, const sph_grid *g, const sphi_search *s, size_t bucket, sph_index a,
+                                sph_index b, sph_index step)
 {
     sphi_crowd crowd;
     crowd.bucket = bucket;
@@ -716,15 +850,17 @@ SPH_FN sph_real sphi_farther2(sph_real p, sph_real low, sph_real high, sph_real 
     const sph_real l = SPHI_ABS((p - low) - shift), h = SPHI_ABS((p - high) - shift);
     return l > h ? l * l : h * h;
 }
-/* Whether all of a crowd are in the run and nearer than their radii, by so much that no rounding of theirs can tell otherwise. */
-SPH_FN int sphi_crowd_near(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, const sphi_crowd *crowd)
+/* Whether all of a crowd are in the run and nearer than their radii, by so much that no rounding of theirs
+   can tell otherwise. */
+SPH_FN int sphi_crowd_near(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
+                           const sphi_crowd *crowd)
 {
-    const sph_real R = sphi_lesser(sphi_pair_radius(s->criterion, s->own, crowd->least), s->widest);
+    const sph_real radius = sphi_lesser(sphi_pair_radius(s->criterion, s->own, crowd->least), s->widest);
     const sph_vec shift = run->shift, low = crowd->low, high = crowd->high;
     sph_real d2 = sphi_farther2(s->p.x, low.x, high.x, shift.x);
     if (g->dim > 1) d2 += sphi_farther2(s->p.y, low.y, high.y, shift.y);
     if (g->dim > 2) d2 += sphi_farther2(s->p.z, low.z, high.z, shift.z);
-    if (!(d2 < R * R * (SPH_R(1) - SPH_R(64) * SPH_EPSILON))) return 0;
+    if (!(d2 < radius * radius * (SPH_R(1) - SPH_R(64) * SPH_EPSILON))) return 0;
     if (kind != SPHI_HASHED) return 1;
     if (sphi_cell(low.x, g->low.x, g->inverse_width.x, g->cells[0]) < run->x0) return 0;
     if (sphi_cell(high.x, g->low.x, g->inverse_width.x, g->cells[0]) > run->x1) return 0;
@@ -734,14 +870,16 @@ SPH_FN int sphi_crowd_near(int kind, const sph_grid *g, const sphi_search *s, co
     return g->dim < 3 || sphi_cell(high.z, g->low.z, g->inverse_width.z, g->cells[2]) == run->z;
 }
 /* Whether all particles of a bucket are neighbours, as far as can be told without a look at each. */
-SPH_FN int sphi_crowd_taken(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, size_t bucket)
+SPH_FN int sphi_crowd_taken(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
+                            size_t bucket)
 {
     const sph_index a = g->first[bucket], b = g->first[bucket + 1];
     sphi_crowds *const known = s->crowds;
     sphi_crowd crowd;
     int i;
     if (b - a < SPHI_CROWDED) return 0;
-    crowd = sphi_crowd_of(g->dim, g, s, bucket, a, b, (b - a) / 4 + 1); /* of a few: bounds of a wide crowd would be of no use */
+    crowd = sphi_crowd_of(g->dim, g, s, bucket, a, b,
+                          (b - a) / 4 + 1); /* of a few: bounds of a wide crowd would be of no use */
     if (!sphi_crowd_near(kind, g, s, run, &crowd)) return 0;
     for (i = 0; i < known->count && known->of[i].bucket != bucket; i++) {}
     if (i == known->count) {
@@ -752,13 +890,15 @@ SPH_FN int sphi_crowd_taken(int kind, const sph_grid *g, const sphi_search *s, c
     }
     return sphi_crowd_near(kind, g, s, run, &known->of[i]);
 }
-SPHI_LARGE int sphi_has_crowd(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, size_t from, size_t to)
+SPHI_LARGE int sphi_has_crowd(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
+                              size_t from, size_t to)
 {
     while (from < to && !sphi_crowd_taken(kind, g, s, run, from)) from++;
     return from < to;
 }
 /* All of the slots a ... b - 1 of one bucket: as sphi_filter would, but for the distances. */
-SPHI_LARGE int64_t sphi_take(const sph_grid *g, const sphi_search *s, sph_index a, sph_index b, sph_index *out, int64_t room, int64_t count)
+SPHI_LARGE int64_t sphi_take(const sph_grid *g, const sphi_search *s, sph_index a, sph_index b,
+                             sph_index *out, int64_t room, int64_t count)
 {
     sph_index m = sphi_lower_bound(g, a, b, s->least);
     const sph_index own = sphi_lower_bound(g, m, b, s->skip);
@@ -770,8 +910,8 @@ SPHI_LARGE int64_t sphi_take(const sph_grid *g, const sphi_search *s, sph_index 
     return end;
 }
 /* A run with a crowd in it; not specialised, because what is not taken as a whole is little. */
-SPHI_LARGE int64_t sphi_filter_crowded(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, size_t from, size_t to, sph_index *out,
-                                       int64_t room, int64_t count)
+SPHI_LARGE int64_t sphi_filter_crowded(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
+                                       size_t from, size_t to, sph_index *out, int64_t room, int64_t count)
 {
     for (; from < to; from++) {
         const sph_index a = g->first[from], b = g->first[from + 1];
@@ -781,16 +921,19 @@ SPHI_LARGE int64_t sphi_filter_crowded(int kind, const sph_grid *g, const sphi_s
     return count;
 }
 /* The buckets from ... to - 1, which follow each other. */
-SPH_FN int64_t sphi_buckets(int dim, int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run, size_t from, size_t to, sph_index *out,
-                            int64_t room, int64_t count)
+SPH_FN int64_t sphi_buckets(int dim, int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
+                            size_t from, size_t to, sph_index *out, int64_t room, int64_t count)
 {
     const sph_index a = g->first[from], b = g->first[to];
-    if (b - a >= SPHI_CROWDED && sphi_has_crowd(kind, g, s, run, from, to)) return sphi_filter_crowded(kind, g, s, run, from, to, out, room, count);
+    if (b - a >= SPHI_CROWDED && sphi_has_crowd(kind, g, s, run, from, to))
+        return sphi_filter_crowded(kind, g, s, run, from, to, out, room, count);
     return sphi_filter(dim, kind, g, s, run, a, b, out, room, count);
 }
 
-/* The neighbours of one target: filters, or with count_all just counts the candidates. Adds their number to *candidates. */
-SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search *s, int count_all, sph_index *out, int64_t room, int64_t *candidates)
+/* The neighbours of one target: filters, or with count_all just counts the candidates. Adds their number to
+   *candidates. */
+SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search *s, int count_all,
+                        sph_index *out, int64_t room, int64_t *candidates)
 {
     const int boxed = kind != SPHI_OPEN, hashed = kind == SPHI_HASHED;
     const sph_vec box = g->box;
@@ -798,14 +941,21 @@ SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search 
     sphi_run run;
     run.y = run.z = 0;
     run.shift.x = run.shift.y = run.shift.z = SPH_R(0);
-    if (dim > 1) sphi_range(s->p.y, s->radius, g->low.y, g->inverse_width.y, boxed ? box.y : SPH_R(0), g->cells[1], &y0, &y1);
-    if (dim > 2) sphi_range(s->p.z, s->radius, g->low.z, g->inverse_width.z, boxed ? box.z : SPH_R(0), g->cells[2], &z0, &z1);
-    sphi_range(s->p.x, s->radius, g->low.x, g->inverse_width.x, boxed ? box.x : SPH_R(0), g->cells[0], &x0, &x1);
-    if (kind ==
-        SPHI_OPEN) { /* the same as below, with nothing to wrap. Looking at rows near the rim over less of their length, or not at all, costs more than it saves. */
+    if (dim > 1)
+        sphi_range(s->p.y, s->radius, g->low.y, g->inverse_width.y, boxed ? box.y : SPH_R(0), g->cells[1],
+                   &y0, &y1);
+    if (dim > 2)
+        sphi_range(s->p.z, s->radius, g->low.z, g->inverse_width.z, boxed ? box.z : SPH_R(0), g->cells[2],
+                   &z0, &z1);
+    sphi_range(s->p.x, s->radius, g->low.x, g->inverse_width.x, boxed ? box.x : SPH_R(0), g->cells[0], &x0,
+               &x1);
+    if (kind == SPHI_OPEN) {
+        /* the same as below, with nothing to wrap. Looking at rows near the rim over less of their length, or
+           not at all, costs more than it saves. */
         for (z = z0; z <= z1; z++)
             for (y = y0; y <= y1; y++) {
-                const size_t row = (size_t)((z * g->cells[1] + y) * g->cells[0]), from = row + (size_t)x0, to = row + (size_t)x1 + 1;
+                const size_t row = (size_t)((z * g->cells[1] + y) * g->cells[0]), from = row + (size_t)x0,
+                             to = row + (size_t)x1 + 1;
                 *candidates += g->first[to] - g->first[from];
                 if (!count_all) count = sphi_buckets(dim, kind, g, s, &run, from, to, out, room, count);
             }
@@ -819,7 +969,8 @@ SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search 
             run.y = y;
             if (dim > 1 && box.y > SPH_R(0)) run.shift.y = box.y * (sph_real)sphi_image(g->cells[1], &run.y);
             row = sphi_row_bucket(g, run.y, run.z);
-            for (x = x0; x <= x1; x += run.x1 - run.x0 + 1) { /* more than once only where a row passes the end of the box */
+            for (x = x0; x <= x1;
+                 x += run.x1 - run.x0 + 1) { /* more than once only where a row passes the end of the box */
                 size_t from, left;
                 run.x0 = x;
                 if (box.x > SPH_R(0)) run.shift.x = box.x * (sph_real)sphi_image(g->cells[0], &run.x0);
@@ -863,7 +1014,7 @@ SPH_FN void sphi_sort(sph_index *a, sph_index n)
     }
 }
 
-/* What a call of sph_grid_lists is about. */
+/* What a call of sph_grid_lists or sph_grid_count is about. */
 typedef struct sphi_job {
     const sph_grid *g;
     sph_points targets;
@@ -875,15 +1026,21 @@ typedef struct sphi_job {
     sph_index *start, *index;
 } sphi_job;
 
-/* SPHI_APPEND: rows one after the other to index[0 ... room - 1], lengths to start[i + 1]. In two passes: SPHI_LENGTHS to start[i + 1], and, once these are starts, SPHI_PLACE each row
-   where it belongs: for targets stored in an order far from that of the cells, which are then visited by slots, where near targets follow each other. */
+/* SPHI_APPEND: rows one after the other to index[0 ... room - 1], lengths to start[i + 1]. In two passes:
+   SPHI_LENGTHS to start[i + 1], and, once these are starts, SPHI_PLACE each row where it belongs: for targets
+   stored in an order far from that of the cells, which are then visited by slots, where near targets follow
+   each other. */
 enum { SPHI_APPEND, SPHI_LENGTHS, SPHI_PLACE, SPHI_BUFFER = 768 };
 
-/* One compiled copy for all three, so that a row is placed with the roundings with which it was counted: start, which
-   PLACE reads, holds what LENGTHS or APPEND counted. Returns the sum of the lengths, none of them estimated, and adds
-   the number of candidates, which is never less, to *candidates. Only once the sum is more than sph_index can count,
+/* One compiled copy for all three, so that a row is placed with the roundings with which it was counted:
+   start, which
+   PLACE reads, holds what LENGTHS or APPEND counted. Returns the sum of the lengths, none of them estimated,
+   and adds
+   the number of candidates, which is never less, to *candidates. Only once the sum is more than sph_index can
+   count,
    where there will be no list, are candidates alone looked at. */
-SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room, int64_t *candidates)
+SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_index first, sph_index last,
+                         sph_index *index, int64_t room, int64_t *candidates)
 {
     const sph_grid *const g = job->g;
     int64_t total = 0;
@@ -914,14 +1071,18 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
             row = index + job->start[i];
         }
         s.own = job->criterion == SPH_SCATTER ? SPH_R(0) : sphi_at(job->target_radius, i);
-        s.radius = sphi_lesser(kind > SPHI_RADII ? s.own : sphi_pair_radius(job->criterion, s.own, job->source_largest), s.widest);
+        s.radius = sphi_lesser(
+            kind > SPHI_RADII ? s.own : sphi_pair_radius(job->criterion, s.own, job->source_largest),
+            s.widest);
         s.skip = job->flags & (SPH_LIST_SELF | SPH_LIST_FOREIGN) ? -1 : i;
         s.least = job->flags & SPH_LIST_HALF ? i : 0;
         buffered = mode == SPHI_PLACE && row_room <= SPHI_BUFFER / 2;
-        count = sphi_row(dim, kind, g, &s, total > SPHI_INDEX_MAX, buffered ? buffer : row, buffered ? (int64_t)SPHI_BUFFER : row_room, candidates);
+        count = sphi_row(dim, kind, g, &s, total > SPHI_INDEX_MAX, buffered ? buffer : row,
+                         buffered ? (int64_t)SPHI_BUFFER : row_room, candidates);
         SPH_ASSERT(mode != SPHI_PLACE || count == row_room);
         for (p = 0; buffered && p < (sph_index)row_room; p++) row[p] = buffer[p];
-        if (mode != SPHI_LENGTHS && (job->flags & SPH_LIST_SORTED) && count <= row_room) sphi_sort(row, (sph_index)count);
+        if (mode != SPHI_LENGTHS && (job->flags & SPH_LIST_SORTED) && count <= row_room)
+            sphi_sort(row, (sph_index)count);
         if (mode != SPHI_PLACE) {
             SPH_ASSERT(count <= g->n);
             total += count;
@@ -931,7 +1092,8 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
     return total;
 }
 #define SPHI_PASS(name, dim, kind) \
-    SPHI_LARGE int64_t name(int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room, int64_t *candidates) \
+    SPHI_LARGE int64_t name(int mode, const sphi_job *job, sph_index first, sph_index last, \
+                            sph_index *index, int64_t room, int64_t *candidates) \
     { \
         return sphi_pass(dim, kind, mode, job, first, last, index, room, candidates); \
     }
@@ -948,7 +1110,8 @@ SPHI_PASS(sphi_pass_open_1, 1, SPHI_OPEN)
 SPHI_PASS(sphi_pass_open_2, 2, SPHI_OPEN)
 SPHI_PASS(sphi_pass_open_3, 3, SPHI_OPEN)
 #undef SPHI_PASS
-SPH_FN int64_t sphi_pass_part(int mode, const sphi_job *job, sph_index first, sph_index last, sph_index *index, int64_t room, int64_t *candidates)
+SPH_FN int64_t sphi_pass_part(int mode, const sphi_job *job, sph_index first, sph_index last,
+                              sph_index *index, int64_t room, int64_t *candidates)
 {
     switch (job->kind * 4 + job->g->dim) {
     case SPHI_HASHED * 4 + 1:
@@ -979,11 +1142,16 @@ SPH_FN int64_t sphi_pass_part(int mode, const sphi_job *job, sph_index first, sp
 }
 
 /* where a part's share of the room begins */
-SPH_FN int64_t sphi_from(int64_t room, int part, int parts) { return part < parts ? room / parts * part : room; }
+SPH_FN int64_t sphi_from(int64_t room, int part, int parts)
+{
+    return part < parts ? room / parts * part : room;
+}
 
-/* A pass by all threads. Each part appends to its own part of index, or places where start says. *spilt: a part of
+/* A pass by all threads. Each part appends to its own part of index, or places where start says. *spilt: a
+   part of
    index proved too small; all rows are counted all the same. */
-SPHI_LARGE int64_t sphi_pass_threads(int mode, const sphi_job *job, int parts, int *spilt, int64_t *candidates)
+SPHI_LARGE int64_t sphi_pass_threads(int mode, const sphi_job *job, int parts, int *spilt,
+                                     int64_t *candidates)
 {
     const sph_index n = job->by_slots ? job->g->n : job->targets.n;
     int64_t total = 0, seen = 0;
@@ -993,10 +1161,12 @@ SPHI_LARGE int64_t sphi_pass_threads(int mode, const sphi_job *job, int parts, i
 #endif
     for (part = 0; part < parts; part++) {
         const int64_t from = mode == SPHI_APPEND ? sphi_from(job->capacity, part, parts) : 0;
-        const int64_t room = mode == SPHI_APPEND ? sphi_from(job->capacity, part + 1, parts) - from : job->capacity;
+        const int64_t room =
+            mode == SPHI_APPEND ? sphi_from(job->capacity, part + 1, parts) - from : job->capacity;
         int64_t looked_at = 0;
-        const int64_t mine = sphi_pass_part(mode, job, sphi_first(n, part, parts), sphi_first(n, part + 1, parts),
-                                            job->capacity > 0 ? job->index + from : job->index, room, &looked_at);
+        const int64_t mine =
+            sphi_pass_part(mode, job, sphi_first(n, part, parts), sphi_first(n, part + 1, parts),
+                           job->capacity > 0 ? job->index + from : job->index, room, &looked_at);
         total += mine;
         seen += looked_at;
         over |= mine > room;
@@ -1006,7 +1176,8 @@ SPHI_LARGE int64_t sphi_pass_threads(int mode, const sphi_job *job, int parts, i
     return total;
 }
 
-/* Moves entries down. Threads share as many at a time as the gap is wide: no further, because what lies there is to be overwritten. */
+/* Moves entries down. Threads share as many at a time as the gap is wide: no further, because what lies there
+   is to be overwritten. */
 SPHI_LARGE void sphi_close_gap(sph_index *to, const sph_index *from, int64_t length, int parts)
 {
     const int64_t gap = from - to;
@@ -1028,8 +1199,8 @@ SPHI_LARGE void sphi_close_gap(sph_index *to, const sph_index *from, int64_t len
     }
 }
 
-/* Returns the number of pairs. Where that is more than sph_index can count, the number of candidates stands for it: no
-   less than the pairs, and the same however the targets were shared among threads. */
+/* Returns the number of pairs. Where that is more than sph_index can count, the number of candidates stands
+   for it: no less than the pairs, and the same however the targets were shared among threads. */
 SPHI_LARGE int64_t sphi_lists(const sphi_job *job)
 {
     const sph_index n = job->targets.n;
@@ -1037,7 +1208,8 @@ SPHI_LARGE int64_t sphi_lists(const sphi_job *job)
     sph_index *const start = job->start, i;
     int64_t candidates;
     int spilt, part;
-    const int64_t total = sphi_pass_threads(append ? SPHI_APPEND : SPHI_LENGTHS, job, parts, &spilt, &candidates);
+    const int64_t total =
+        sphi_pass_threads(append ? SPHI_APPEND : SPHI_LENGTHS, job, parts, &spilt, &candidates);
     if (total > SPHI_INDEX_MAX) return candidates;
     if (job->capacity > 0 && total > job->capacity) return total;
     start[0] = 0;
@@ -1047,87 +1219,245 @@ SPHI_LARGE int64_t sphi_lists(const sphi_job *job)
     if (!append || spilt) sphi_pass_threads(SPHI_PLACE, job, parts, &spilt, &candidates);
     else
         for (part = 1; part < parts; part++) { /* each part down to the end of the one before */
-            const sph_index begin = start[sphi_first(n, part, parts)], length = start[sphi_first(n, part + 1, parts)] - begin;
-            sphi_close_gap(job->index + begin, job->index + sphi_from(job->capacity, part, parts), length, parts);
+            const sph_index begin = start[sphi_first(n, part, parts)],
+                            length = start[sphi_first(n, part + 1, parts)] - begin;
+            sphi_close_gap(job->index + begin, job->index + sphi_from(job->capacity, part, parts), length,
+                           parts);
         }
     return total;
 }
 
-/* Neighbour lists of targets.n targets: start[0 ... n], and index[start[i]] ... index[start[i + 1] - 1] for target i. Unless flags has SPH_LIST_FOREIGN, target i is source i (the targets may
-   be the first of the sources). Radii are support radii, one per target and source, or one for all (sph_scalars_same); only those that the criterion uses are read. index = 0 counts
-   only; else it must have room for capacity entries (entries beyond *pairs may be overwritten). *pairs is the number of entries of the lists.
-   Returns 0 or a negative sph_error.
-   SPH_ERROR_CAPACITY: index has room for fewer than *pairs entries, which is their exact number. start and index then
-   hold nothing of use, and nothing beyond capacity was written.
-   SPH_ERROR_PAIRS: there are more pairs than sph_index can count, so that no start can name them; *pairs is an upper
-   bound of their number. As above, start and index hold nothing of use.
-   SPH_ERROR_RADIUS: a radius is more than 32 times the reach that the grid was built for. SPH_ERROR_BOX: a radius is
-   more than half of a periodic box. SPH_ERROR_H: a radius is not within 1e-150 ... 1e150 (1e-18 ... 1e18 in float), so
-   that its square is a number. On these and all other errors nothing is written. */
-SPH_FN sph_index sph_grid_lists(int dim, const sph_grid *grid, sph_points targets, int criterion, sph_scalars target_radius, sph_scalars source_radius,
-                                int flags, sph_index *start, sph_index *index, int64_t capacity, int64_t *pairs)
+/* What is asked for, once it is found to make sense: a job, without the room for its lists. */
+SPH_FN int sphi_job_of(int dim, const sph_grid *grid, sph_points targets, int criterion,
+                       sph_scalars target_radius, sph_scalars source_radius, int flags, sph_index *start,
+                       sphi_job *job)
 {
     const int by_source = criterion != SPH_GATHER, by_target = criterion != SPH_SCATTER;
-    int error;
     const int known = SPH_LIST_SELF | SPH_LIST_HALF | SPH_LIST_SORTED | SPH_LIST_FOREIGN;
     sph_real largest = SPH_R(0);
-    sphi_job job;
     sph_index i;
-    int uniform, plain;
+    int error, uniform, plain;
     if (grid && grid->dim != dim) return SPH_ERROR_DIM;
     if (grid && !(flags & SPH_LIST_FOREIGN) && targets.n > grid->n) return SPH_ERROR_RANGE;
     error = sphi_check_points(dim, targets);
     if (error) return error;
-    if (!grid || !start || !pairs || (by_target && !target_radius.p) || (by_source && !source_radius.p)) return SPH_ERROR_NULL;
-    if (criterion < (int)SPH_GATHER || criterion > (int)SPH_MEAN || (flags & ~known) || capacity < 0) return SPH_ERROR_VALUE;
+    if (!grid || !start) return SPH_ERROR_NULL;
+    if (criterion < (int)SPH_GATHER || criterion > (int)SPH_MEAN || (flags & ~known)) return SPH_ERROR_VALUE;
     if ((flags & SPH_LIST_FOREIGN) && (flags & (SPH_LIST_SELF | SPH_LIST_HALF))) return SPH_ERROR_VALUE;
-    job.source_largest = SPH_R(0);
+    job->g = grid;
+    job->targets = targets;
+    job->start = start;
+    job->index = 0;
+    job->capacity = 0;
+    job->source_largest = SPH_R(0);
+    if (targets.n == 0 || grid->n == 0) return 0; /* nothing to look at */
+    if ((by_target && !target_radius.p) || (by_source && !source_radius.p)) return SPH_ERROR_NULL;
     for (i = 0; by_target && i < (target_radius.stride ? targets.n : 1); i++) {
-        const sph_real R = sphi_at(target_radius, i);
-        if (!sphi_radius_ok(R)) return SPH_ERROR_H;
-        if (R > largest) largest = R;
+        const sph_real radius = sphi_at(target_radius, i);
+        if (!sphi_radius_ok(radius)) return SPH_ERROR_H;
+        if (radius > largest) largest = radius;
     }
     for (i = 0; by_source && i < (source_radius.stride ? grid->n : 1); i++) {
-        const sph_real R = sphi_at(source_radius, i);
-        if (!sphi_radius_ok(R)) return SPH_ERROR_H;
-        if (R > job.source_largest) job.source_largest = R;
+        const sph_real radius = sphi_at(source_radius, i);
+        if (!sphi_radius_ok(radius)) return SPH_ERROR_H;
+        if (radius > job->source_largest) job->source_largest = radius;
     }
-    if (job.source_largest > largest) largest = job.source_largest;
-    targets.box = grid->box;
+    if (job->source_largest > largest) largest = job->source_largest;
+    targets.box = job->targets.box = grid->box;
     if (sphi_check_box(dim, targets, largest)) return SPH_ERROR_BOX;
     if (largest > SPH_R(SPHI_FARTHEST) * grid->reach) return SPH_ERROR_RADIUS;
 
     /* equal radii for all are one radius, whatever the criterion */
-    uniform = by_source && source_radius.stride == 0 && (!by_target || (target_radius.stride == 0 && sphi_at(target_radius, 0) == sphi_at(source_radius, 0)));
+    uniform = by_source && source_radius.stride == 0;
+    if (uniform && by_target && target_radius.stride) uniform = 0;
+    if (uniform && by_target) uniform = sphi_at(target_radius, 0) == sphi_at(source_radius, 0);
     plain = !grid->hashed && (!by_source || uniform);
-    job.g = grid;
-    job.targets = targets;
-    job.kind = grid->hashed ? SPHI_HASHED : !plain ? SPHI_RADII : sphi_boxed(dim, grid->box) ? SPHI_BOXED : SPHI_OPEN;
-    job.criterion = plain ? (int)SPH_GATHER : criterion;
-    job.flags = flags;
-    job.target_radius = uniform ? source_radius : target_radius;
-    job.widest = largest;
-    if (grid->box.x > SPH_R(0)) job.widest = sphi_lesser(job.widest, SPH_R(0.5) * grid->box.x);
-    if (dim > 1 && grid->box.y > SPH_R(0)) job.widest = sphi_lesser(job.widest, SPH_R(0.5) * grid->box.y);
-    if (dim > 2 && grid->box.z > SPH_R(0)) job.widest = sphi_lesser(job.widest, SPH_R(0.5) * grid->box.z);
-    job.source_radius = source_radius;
-    job.by_slots = grid->scattered && !(flags & SPH_LIST_FOREIGN);
-    job.capacity = index ? capacity : 0;
-    job.start = start;
+    if (grid->hashed) job->kind = SPHI_HASHED;
+    else if (!plain) job->kind = SPHI_RADII;
+    else job->kind = sphi_boxed(dim, grid->box) ? SPHI_BOXED : SPHI_OPEN;
+    job->criterion = plain ? (int)SPH_GATHER : criterion;
+    job->flags = flags;
+    job->target_radius = uniform ? source_radius : target_radius;
+    job->source_radius = source_radius;
+    job->widest = largest;
+    if (grid->box.x > SPH_R(0)) job->widest = sphi_lesser(job->widest, SPH_R(0.5) * grid->box.x);
+    if (dim > 1 && grid->box.y > SPH_R(0)) job->widest = sphi_lesser(job->widest, SPH_R(0.5) * grid->box.y);
+    if (dim > 2 && grid->box.z > SPH_R(0)) job->widest = sphi_lesser(job->widest, SPH_R(0.5) * grid->box.z);
+    job->by_slots = grid->scattered && !(flags & SPH_LIST_FOREIGN);
+    return 0;
+}
+/* Does it: the answer of sph_grid_lists and of sph_grid_count. */
+SPH_FN sph_index sphi_job_do(const sphi_job *job, int64_t *pairs)
+{
+    sph_index i;
+    if (job->targets.n == 0 || job->g->n == 0) {
+        for (i = 0; i <= job->targets.n; i++) job->start[i] = 0;
+        return 0;
+    }
+    *pairs = sphi_lists(job);
+    return *pairs > SPHI_INDEX_MAX ? SPH_ERROR_PAIRS : 0;
+}
+
+/* Neighbour lists of targets.n targets: start[0 ... n], and index[start[i]] ... index[start[i + 1] - 1]
+   for target i. Unless flags has SPH_LIST_FOREIGN, target i is source i (the targets may be the first of
+   the sources). Radii are support radii, one per target and source, or one for all (sph_scalars_same);
+   only those that the criterion uses are read. index has room for capacity entries (entries beyond *pairs
+   may be overwritten); it may be null if that is 0. *pairs is the number of entries of the lists. It is
+   set on every return, to 0 where nothing is known. Without targets start[0] is set to 0, without sources
+   all of start, and radii may be null.
+   Returns 0 or a negative sph_error.
+   SPH_ERROR_CAPACITY: index has room for fewer than *pairs entries, which is their exact number. start and
+   index then hold nothing of use, and nothing beyond capacity was written.
+   SPH_ERROR_PAIRS: there are more pairs than sph_index can count, so that no start can name them; *pairs
+   is an upper bound of their number. As above, start and index hold nothing of use.
+   SPH_ERROR_RADIUS: a radius is more than 32 times the reach that the grid was built for. SPH_ERROR_BOX: a
+   radius is more than half of a periodic box. SPH_ERROR_H: a radius is not within 1e-150 ... 1e150 (1e-18
+   ... 1e18 in float), so that its square is a number. On these and all other errors nothing is written but
+   *pairs. */
+SPH_FN sph_index sph_grid_lists(int dim, const sph_grid *grid, sph_points targets, int criterion,
+                                sph_scalars target_radius, sph_scalars source_radius, int flags,
+                                sph_index *start, sph_index *index, int64_t capacity, int64_t *pairs)
+{
+    sphi_job job;
+    sph_index error;
+    if (pairs) *pairs = 0;
+    error = sphi_job_of(dim, grid, targets, criterion, target_radius, source_radius, flags, start, &job);
+    if (error) return error;
+    if (capacity < 0) return SPH_ERROR_VALUE;
+    if (!pairs || (!index && capacity > 0 && targets.n > 0)) return SPH_ERROR_NULL;
     job.index = index;
-    *pairs = sphi_lists(&job);
-    if (*pairs > SPHI_INDEX_MAX) return SPH_ERROR_PAIRS;
-    return index && *pairs > capacity ? SPH_ERROR_CAPACITY : 0;
+    job.capacity = capacity;
+    error = sphi_job_do(&job, pairs);
+    return !error && *pairs > capacity ? SPH_ERROR_CAPACITY : error;
+}
+
+/* Counts only: start[0 ... n] and *pairs as sph_grid_lists would fill them, so that *pairs entries are
+   enough for its index. Errors are those of sph_grid_lists, but for SPH_ERROR_CAPACITY. */
+SPH_FN sph_index sph_grid_count(int dim, const sph_grid *grid, sph_points targets, int criterion,
+                                sph_scalars target_radius, sph_scalars source_radius, int flags,
+                                sph_index *start, int64_t *pairs)
+{
+    sphi_job job;
+    sph_index error;
+    if (pairs) *pairs = 0;
+    error = sphi_job_of(dim, grid, targets, criterion, target_radius, source_radius, flags, start, &job);
+    if (error) return error;
+    return pairs ? sphi_job_do(&job, pairs) : SPH_ERROR_NULL;
+}
+
+/* ================================================================ the search in one call */
+
+/* What a search finds. list and grid lie in the block of memory that the search was given, and are good as
+   long as that is: for a cloud, for sph_grid_order, and for sph_grid_lists of other targets. */
+typedef struct sph_neighbors {
+    int64_t pairs; /* entries of the list; after SPH_ERROR_CAPACITY, for how many there must be room */
+    sph_list list; /* null pointers where there is none */
+    sph_grid grid; /* empty where there is none */
+} sph_neighbors;
+
+/* Bytes of a block for the grid and the lists of n particles with so many pairs; 0 if dim is not 1, 2 or
+   3, if n or pairs is negative, or if no block can be so large. */
+SPH_FN size_t sph_search_size(int dim, sph_index n, int64_t pairs)
+{
+    const size_t work = sph_grid_workspace(dim, n);
+    if (work == 0 || pairs < 0 || pairs > SPHI_INDEX_MAX) return 0;
+    if ((uint64_t)n + 1 + (uint64_t)pairs > (SIZE_MAX - work) / sizeof(sph_index)) return 0;
+    return work + ((size_t)n + 1 + (size_t)pairs) * sizeof(sph_index);
+}
+/* Pairs to have room for when nothing is known: 8, 32, 128 a particle, and no more than all with all. */
+SPH_FN int64_t sphi_search_guess(int dim, sph_index n)
+{
+    const int64_t others = n - 1, each = dim == 1 ? 8 : dim == 2 ? 32 : 128;
+    const int64_t pairs = n * (others < each ? others : each);
+    return sph_search_size(dim, n, pairs) ? pairs : 0;
+}
+/* The largest radius, or 0 if one of them is bad. *reach: how far a target has to look for sources, in the
+   mean. */
+SPH_FN sph_real sphi_search_reach(sph_index n, sph_scalars radius, int criterion, sph_real *reach)
+{
+    const sph_index count = radius.stride ? n : 1;
+    sph_real largest = SPH_R(0), mean;
+    double sum = 0;
+    sph_index i;
+    for (i = 0; i < count; i++) {
+        const sph_real own = sphi_at(radius, i);
+        if (!sphi_radius_ok(own)) return SPH_R(0);
+        if (own > largest) largest = own;
+        sum += (double)own / (double)count;
+    }
+    mean = (sph_real)sum;
+    if (criterion == SPH_MEAN) mean = SPH_R(0.5) * (mean + largest);
+    if (criterion == SPH_SCATTER || criterion == SPH_LARGER || mean > largest) mean = largest;
+    *reach = mean * SPH_R(SPHI_FARTHEST) < largest ? largest / SPH_R(SPHI_FARTHEST) : mean;
+    return largest;
+}
+
+/* The neighbours of all points, in one call: grid and lists in one block of memory, of `size` bytes and
+   aligned in any way. No point is its own neighbour. radius: support radii (kernel support times h), one
+   for each particle, or one for all (sph_scalars_same). The block may be empty at first (null, 0), and may
+   be used again and again: what it holds does not matter before a call, and is of no use after an error.
+   *found is set on every return. After an error it has no list and an empty grid, and pairs is 0 where
+   nothing is known. Without points it has no list, either, and the answer is 0.
+   Returns 0 or a negative sph_error.
+   SPH_ERROR_CAPACITY: the block is too small. sph_search_size(dim, points.n, found->pairs) bytes are
+   enough. Where there was no room for the grid, found->pairs is a guess: 8, 32 or 128 for each point in 1,
+   2 or 3 dimensions. To enlarge the block and to call again ends after three calls at most.
+   SPH_ERROR_PAIRS: there are more pairs than sph_index can count, or a block can hold.
+   SPH_ERROR_H and SPH_ERROR_BOX: as for sph_grid_lists. On these and all other errors the block is not
+   touched. */
+SPH_FN sph_index sph_search(int dim, sph_points points, sph_scalars radius, int criterion, void *memory,
+                            size_t size, sph_neighbors *found)
+{
+    const size_t fixed = sph_search_size(dim, points.n, 0), work = sph_grid_workspace(dim, points.n);
+    const size_t left = size > fixed ? (size - fixed) / sizeof(sph_index) : 0;
+    const int64_t room = left < (size_t)SPHI_INDEX_MAX ? (int64_t)left : SPHI_INDEX_MAX;
+    sph_real largest, reach = SPH_R(0);
+    sph_index error, *start, *index;
+    if (!found) return SPH_ERROR_NULL;
+    found->pairs = 0;
+    found->list.start = found->list.index = 0;
+    sphi_grid_empty(dim, &found->grid);
+    error = sphi_check_points(dim, points);
+    if (error) return error;
+    if (criterion < (int)SPH_GATHER || criterion > (int)SPH_MEAN) return SPH_ERROR_VALUE;
+    if (points.n == 0) return 0;
+    if (!radius.p || (!memory && size > 0)) return SPH_ERROR_NULL;
+    if (fixed == 0) return SPH_ERROR_COUNT;
+    largest = sphi_search_reach(points.n, radius, criterion, &reach);
+    if (!(largest > SPH_R(0))) return SPH_ERROR_H;
+    if (sphi_check_box(dim, points, largest)) return SPH_ERROR_BOX;
+    if (size < fixed) {
+        found->pairs = sphi_search_guess(dim, points.n);
+        return SPH_ERROR_CAPACITY;
+    }
+    error = sph_grid_build(dim, points, reach, memory, work, &found->grid);
+    start = (sph_index *)(void *)((char *)sphi_aligned(memory) + (work - SPHI_ALIGN));
+    index = start + points.n + 1;
+    if (!error)
+        error = sph_grid_lists(dim, &found->grid, points, criterion, radius, radius, 0, start, index, room,
+                               &found->pairs);
+    if (error) {
+        const int too_many = sph_search_size(dim, points.n, found->pairs) == 0;
+        sphi_grid_empty(dim, &found->grid);
+        return error == SPH_ERROR_CAPACITY && too_many ? SPH_ERROR_PAIRS : error;
+    }
+    found->list.start = start;
+    found->list.index = index;
+    return 0;
 }
 
 /* ================================================================ order, and lists kept for several steps */
 
-/* out[s * stride] = in[order[s] * stride] for s = 0 ... n - 1; in and out must not overlap. With sph_grid_order this puts an array of the caller's into cell order. */
-SPH_FN sph_index sph_permute(sph_index n, const sph_index *order, const sph_real *in, size_t stride, sph_real *out)
+/* out[s * stride] = in[order[s] * stride] for s = 0 ... n - 1; in and out must not overlap. With
+   sph_grid_order this puts an array of the caller's into cell order. */
+SPH_FN sph_index sph_permute(sph_index n, const sph_index *order, const sph_real *in, size_t stride,
+                             sph_real *out)
 {
     sph_index s;
+    if (n < 0) return SPH_ERROR_COUNT;
+    if (n == 0) return 0;
     if (!order || !in || !out) return SPH_ERROR_NULL;
-    if (n < 1 || stride < 1) return SPH_ERROR_COUNT;
+    if (stride < 1) return SPH_ERROR_COUNT;
     for (s = 0; s < n && SPH_CHECK; s++)
         if (order[s] < 0 || order[s] >= n) return SPH_ERROR_LIST;
     for (s = 0; s < n; s++) out[(size_t)s * stride] = in[(size_t)order[s] * stride];
@@ -1138,8 +1468,9 @@ SPH_FN sph_index sph_permute(sph_index n, const sph_index *order, const sph_real
 SPH_FN sph_index sph_permute_inverse(sph_index n, const sph_index *order, sph_index *inverse)
 {
     sph_index s;
+    if (n < 0) return SPH_ERROR_COUNT;
+    if (n == 0) return 0;
     if (!order || !inverse) return SPH_ERROR_NULL;
-    if (n < 1) return SPH_ERROR_COUNT;
     for (s = 0; s < n && SPH_CHECK; s++)
         if (order[s] < 0 || order[s] >= n) return SPH_ERROR_LIST;
     for (s = 0; s < n; s++) inverse[order[s]] = s;
@@ -1149,7 +1480,8 @@ SPH_FN sph_index sph_permute_inverse(sph_index n, const sph_index *order, sph_in
 /* |v| > length, for lengths whose squares over- or underflow, too */
 SPH_FN int sphi_longer(int dim, sph_vec v, sph_real length)
 {
-    const sph_real x = SPHI_ABS(v.x), y = dim > 1 ? SPHI_ABS(v.y) : SPH_R(0), z = dim > 2 ? SPHI_ABS(v.z) : SPH_R(0);
+    const sph_real x = SPHI_ABS(v.x), y = dim > 1 ? SPHI_ABS(v.y) : SPH_R(0),
+                   z = dim > 2 ? SPHI_ABS(v.z) : SPH_R(0);
     const sph_real xy = x > y ? x : y, most = xy > z ? xy : z;
     if (!(most <= length)) return 1;
     if (most == SPH_R(0)) return 0;
@@ -1160,8 +1492,9 @@ SPH_FN int sphi_longer(int dim, sph_vec v, sph_real length)
     return sph_dot(dim, v, v) > length * length;
 }
 
-/* Lists that were built at the positions `then`, with the radius + skin, still hold all pairs within the radius unless this returns 1: a particle has moved by more than skin / 2
-   (by the minimum image, if now.box is set). Negative: an sph_error. */
+/* Lists that were built at the positions `then`, with the radius + skin, still hold all pairs within the
+   radius unless this returns 1: a particle has moved by more than skin / 2 (by the minimum image, if now.box
+   is set). Negative: an sph_error. */
 SPH_FN int sph_rebuild_due(int dim, sph_points now, sph_points then, sph_real skin)
 {
     const int error = sphi_check_points(dim, now), error_then = sphi_check_points(dim, then);

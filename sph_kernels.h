@@ -2,24 +2,32 @@
  *
  * sph_kernels.h - smoothing kernels for smoothed particle hydrodynamics (SPH), as scalar functions.
  *
- * The lowest of three headers: sph_kernels.h (this one), sph_ops.h (operators), sph.h (neighbour search; includes the other two).
- * Nothing is allocated, nothing is global, nothing is printed. C99, C++11, OpenCL C 1.2, CUDA.
+ * The lowest of three headers: sph_kernels.h (this one), sph_ops.h (operators), sph.h (neighbour search;
+ * includes the other two). Nothing is allocated, nothing is global, nothing is printed. C99, C++11, OpenCL C
+ * 1.2, CUDA.
  *
  *     double w  = sph_kernel_w(SPH_WENDLAND_C2, 3, r, h);         W(r, h)
- *     double f  = sph_kernel_f(SPH_WENDLAND_C2, 3, r, h);         F = (1/r) dW/dr, so that grad_i W = F * (x_i - x_j)
+ *     double f  = sph_kernel_f(SPH_WENDLAND_C2, 3, r, h);         F = (1/r) dW/dr, grad_i W = F (x_i - x_j)
  *
  * CONVENTIONS, here and in the headers above
- *   x_ij = x_i - x_j,  r = |x_ij|,  gradients are taken at x_i:  grad_i W(|x_i - x_j|, h) = F x_ij  with  F = (1/r) dW/dr.
- *   h is the smoothing length: a length scale of the kernel, NOT its support. W = 0 for r >= sph_kernel_support(k) * h, which is 2 h for
- *   most kernels, 2.5 h for M5, 3 h for M6 and the Gaussians. A host whose "h" is the support radius H converts once, with sph_kernel_h_from_support.
- *   W(r, h) = sigma / h^dim * w(q),  q = r / h,  integral of W over dim-dimensional space = 1 (sigma is exact, see sph_kernel_sigma).
- *   On the edge itself rounding of r/h decides, which matters for the kernels that jump there only: the Gaussians (by 1e-4 W(0)), and F of schuessler-schmitt.
+ *   x_ij = x_i - x_j,  r = |x_ij|,  gradients are taken at x_i:
+ *   grad_i W(|x_i - x_j|, h) = F x_ij  with  F = (1/r) dW/dr.
+ *   h is the smoothing length: a length scale of the kernel, NOT its support. W = 0 for
+ *   r >= sph_kernel_support(k) * h, which is 2 h for most kernels, 2.5 h for M5, 3 h for M6 and the
+ *   Gaussians.
+ *   A host whose "h" is the support radius H converts once, with sph_kernel_h_from_support.
+ *   W(r, h) = sigma / h^dim * w(q),  q = r / h,  integral of W over dim-dimensional space = 1
+ *   (sigma is exact, see sph_kernel_sigma).
+ *   On the edge itself rounding of r/h decides, which matters for the kernels that jump there only: the
+ *   Gaussians (by 1e-4 W(0)), and F of schuessler-schmitt.
  *   Units: W is 1/length^dim, F is 1/length^(dim+2). dim is 1, 2 or 3.
- *   Kernel and dimension come first in every call. Pass them as constants: everything then folds to a few multiplications.
+ *   Kernel and dimension come first in every call. Pass them as constants: everything then folds to a few
+ *   multiplications.
  *
  * INDEX
  *   sph_real    sph_kernel_w(k, dim, r, h)              W
- *   sph_real    sph_kernel_f(k, dim, r, h)              F = (1/r) dW/dr; its limit at r = 0 where that is finite, else 0
+ *   sph_real    sph_kernel_f(k, dim, r, h)              F = (1/r) dW/dr; its limit at r = 0 where that is
+ *               finite, else 0
  *   sph_wf      sph_kernel_wf(k, dim, r, h)             both at once
  *   sph_real    sph_kernel_dwdr(k, dim, r, h)           dW/dr
  *   sph_real    sph_kernel_d2wdr2(k, dim, r, h)         d2W/dr2
@@ -33,26 +41,34 @@
  *   sph_real    sph_kernel_h_from_support(k, support)   h of a kernel that ends at the radius support
  *   sph_real    sph_kernel_support_from_h(k, h)         the radius at which it ends
  *   int         sph_kernel_has_cusp(k)                  1: slope at the origin (F = 0 there by convention)
- *   sph_real    sph_gravity_potential(k, r, h)          phi of a unit mass smeared over the kernel, G = 1; -1/r beyond the support (3D)
- *   sph_real    sph_gravity_force(k, r, h)              (1/r) dphi/dr: the acceleration is -G m times it times x_ij
+ *   sph_real    sph_gravity_potential(k, r, h)          phi of a unit mass smeared over the kernel, G = 1;
+ *               -1/r beyond the support (3D)
+ *   sph_real    sph_gravity_force(k, r, h)              (1/r) dphi/dr: the acceleration is -G m times it
+ *               times x_ij
  *   sph_real    sph_gravity_dphidh(k, r, h)             dphi/dh at fixed r
  *   sph_real    sph_gravity_shape(k, q), sph_gravity_shape_f(k, q)   h phi, h^3 (1/r) dphi/dr
  *   int         sph_kernel_has_gravity(k)               1: the kernels for which these are there
- *   int         sph_kernel_may_convexify(k, dim)        1: W >= 0 and W' <= 0, so that its tail integral is a convex kernel
+ *   int         sph_kernel_may_convexify(k, dim)        1: W >= 0 and W' <= 0, so that its tail integral is a
+ *               convex kernel
  *   const char *sph_kernel_name(k)                      "wendland-c2"
- *   int         sph_kernel_from_name(name)              the kernel, or -1; knows the usual aliases (m4, cubic, w2, wendland_c2, lucy, ...)
+ *   int         sph_kernel_from_name(name)              the kernel, or -1; knows the usual aliases (m4,
+ *               cubic, w2, wendland_c2, lucy, ...)
  *   const char *sph_status_text(status)                 what a status means, in words
- *   SPH_KERNELS(X, A), SPH_SWITCH_KERNEL(k, CALL)       all kernels; one dispatch of a kernel that is chosen at run time
+ *   SPH_KERNELS(X, A), SPH_SWITCH_KERNEL(k, CALL)       all kernels; one dispatch of a run-time kernel
  *
  * OPTIONS (0 or 1; set them with -D or before the first inclusion; the same in every header)
  *   SPH_SINGLE      0  1: sph_real is float (1 where double is no wider than float, as on AVR)
- *   SPH_SIMD        1 under OpenMP >= 4, else 0.  1: the compiler obeys "omp simd" (-fopenmp, or -fopenmp-simd -DSPH_SIMD=1)
- *   SPH_PURE_SQRT   1 on gcc and clang, else 0.   1: tells the compiler that sqrt has no side effect (it then no longer sets errno in this file);
- *                      without it, or -fno-math-errno, no loop with a square root vectorises
- *   SPH_CHECK       1  1: array-level functions scan positions, h, values and lists before they touch anything; 0: arguments only
+ *   SPH_SIMD        1 under OpenMP >= 4, else 0.  1: the compiler obeys "omp simd" (-fopenmp, or
+ *                   -fopenmp-simd -DSPH_SIMD=1)
+ *   SPH_PURE_SQRT   1 on gcc and clang, else 0.   1: tells the compiler that sqrt has no side effect (it then
+ *                   no longer sets errno in this file); without it, or -fno-math-errno, no loop with a square
+ *                   root vectorises
+ *   SPH_CHECK       1  1: array-level functions scan positions, h, values and lists before they touch
+ *                   anything; 0: arguments only
  *   SPH_INDEX       int32_t   type of particle and list indices
- *   SPH_ASSERT(x)   nothing   called with the precondition of each scalar function (r >= 0, h > 0); define it as assert to find a caller's fault.
- *                      r/h must also be below 1e9 (the polynomials overflow somewhere beyond; sweeps of sph_ops.h report what is not finite)
+ *   SPH_ASSERT(x)   nothing   called with the precondition of each scalar function (r >= 0, h > 0); define it
+ *                   as assert to find a caller's fault. r/h must also be below 1e9 (the polynomials overflow
+ *                   somewhere beyond; sweeps of sph_ops.h report what is not finite)
  */
 #ifndef SPH_KERNELS_H
 #define SPH_KERNELS_H
@@ -60,7 +76,8 @@
 #define SPH_VERSION_MAJOR 0
 #define SPH_VERSION_MINOR 1
 #define SPH_VERSION_PATCH 0
-#define SPH_VERSION 100 /* 10000 major + 100 minor + patch; the headers above refuse to be mixed with another release */
+/* 10000 major + 100 minor + patch; the headers above refuse to be mixed with another release */
+#define SPH_VERSION 100
 
 /* ================================================================ portability */
 
@@ -115,7 +132,8 @@
 #  endif
 #endif
 
-/* Forced inline: with a plain `static inline` neither gcc nor clang folds the kernel and the dimension once a program uses several of them. */
+/* Forced inline: with a plain `static inline` neither gcc nor clang folds the kernel and the dimension once a
+   program uses several of them. */
 #ifndef SPH_FN
 #  if defined(__CUDACC__)
 #    define SPH_FN static __host__ __device__ __forceinline__
@@ -135,8 +153,10 @@
 #  endif
 #endif
 
-/* SPH_SUM(a, b): the next loop adds to a and b, in any order. SPH_EACH: the passes of the next loop are independent.
-   clang obeys its own pragma without a flag (and warns about omp simd at -Os); gcc wants -fopenmp, or -fopenmp-simd -DSPH_SIMD=1. */
+/* SPH_SUM(a, b): the next loop adds to a and b, in any order. SPH_EACH: the passes of the next loop are
+   independent.
+   clang obeys its own pragma without a flag (and warns about omp simd at -Os); gcc wants -fopenmp, or
+   -fopenmp-simd -DSPH_SIMD=1. */
 #define SPHI_PRAGMA(x) _Pragma(#x)
 #if defined(__clang__) && !SPH_OPENCL
 #  define SPH_SUM(...) SPHI_PRAGMA(clang loop vectorize(assume_safety))
@@ -187,7 +207,8 @@ typedef int32_t sphi_int32; /* where int may have 16 bits */
 #endif
 /* clang-format on */
 
-/* Unit round-off, and a length ratio so short that its square is still a normal number but nothing nearer to a particle matters. */
+/* Unit round-off, and a length ratio so short that its square is still a normal number but nothing nearer to
+   a particle matters. */
 #if SPH_SINGLE
 #define SPH_EPSILON SPH_R(1.1920928955078125e-7)
 #define SPHI_TINY SPH_R(1e-18)
@@ -198,40 +219,47 @@ typedef int32_t sphi_int32; /* where int may have 16 bits */
 
 /* ================================================================ status codes */
 
-/* Answers of array-level functions: 0 or a count of particles that are not ok, or one of these: nothing was written. */
+/* Answers of array-level functions: 0 or a count of particles that are not ok, or one of these: nothing was
+   written. */
 typedef enum sph_error {
-    SPH_ERROR_NULL = -1,      /* a pointer is null */
-    SPH_ERROR_DIM = -2,       /* dim is not 1, 2 or 3 (or not 1 where only 1 makes sense) */
-    SPH_ERROR_KERNEL = -3,    /* no such kernel */
-    SPH_ERROR_COUNT = -4,     /* fewer than one particle, or a stride of 0 where positions need one */
-    SPH_ERROR_RANGE = -5,     /* not 0 <= first <= last <= n */
-    SPH_ERROR_H = -6,         /* h is not finite and positive */
-    SPH_ERROR_POSITION = -7,  /* a position is not finite, or so large that the difference of two may not be */
-    SPH_ERROR_VALUE = -8,     /* a field value, mass or volume is not finite (or a parameter is out of its range) */
-    SPH_ERROR_LIST = -9,      /* list rows do not ascend, or an entry is no particle */
-    SPH_ERROR_SELF = -10,     /* a row holds its own particle, but this operator adds that term itself */
-    SPH_ERROR_CAPACITY = -11, /* the caller's memory is too small; the size that is needed has been reported */
-    SPH_ERROR_BOX = -12,      /* a box length is negative or not finite, or a support reaches beyond half the box */
-    SPH_ERROR_RADIUS = -13,   /* a radius exceeds what the grid was built for */
-    SPH_ERROR_PAIRS = -14     /* more pairs than sph_index can count */
+    SPH_ERROR_NULL = -1,     /* a pointer is null */
+    SPH_ERROR_DIM = -2,      /* dim is not 1, 2 or 3 (or not 1 where only 1 makes sense) */
+    SPH_ERROR_KERNEL = -3,   /* no such kernel */
+    SPH_ERROR_COUNT = -4,    /* fewer than one particle, or a stride of 0 where positions need one */
+    SPH_ERROR_RANGE = -5,    /* not 0 <= first <= last <= n */
+    SPH_ERROR_H = -6,        /* h is not finite and positive */
+    SPH_ERROR_POSITION = -7, /* a position is not finite, or so large that the difference of two may not be */
+    SPH_ERROR_VALUE =
+        -8, /* a field value, mass or volume is not finite (or a parameter is out of its range) */
+    SPH_ERROR_LIST = -9,  /* list rows do not ascend, or an entry is no particle */
+    SPH_ERROR_SELF = -10, /* a row holds its own particle, but this operator adds that term itself */
+    SPH_ERROR_CAPACITY =
+        -11, /* the caller's memory is too small; the size that is needed has been reported */
+    SPH_ERROR_BOX =
+        -12, /* a box length is negative or not finite, or a support reaches beyond half the box */
+    SPH_ERROR_RADIUS = -13, /* a radius exceeds what the grid was built for */
+    SPH_ERROR_PAIRS = -14   /* more pairs than sph_index can count */
 } sph_error;
 
 /* Answers per particle, where an array of them is asked for. */
 typedef enum sph_status {
     SPH_OK = 0,
-    SPH_TOO_FEW = 1,         /* fewer neighbours inside the support than unknowns: outputs are 0 */
-    SPH_SINGULAR = 2,        /* neighbours do not determine the derivative (collinear, coincident, ...): outputs are 0 */
+    SPH_TOO_FEW = 1, /* fewer neighbours inside the support than unknowns: outputs are 0 */
+    SPH_SINGULAR =
+        2, /* neighbours do not determine the derivative (collinear, coincident, ...): outputs are 0 */
     SPH_ILL_CONDITIONED = 3, /* computed, but the conditioning number is below the caller's limit */
     SPH_FELL_BACK = 4,       /* as before, and replaced by the fallback that the caller allowed */
     SPH_NOT_AVAILABLE = 5,   /* the operator is not defined at this particle: outputs are 0 */
     SPH_NOT_FINITE = 6,      /* the result overflowed: outputs are 0 */
-    SPH_LIST_TOO_SHORT = 7   /* the list does not reach as far as the answer needs; the operator says what comes back instead */
+    SPH_LIST_TOO_SHORT =
+        7 /* the list does not reach as far as the answer needs; the operator says what comes back instead */
 } sph_status;
 
 /* ================================================================ kernels */
 
 /* All kernels, one X(A, identifier, name, support / h, recommended h / dx) each; A is passed on.
-   h / dx: M4..M6 and the Wendland family as Phantom sets them (Price et al. 2018, PASA 35, e031); the clustering kernels as the papers that propose them. */
+   h / dx: M4..M6 and the Wendland family as Phantom sets them (Price et al. 2018, PASA 35, e031); the
+   clustering kernels as the papers that propose them. */
 /* clang-format off */
 #define SPH_KERNELS(X, A) \
     X(A, SPH_CUBIC_SPLINE, "cubic-spline", 2.0, 1.2) \
@@ -264,7 +292,8 @@ typedef enum sph_kernel {
 } sph_kernel;
 /* clang-format on */
 
-/* A kernel chosen at run time: one switch around the whole sweep. CALL(K) is a macro (or function) that is given the constant. */
+/* A kernel chosen at run time: one switch around the whole sweep. CALL(K) is a macro (or function) that is
+   given the constant. */
 /* clang-format off */
 #define SPHI_KERNEL_CASE(CALL, id, name, support, h_over_dx) case id: CALL(id); break;
 #define SPH_SWITCH_KERNEL(k, CALL) \
@@ -274,12 +303,17 @@ typedef enum sph_kernel {
     }
 /* clang-format on */
 
-/* Positive part without a branch: gcc leaves control flow in a loop for `x > 0 ? x : 0`, and then does not vectorise it. Exact for finite x. */
+/* Positive part without a branch: gcc leaves control flow in a loop for `x > 0 ? x : 0`, and then does not
+   vectorise it. Exact for finite x. */
 SPH_FN sph_real sphi_pos(sph_real x) { return SPH_R(0.5) * (x + SPHI_ABS(x)); }
-SPH_FN sph_real sphi_by_dim(int dim, sph_real one, sph_real two, sph_real three) { return dim == 1 ? one : dim == 2 ? two : three; }
+SPH_FN sph_real sphi_by_dim(int dim, sph_real one, sph_real two, sph_real three)
+{
+    return dim == 1 ? one : dim == 2 ? two : three;
+}
 SPH_FN sph_real sphi_power(sph_real x, int dim) { return sphi_by_dim(dim, x, x * x, x * x * x); }
 
-/* slope / q for kernels with a slope at the origin; 0 at q = 0, where the direction is undefined. No branch, no division by zero. */
+/* slope / q for kernels with a slope at the origin; 0 at q = 0, where the direction is undefined. No branch,
+   no division by zero. */
 SPH_FN sph_real sphi_over_q(sph_real slope, sph_real q)
 {
     const sph_real p = q + SPHI_TINY;
@@ -316,19 +350,26 @@ SPH_FN sph_real sph_kernel_h_over_dx(sph_kernel k)
 #undef SPHI_KERNEL_H_OVER_DX
 }
 
-SPH_FN sph_real sph_kernel_h_from_support(sph_kernel k, sph_real support) { return support / sph_kernel_support(k); }
+SPH_FN sph_real sph_kernel_h_from_support(sph_kernel k, sph_real support)
+{
+    return support / sph_kernel_support(k);
+}
 SPH_FN sph_real sph_kernel_support_from_h(sph_kernel k, sph_real h) { return h * sph_kernel_support(k); }
 
-/* sigma = 1 / (S_dim * integral_0^support w(q) q^(dim-1) dq), S = 2, 2 pi, 4 pi. The comments give the exact value; tests/known/derive_kernels.py derives it. */
+/* sigma = 1 / (S_dim * integral_0^support w(q) q^(dim-1) dq), S = 2, 2 pi, 4 pi. The comments give the exact
+   value; tests/known/derive_kernels.py derives it. */
 SPH_FN sph_real sph_kernel_sigma(sph_kernel k, int dim)
 {
     switch (k) {
     case SPH_CUBIC_SPLINE: /* 2/3, 10/(7 pi), 1/pi */
-        return sphi_by_dim(dim, SPH_R(0.66666666666666666667), SPH_R(0.45472840883398667363), SPH_R(0.31830988618379067154));
+        return sphi_by_dim(dim, SPH_R(0.66666666666666666667), SPH_R(0.45472840883398667363),
+                           SPH_R(0.31830988618379067154));
     case SPH_QUARTIC_SPLINE: /* 1/24, 96/(1199 pi), 1/(20 pi) */
-        return sphi_by_dim(dim, SPH_R(0.041666666666666666667), SPH_R(0.025486029252413598388), SPH_R(0.015915494309189533577));
+        return sphi_by_dim(dim, SPH_R(0.041666666666666666667), SPH_R(0.025486029252413598388),
+                           SPH_R(0.015915494309189533577));
     case SPH_QUINTIC_SPLINE: /* 1/120, 7/(478 pi), 1/(120 pi) */
-        return sphi_by_dim(dim, SPH_R(0.0083333333333333333333), SPH_R(0.0046614418478797797087), SPH_R(0.0026525823848649222628));
+        return sphi_by_dim(dim, SPH_R(0.0083333333333333333333), SPH_R(0.0046614418478797797087),
+                           SPH_R(0.0026525823848649222628));
     case SPH_WENDLAND_C2: /* 3/4, 7/(4 pi), 21/(16 pi) */
         return sphi_by_dim(dim, SPH_R(0.75), SPH_R(0.55704230082163367519), SPH_R(0.41778172561622525639));
     case SPH_WENDLAND_C4: /* 27/32, 9/(4 pi), 495/(256 pi) */
@@ -340,29 +381,39 @@ SPH_FN sph_real sph_kernel_sigma(sph_kernel k, int dim)
     case SPH_WENDLAND_C4_1D: /* 3/4, 9/(5 pi), 45/(32 pi) */
         return sphi_by_dim(dim, SPH_R(0.75), SPH_R(0.57295779513082320877), SPH_R(0.44762327744595563185));
     case SPH_WENDLAND_C6_1D: /* 55/64, 33/(14 pi), 2145/(1024 pi) */
-        return sphi_by_dim(dim, SPH_R(0.859375), SPH_R(0.75030187457607801148), SPH_R(0.66677217369553807661));
+        return sphi_by_dim(dim, SPH_R(0.859375), SPH_R(0.75030187457607801148),
+                           SPH_R(0.66677217369553807661));
     case SPH_GAUSSIAN: /* 1/(sqrt(pi) erf(3)), 1/(pi (1 - exp(-9))), 1/(pi (sqrt(pi) erf(3) - 6 exp(-9))) */
-        return sphi_by_dim(dim, SPH_R(0.56420204705138327129), SPH_R(0.31834917359293493198), SPH_R(0.17966614821808717693));
-    case SPH_SUPER_GAUSSIAN: /* 1/(sqrt(pi) erf(3) + 3 exp(-9)), 1/(pi (1 + 8 exp(-9))), 1/(pi (sqrt(pi) erf(3) + 48 exp(-9))) */
-        return sphi_by_dim(dim, SPH_R(0.56408421877496896766), SPH_R(0.3179959356548344837), SPH_R(0.17899286888813445964));
+        return sphi_by_dim(dim, SPH_R(0.56420204705138327129), SPH_R(0.31834917359293493198),
+                           SPH_R(0.17966614821808717693));
+    case SPH_SUPER_GAUSSIAN:
+        /* 1/(sqrt(pi) erf(3) + 3 exp(-9)), 1/(pi (1 + 8 exp(-9))), 1/(pi (sqrt(pi) erf(3) + 48 exp(-9))) */
+        return sphi_by_dim(dim, SPH_R(0.56408421877496896766), SPH_R(0.3179959356548344837),
+                           SPH_R(0.17899286888813445964));
     case SPH_LIU_QUARTIC: /* 1, 15/(7 pi), 315/(208 pi) */
         return sphi_by_dim(dim, SPH_R(1.0), SPH_R(0.68209261325098001044), SPH_R(0.48205583724949068045));
     case SPH_HERMITE: /* 1/8, 5/(24 pi), 15/(128 pi) */
         return sphi_by_dim(dim, SPH_R(0.125), SPH_R(0.06631455962162305657), SPH_R(0.037301939787162969321));
     case SPH_SCHUESSLER_SCHMITT: /* 3 sqrt2/8, 5 sqrt2/(8 pi), 21 sqrt2/(64 pi) */
-        return sphi_by_dim(dim, SPH_R(0.5303300858899106433), SPH_R(0.28134884879909564674), SPH_R(0.14770814561952521454));
+        return sphi_by_dim(dim, SPH_R(0.5303300858899106433), SPH_R(0.28134884879909564674),
+                           SPH_R(0.14770814561952521454));
     case SPH_JOHNSON_BEISSEL: /* 3/4, 3/(2 pi), 15/(16 pi) */
         return sphi_by_dim(dim, SPH_R(0.75), SPH_R(0.47746482927568600731), SPH_R(0.29841551829730375457));
     case SPH_CONVEX: /* 5/48, 15/(64 pi), 21/(128 pi) */
-        return sphi_by_dim(dim, SPH_R(0.10416666666666666667), SPH_R(0.074603879574325938642), SPH_R(0.052222715702028157049));
+        return sphi_by_dim(dim, SPH_R(0.10416666666666666667), SPH_R(0.074603879574325938642),
+                           SPH_R(0.052222715702028157049));
     case SPH_CONVEX_CUBIC_SPLINE: /* 15/14, 3/pi, 315/(124 pi) */
-        return sphi_by_dim(dim, SPH_R(1.0714285714285714286), SPH_R(0.95492965855137201461), SPH_R(0.80860979151527468979));
+        return sphi_by_dim(dim, SPH_R(1.0714285714285714286), SPH_R(0.95492965855137201461),
+                           SPH_R(0.80860979151527468979));
     case SPH_CONVEX_WENDLAND_C2: /* 7/6, 7/(2 pi), 63/(20 pi) */
-        return sphi_by_dim(dim, SPH_R(1.1666666666666666667), SPH_R(1.1140846016432673504), SPH_R(1.0026761414789406153));
+        return sphi_by_dim(dim, SPH_R(1.1666666666666666667), SPH_R(1.1140846016432673504),
+                           SPH_R(1.0026761414789406153));
     case SPH_CONVEX_WENDLAND_C4: /* 4/3, 55/(12 pi), 33/(7 pi) */
-        return sphi_by_dim(dim, SPH_R(1.3333333333333333333), SPH_R(1.4589203116757072445), SPH_R(1.500603749152156023));
+        return sphi_by_dim(dim, SPH_R(1.3333333333333333333), SPH_R(1.4589203116757072445),
+                           SPH_R(1.500603749152156023));
     case SPH_CORE_TRIANGLE: /* 54/85, 162/(115 pi), 3645/(3661 pi) */
-        return sphi_by_dim(dim, SPH_R(0.63529411764705882353), SPH_R(0.44840175271107903295), SPH_R(0.31691874764816088439));
+        return sphi_by_dim(dim, SPH_R(0.63529411764705882353), SPH_R(0.44840175271107903295),
+                           SPH_R(0.31691874764816088439));
     case SPH_KERNEL_COUNT:
     default:
         return SPH_R(0);
@@ -370,16 +421,20 @@ SPH_FN sph_real sph_kernel_sigma(sph_kernel k, int dim)
 }
 
 /* w(q), the kernel without its normalisation; 0 for q >= support.
-   M4, M5, M6: Schoenberg 1946, Quart. Appl. Math. 4, 45; in SPH: Monaghan & Lattanzio 1985, A&A 149, 135 (M4).
-   Wendland C2, C4, C6 of 2D and 3D (phi_{3,1}, phi_{3,2}, phi_{3,3}) and of 1D (phi_{2,1}, phi_{3,2}, phi_{4,3} of one dimension): Wendland 1995, Adv. Comput. Math. 4, 389;
-   Dehnen & Aly 2012, MNRAS 425, 1068, table 1. A kernel named _1D is positive definite in one dimension only, but normalised in all three.
-   wendland-c2-1d is (1.1) of the clustering paper, and Lucy 1977, AJ 82, 1013. wendland-c4-1d is the kernel of the ICSPM paper.
-   Gaussian: Gingold & Monaghan 1977, MNRAS 181, 375; super-Gaussian: Monaghan & Gingold 1983, JCP 52, 374: both cut at 3 h and normalised for the cut; the
-   super-Gaussian is negative beyond q^2 = dim/2 + 1. Quartic: Liu & Liu 2003, Smoothed Particle Hydrodynamics: negative for 1.6957 < q < 2.
-   hermite, schuessler-schmitt, johnson-beissel, convex: (3.7), (3.5), (3.6), (3.9) of Korzilius et al., 'two remedies for particle clustering'
-   (Schuessler & Schmitt 1981, A&A 97, 373; Johnson & Beissel 1996, IJNME 39, 2725).
-   convex-*: that paper's recipe K(q) = integral_q^2 w dq, scaled to K(0) = 1. convex itself is the recipe applied to hermite.
-   core-triangle: Read, Hayfield & Agertz 2010, MNRAS 405, 1513, with alpha = 1/3: constant slope for q < 2/3. */
+   M4, M5, M6: Schoenberg 1946, Quart. Appl. Math. 4, 45; in SPH: Monaghan & Lattanzio 1985, A&A 149, 135
+   (M4).
+   Wendland C2, C4, C6 of 2D and 3D (phi_{3,1}, phi_{3,2}, phi_{3,3}) and of 1D (phi_{2,1}, phi_{3,2},
+   phi_{4,3} of one dimension): Wendland 1995, Adv. Comput. Math. 4, 389; Dehnen & Aly 2012, MNRAS 425, 1068,
+   table 1. A kernel named _1D is positive definite in one dimension only, but normalised in all three.
+   wendland-c2-1d is (1.1) of the clustering paper, and Lucy 1977, AJ 82, 1013. wendland-c4-1d is the kernel
+   of the ICSPM paper. Gaussian: Gingold & Monaghan 1977, MNRAS 181, 375; super-Gaussian: Monaghan & Gingold
+   1983, JCP 52, 374: both cut at 3 h and normalised for the cut; the super-Gaussian is negative beyond q^2 =
+   dim/2 + 1. Quartic: Liu & Liu 2003, Smoothed Particle Hydrodynamics: negative for 1.6957 < q < 2. hermite,
+   schuessler-schmitt, johnson-beissel, convex: (3.7), (3.5), (3.6), (3.9) of Korzilius et al., 'two remedies
+   for particle clustering' (Schuessler & Schmitt 1981, A&A 97, 373; Johnson & Beissel 1996, IJNME 39, 2725).
+   convex-*: that paper's recipe K(q) = integral_q^2 w dq, scaled to K(0) = 1. convex itself is the recipe
+   applied to hermite. core-triangle: Read, Hayfield & Agertz 2010, MNRAS 405, 1513, with alpha = 1/3:
+   constant slope for q < 2/3. */
 SPH_FN sph_real sph_kernel_shape(sph_kernel k, int dim, sph_real q)
 {
     const sph_real a = sphi_pos(SPH_R(2) - q), b = SPH_R(0.5) * a, c = sphi_pos(SPH_R(1) - q);
@@ -389,7 +444,8 @@ SPH_FN sph_real sph_kernel_shape(sph_kernel k, int dim, sph_real q)
     case SPH_CUBIC_SPLINE:
         return SPH_R(0.25) * a * a * a - c * c * c;
     case SPH_QUARTIC_SPLINE: {
-        const sph_real u = sphi_pos(SPH_R(2.5) - q), v = sphi_pos(SPH_R(1.5) - q), s = sphi_pos(SPH_R(0.5) - q);
+        const sph_real u = sphi_pos(SPH_R(2.5) - q), v = sphi_pos(SPH_R(1.5) - q),
+                       s = sphi_pos(SPH_R(0.5) - q);
         return u * u * u * u - SPH_R(5) * (v * v * v * v) + SPH_R(10) * (s * s * s * s);
     }
     case SPH_QUINTIC_SPLINE: {
@@ -423,7 +479,8 @@ SPH_FN sph_real sph_kernel_shape(sph_kernel k, int dim, sph_real q)
     case SPH_CONVEX:
         return a * a * a * (SPH_R(0.5) * q + SPH_R(1));
     case SPH_CONVEX_CUBIC_SPLINE:
-        return SPH_R(0.0833333333333333333) * (a * a) * (a * a) - SPH_R(0.333333333333333333) * (c * c) * (c * c);
+        return SPH_R(0.0833333333333333333) * (a * a) * (a * a) -
+               SPH_R(0.333333333333333333) * (c * c) * (c * c);
     case SPH_CONVEX_WENDLAND_C2:
         return b4 * b * (SPH_R(1) + q);
     case SPH_CONVEX_WENDLAND_C4:
@@ -439,9 +496,11 @@ SPH_FN sph_real sph_kernel_shape(sph_kernel k, int dim, sph_real q)
 }
 
 /* (1/q) dw/dq; 0 for q >= support. At q = 0: the limit, or 0 for a kernel with a cusp.
-   Splines: with the knot q0 next to the origin, q = t + s - q0 where t = min(q, q0), s = max(q, q0), and f(q) = [f(t) - f(q0)] + f(s): the first part is written without the
-   division by q, the second without the inner piece, so nothing branches and nothing cancels.
-   schuessler-schmitt: the slope is held at its value at q = 1e-6, because the true one is infinite at the origin. */
+   Splines: with the knot q0 next to the origin, q = t + s - q0 where t = min(q, q0), s = max(q, q0), and f(q)
+   = [f(t) - f(q0)] + f(s): the first part is written without the division by q, the second without the inner
+   piece, so nothing branches and nothing cancels.
+   schuessler-schmitt: the slope is held at its value at q = 1e-6, because the true one is infinite at the
+   origin. */
 SPH_FN sph_real sph_kernel_shape_f(sph_kernel k, int dim, sph_real q)
 {
     const sph_real a = sphi_pos(SPH_R(2) - q), b = SPH_R(0.5) * a, c = sphi_pos(SPH_R(1) - q);
@@ -453,12 +512,15 @@ SPH_FN sph_real sph_kernel_shape_f(sph_kernel k, int dim, sph_real q)
         return SPH_R(-0.75) * u * u / s - SPH_R(2.25) * c;
     }
     case SPH_QUARTIC_SPLINE: {
-        const sph_real e = sphi_pos(SPH_R(0.5) - q), s = q + e, u = sphi_pos(SPH_R(2.5) - s), v = sphi_pos(SPH_R(1.5) - s);
+        const sph_real e = sphi_pos(SPH_R(0.5) - q), s = q + e, u = sphi_pos(SPH_R(2.5) - s),
+                       v = sphi_pos(SPH_R(1.5) - s);
         return SPH_R(-4) * (u * u * u - SPH_R(5) * (v * v * v)) / s - SPH_R(24) * e * (SPH_R(1) - e);
     }
     case SPH_QUINTIC_SPLINE: {
-        const sph_real s = q + c, u = sphi_pos(SPH_R(3) - s), v = sphi_pos(SPH_R(2) - s), u2 = u * u, v2 = v * v;
-        return SPH_R(-5) * (u2 * u2 - SPH_R(6) * (v2 * v2)) / s - c * (SPH_R(90) + c * (SPH_R(30) - SPH_R(50) * c));
+        const sph_real s = q + c, u = sphi_pos(SPH_R(3) - s), v = sphi_pos(SPH_R(2) - s), u2 = u * u,
+                       v2 = v * v;
+        return SPH_R(-5) * (u2 * u2 - SPH_R(6) * (v2 * v2)) / s -
+               c * (SPH_R(90) + c * (SPH_R(30) - SPH_R(50) * c));
     }
     case SPH_WENDLAND_C2:
         return SPH_R(-5) * b2 * b;
@@ -475,13 +537,15 @@ SPH_FN sph_real sph_kernel_shape_f(sph_kernel k, int dim, sph_real q)
     case SPH_GAUSSIAN:
         return q < SPH_R(3) ? SPH_R(-2) * SPHI_EXP(-q * q) : SPH_R(0);
     case SPH_SUPER_GAUSSIAN:
-        return q < SPH_R(3) ? SPH_R(-2) * (SPH_R(0.5) * SPH_R(dim) + SPH_R(2) - q * q) * SPHI_EXP(-q * q) : SPH_R(0);
+        return q < SPH_R(3) ? SPH_R(-2) * (SPH_R(0.5) * SPH_R(dim) + SPH_R(2) - q * q) * SPHI_EXP(-q * q)
+                            : SPH_R(0);
     case SPH_LIU_QUARTIC:
         return a * (SPH_R(0.625) * q - SPH_R(1.125));
     case SPH_HERMITE:
         return SPH_R(-3) * a;
     case SPH_SCHUESSLER_SCHMITT: {
-        const sph_real p = SPH_R(1e-6) + sphi_pos(q - SPH_R(1e-6)), inside = q < SPH_R(2) ? SPH_R(1) : SPH_R(0);
+        const sph_real p = SPH_R(1e-6) + sphi_pos(q - SPH_R(1e-6)),
+                       inside = q < SPH_R(2) ? SPH_R(1) : SPH_R(0);
         return inside * sphi_over_q(SPH_R(-0.5) / SPHI_SQRT(p), q);
     }
     case SPH_JOHNSON_BEISSEL:
@@ -504,7 +568,8 @@ SPH_FN sph_real sph_kernel_shape_f(sph_kernel k, int dim, sph_real q)
     }
 }
 
-/* d2w/dq2; 0 for q >= support, where liu-quartic, hermite, schuessler-schmitt, johnson-beissel and the Gaussians jump. At q = 0 of a kernel with a cusp: the limit from q > 0. */
+/* d2w/dq2; 0 for q >= support, where liu-quartic, hermite, schuessler-schmitt, johnson-beissel and the
+   Gaussians jump. At q = 0 of a kernel with a cusp: the limit from q > 0. */
 SPH_FN sph_real sph_kernel_shape_d2(sph_kernel k, int dim, sph_real q)
 {
     const sph_real a = sphi_pos(SPH_R(2) - q), b = SPH_R(0.5) * a, c = sphi_pos(SPH_R(1) - q);
@@ -514,7 +579,8 @@ SPH_FN sph_real sph_kernel_shape_d2(sph_kernel k, int dim, sph_real q)
     case SPH_CUBIC_SPLINE:
         return SPH_R(1.5) * a - SPH_R(6) * c;
     case SPH_QUARTIC_SPLINE: {
-        const sph_real u = sphi_pos(SPH_R(2.5) - q), v = sphi_pos(SPH_R(1.5) - q), s = sphi_pos(SPH_R(0.5) - q);
+        const sph_real u = sphi_pos(SPH_R(2.5) - q), v = sphi_pos(SPH_R(1.5) - q),
+                       s = sphi_pos(SPH_R(0.5) - q);
         return SPH_R(12) * (u * u - SPH_R(5) * (v * v) + SPH_R(10) * (s * s));
     }
     case SPH_QUINTIC_SPLINE: {
@@ -573,7 +639,8 @@ SPH_FN sph_real sph_kernel_w(sph_kernel k, int dim, sph_real r, sph_real h)
     return sph_kernel_sigma(k, dim) * sphi_power(u, dim) * sph_kernel_shape(k, dim, r * u);
 }
 
-/* F = (1/r) dW/dr, so that grad_i W = F x_ij. F <= 0 for every kernel that falls monotonically (all but liu-quartic and super-gaussian). */
+/* F = (1/r) dW/dr, so that grad_i W = F x_ij. F <= 0 for every kernel that falls monotonically (all but
+   liu-quartic and super-gaussian). */
 SPH_FN sph_real sph_kernel_f(sph_kernel k, int dim, sph_real r, sph_real h)
 {
     const sph_real u = SPH_R(1) / h;
@@ -597,7 +664,10 @@ SPH_FN sph_wf sph_kernel_wf(sph_kernel k, int dim, sph_real r, sph_real h)
 }
 
 /* dW/dr = r F; 0 at r = 0, also for a kernel with a cusp */
-SPH_FN sph_real sph_kernel_dwdr(sph_kernel k, int dim, sph_real r, sph_real h) { return r * sph_kernel_f(k, dim, r, h); }
+SPH_FN sph_real sph_kernel_dwdr(sph_kernel k, int dim, sph_real r, sph_real h)
+{
+    return r * sph_kernel_f(k, dim, r, h);
+}
 
 /* d2W/dr2. The Laplacian of W is d2W/dr2 + (dim - 1) F. */
 SPH_FN sph_real sph_kernel_d2wdr2(sph_kernel k, int dim, sph_real r, sph_real h)
@@ -614,7 +684,8 @@ SPH_FN sph_real sph_kernel_dwdh(sph_kernel k, int dim, sph_real r, sph_real h)
     return -(SPH_R(dim) * v.w + r * r * v.f) / h;
 }
 
-/* 1 for the kernels whose slope at the origin is not zero: their gradient has no direction at r = 0, and F is 0 there */
+/* 1 for the kernels whose slope at the origin is not zero: their gradient has no direction at r = 0, and F is
+   0 there */
 SPH_FN int sph_kernel_has_cusp(sph_kernel k)
 {
     switch (k) {
@@ -631,8 +702,9 @@ SPH_FN int sph_kernel_has_cusp(sph_kernel k)
     }
 }
 
-/* Whether K(q) = integral_q^support w dq is again a kernel: decreasing needs w >= 0, convex needs w' <= 0. Looked up on 1024 points of the kernel itself.
-   'The result will always be decreasing' (the clustering paper) is not so for liu-quartic and super-gaussian, which have negative lobes. */
+/* Whether K(q) = integral_q^support w dq is again a kernel: decreasing needs w >= 0, convex needs w' <= 0.
+   Looked up on 1024 points of the kernel itself. 'The result will always be decreasing' (the clustering
+   paper) is not so for liu-quartic and super-gaussian, which have negative lobes. */
 SPH_FN int sph_kernel_may_convexify(sph_kernel k, int dim)
 {
     int i;
@@ -643,15 +715,23 @@ SPH_FN int sph_kernel_may_convexify(sph_kernel k, int dim)
     return 1;
 }
 
-/* ================================================================ gravity softened by the kernel, three dimensions
+/* ================================================================ gravity softened by the kernel, three
+ * dimensions
  *
- * The potential of a unit mass that is smeared out like W: Poisson's equation lap phi = 4 pi W gives phi = phi^(q) / h with
- *     (1/q) dphi^/dq = 4 pi sigma / q^3 integral_0^q w s^2 ds,   phi^ = -integral_q^inf dphi^/ds ds,   phi^ = -1/q and dphi^/dq = 1/q^2 beyond the support.
- * Price & Monaghan 2007, MNRAS 374, 1347, (A1)-(A7) for the cubic spline (their appendix A); the others by the same integrals, in exact rationals. Finite and smooth at r = 0. Error: rounding
- * alone, of which terms that alternate in sign make up to some hundred units in the last place towards the edge of the Wendland kernels (in float three to four digits are right there).
+ * The potential of a unit mass that is smeared out like W: Poisson's equation lap phi = 4 pi W gives phi =
+ * phi^(q) / h with
+ *     (1/q) dphi^/dq = 4 pi sigma / q^3 integral_0^q w s^2 ds,   phi^ = -integral_q^inf dphi^/ds ds,   phi^ =
+ *     -1/q and dphi^/dq = 1/q^2 beyond the support.
+ * Price & Monaghan 2007, MNRAS 374, 1347, (A1)-(A7) for the cubic spline (their appendix A); the others by
+ * the same integrals, in exact rationals. Finite and smooth at r = 0. Error: rounding alone, of which terms
+ * that alternate in sign make up to some hundred units in the last place towards the edge of the Wendland
+ * kernels (in float three to four digits are right there).
  */
 /* cubic-spline, wendland-c2, wendland-c4, wendland-c6 */
-SPH_FN int sph_kernel_has_gravity(sph_kernel k) { return k == SPH_CUBIC_SPLINE || k == SPH_WENDLAND_C2 || k == SPH_WENDLAND_C4 || k == SPH_WENDLAND_C6; }
+SPH_FN int sph_kernel_has_gravity(sph_kernel k)
+{
+    return k == SPH_CUBIC_SPLINE || k == SPH_WENDLAND_C2 || k == SPH_WENDLAND_C4 || k == SPH_WENDLAND_C6;
+}
 
 /* (1/q) dphi^/dq; Newton's 1/q^3 beyond the support and for kernels that have no gravity */
 SPH_FN sph_real sph_gravity_shape_f(sph_kernel k, sph_real q)
@@ -660,21 +740,28 @@ SPH_FN sph_real sph_gravity_shape_f(sph_kernel k, sph_real q)
     if (!(q < SPH_R(2)) || !sph_kernel_has_gravity(k)) return SPH_R(1) / (a * q);
     switch (k) {
     case SPH_WENDLAND_C2:
-        return SPH_R(1.75) + a * (SPH_R(-2.625) + q * (SPH_R(2.1875) + q * (SPH_R(-0.703125) + q * SPH_R(0.08203125))));
+        return SPH_R(1.75) +
+               a * (SPH_R(-2.625) + q * (SPH_R(2.1875) + q * (SPH_R(-0.703125) + q * SPH_R(0.08203125))));
     case SPH_WENDLAND_C4:
         return SPH_R(2.578125) +
                a * (SPH_R(-3.609375) +
-                    a * (SPH_R(4.833984375) + q * (SPH_R(-4.51171875) + q * (SPH_R(1.8798828125) + q * (SPH_R(-0.38671875) + q * SPH_R(0.03204345703125))))));
+                    a * (SPH_R(4.833984375) +
+                         q * (SPH_R(-4.51171875) +
+                              q * (SPH_R(1.8798828125) +
+                                   q * (SPH_R(-0.38671875) + q * SPH_R(0.03204345703125))))));
     case SPH_WENDLAND_C6:
         return SPH_R(3.5546875) +
                a * (SPH_R(-5.865234375) +
                     a * (SPH_R(6.2841796875) +
                          a * (SPH_R(-8.553466796875) +
-                              q * (SPH_R(8.7978515625) + q * (SPH_R(-4.373931884765625) + q * (SPH_R(1.221923828125) + q * (SPH_R(-0.18505096435546875) +
-                                                                                                                            q * SPH_R(0.01190185546875))))))));
+                              q * (SPH_R(8.7978515625) +
+                                   q * (SPH_R(-4.373931884765625) +
+                                        q * (SPH_R(1.221923828125) + q * (SPH_R(-0.18505096435546875) +
+                                                                          q * SPH_R(0.01190185546875))))))));
     default: /* cubic spline */
         if (q < SPH_R(1)) return SPH_R(4) / SPH_R(3) + a * (SPH_R(-1.2) + q * SPH_R(0.5));
-        return SPH_R(8) / SPH_R(3) + q * (SPH_R(-3) + q * (SPH_R(1.2) - q / SPH_R(6))) - SPH_R(1) / (SPH_R(15) * a * q);
+        return SPH_R(8) / SPH_R(3) + q * (SPH_R(-3) + q * (SPH_R(1.2) - q / SPH_R(6))) -
+               SPH_R(1) / (SPH_R(15) * a * q);
     }
 }
 /* phi^, negative */
@@ -684,24 +771,32 @@ SPH_FN sph_real sph_gravity_shape(sph_kernel k, sph_real q)
     if (!(q < SPH_R(2)) || !sph_kernel_has_gravity(k)) return SPH_R(-1) / q;
     switch (k) {
     case SPH_WENDLAND_C2:
-        return SPH_R(-1.5) + a * (SPH_R(0.875) + a * (SPH_R(-0.65625) + q * (SPH_R(0.4375) + q * (SPH_R(-0.1171875) + q * SPH_R(0.01171875)))));
+        return SPH_R(-1.5) +
+               a * (SPH_R(0.875) + a * (SPH_R(-0.65625) + q * (SPH_R(0.4375) + q * (SPH_R(-0.1171875) +
+                                                                                    q * SPH_R(0.01171875)))));
     case SPH_WENDLAND_C4:
         return SPH_R(-1.71875) +
                a * (SPH_R(1.2890625) +
                     a * (SPH_R(-0.90234375) +
                          a * (SPH_R(0.8056640625) +
-                              q * (SPH_R(-0.64453125) + q * (SPH_R(0.2349853515625) + q * (SPH_R(-0.04296875) + q * SPH_R(0.003204345703125)))))));
+                              q * (SPH_R(-0.64453125) +
+                                   q * (SPH_R(0.2349853515625) +
+                                        q * (SPH_R(-0.04296875) + q * SPH_R(0.003204345703125)))))));
     case SPH_WENDLAND_C6:
         return SPH_R(-1.9140625) +
                a * (SPH_R(1.77734375) +
                     a * (SPH_R(-1.46630859375) +
-                         a * (SPH_R(1.04736328125) + a * (SPH_R(-1.069183349609375) +
-                                                          q * (SPH_R(0.9775390625) + q * (SPH_R(-0.4373931884765625) +
-                                                                                          q * (SPH_R(0.111083984375) + q * (SPH_R(-0.015420913696289062) +
-                                                                                                                            q * SPH_R(0.00091552734375)))))))));
+                         a * (SPH_R(1.04736328125) +
+                              a * (SPH_R(-1.069183349609375) +
+                                   q * (SPH_R(0.9775390625) +
+                                        q * (SPH_R(-0.4373931884765625) +
+                                             q * (SPH_R(0.111083984375) +
+                                                  q * (SPH_R(-0.015420913696289062) +
+                                                       q * SPH_R(0.00091552734375)))))))));
     default:
         if (q < SPH_R(1)) return SPH_R(-1.4) + a * (SPH_R(2) / SPH_R(3) + a * (SPH_R(-0.3) + q * SPH_R(0.1)));
-        return SPH_R(-1.6) + a * (SPH_R(4) / SPH_R(3) + q * (SPH_R(-1) + q * (SPH_R(0.3) - q / SPH_R(30)))) + SPH_R(1) / (SPH_R(15) * q);
+        return SPH_R(-1.6) + a * (SPH_R(4) / SPH_R(3) + q * (SPH_R(-1) + q * (SPH_R(0.3) - q / SPH_R(30)))) +
+               SPH_R(1) / (SPH_R(15) * q);
     }
 }
 SPH_FN sph_real sph_gravity_potential(sph_kernel k, sph_real r, sph_real h)
@@ -723,7 +818,8 @@ SPH_FN sph_real sph_gravity_dphidh(sph_kernel k, sph_real r, sph_real h)
     return -(sph_gravity_shape(k, q) + q * q * sph_gravity_shape_f(k, q)) / (h * h);
 }
 
-/* ================================================================ names, for programs that take them from the command line */
+/* ================================================================ names, for programs that take them from
+   the command line */
 
 #if !SPH_OPENCL
 
@@ -758,11 +854,14 @@ SPH_FN int sphi_same_name(const char *a, const char *b)
     X("m4", SPH_CUBIC_SPLINE) X("cubic", SPH_CUBIC_SPLINE) \
     X("m5", SPH_QUARTIC_SPLINE) X("quartic", SPH_QUARTIC_SPLINE) \
     X("m6", SPH_QUINTIC_SPLINE) X("quintic", SPH_QUINTIC_SPLINE) \
-    X("w2", SPH_WENDLAND_C2) X("c2", SPH_WENDLAND_C2) X("wendland", SPH_WENDLAND_C2) X("wendlandc2", SPH_WENDLAND_C2) \
+    X("w2", SPH_WENDLAND_C2) X("c2", SPH_WENDLAND_C2) X("wendland", SPH_WENDLAND_C2) \
+    X("wendlandc2", SPH_WENDLAND_C2) \
     X("w4", SPH_WENDLAND_C4) X("c4", SPH_WENDLAND_C4) X("wendlandc4", SPH_WENDLAND_C4) \
     X("w6", SPH_WENDLAND_C6) X("c6", SPH_WENDLAND_C6) X("wendlandc6", SPH_WENDLAND_C6) \
-    X("lucy", SPH_WENDLAND_C2_1D) X("w2-1d", SPH_WENDLAND_C2_1D) X("w4-1d", SPH_WENDLAND_C4_1D) X("w6-1d", SPH_WENDLAND_C6_1D) \
-    X("gauss", SPH_GAUSSIAN) X("supergaussian", SPH_SUPER_GAUSSIAN) X("liu", SPH_LIU_QUARTIC) X("read", SPH_CORE_TRIANGLE) X("ct", SPH_CORE_TRIANGLE)
+    X("lucy", SPH_WENDLAND_C2_1D) X("w2-1d", SPH_WENDLAND_C2_1D) X("w4-1d", SPH_WENDLAND_C4_1D) \
+    X("w6-1d", SPH_WENDLAND_C6_1D) \
+    X("gauss", SPH_GAUSSIAN) X("supergaussian", SPH_SUPER_GAUSSIAN) X("liu", SPH_LIU_QUARTIC) \
+    X("read", SPH_CORE_TRIANGLE) X("ct", SPH_CORE_TRIANGLE)
 /* clang-format on */
 
 /* the kernel of a name or alias, or -1 (also for a null pointer) */

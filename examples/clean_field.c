@@ -31,6 +31,10 @@ static void need(sph_index failed) /* what a sweep returns: 0, or how many parti
 }
 
 static sph_points points(void) { return sph_points_periodic(sph_points_separate(N, x, y, NULL), 1, 1, 0); }
+static sph_cloud cloud(void) /* no volumes: these operators take masses */
+{
+    return sph_cloud_of(points(), list, sph_scalars_same(&h), sph_scalars_none());
+}
 
 /* a hexagonal lattice, slightly in disorder, its density, and the field */
 static void fill(void)
@@ -55,7 +59,7 @@ static void fill(void)
     t = 0;
     need(sph_grid_build(DIM, points(), radius, work, sph_grid_workspace(DIM, N), &grid));
     need(sph_grid_lists(DIM, &grid, points(), SPH_GATHER, R, R, 0, start, list_index, N * NEIGHBOURS, &pairs));
-    need(sph_density_summation(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points(), list, sph_scalars_same(&h), sph_scalars_none()), 0, N), sph_scalars_same(&m), rho));
+    need(sph_density_summation(KERNEL, DIM, cloud(), sph_scalars_same(&m), rho));
     free(work);
 }
 
@@ -63,9 +67,13 @@ static void rates(double damping)
 {
     static const double one = 1; /* Omega of an h that is constant */
     const sph_gas gas = {sph_scalars_same(&m), sph_scalars_array(rho), sph_scalars_same(&one)};
-    const sph_vectors B = sph_vectors_separate(Bx, By, NULL);
+    const sph_cleaning state = {.gas = gas,
+                                .field = sph_vectors_separate(Bx, By, NULL),
+                                .psi = sph_scalars_array(psi),
+                                .ch = ch,
+                                .sigma = damping};
     const sph_vector_out rate_B = sph_vector_out_separate(rate_x, rate_y, NULL);
-    need(sph_cleaning_rates(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points(), list, sph_scalars_same(&h), sph_scalars_none()), 0, N), gas, B, sph_scalars_array(psi), sph_scalars_array(NULL), ch, damping, rate_B, rate_psi, div_B));
+    need(sph_cleaning_rates(KERNEL, DIM, cloud(), state, (sph_cleaning_out){rate_B, rate_psi, div_B}));
 }
 /* the midpoint rule: half a step for the rates of the whole one */
 static void step(double dt, double damping)

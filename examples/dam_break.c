@@ -21,8 +21,9 @@
 #include "sph.h"
 
 enum { DIM = 2, LAYERS = 3, MOST = 2000, NEIGHBOURS = 60, COLUMNS = 78, ROWS = 23 };
-#define KERNEL SPH_WENDLAND_C2                                                  /* a constant: the compiler then folds kernel and dimension away */
-static const double width = 5, height = 3, rho0 = 1, g = 1, gamma7 = 7, c = 20; /* the fastest water: about 2 */
+#define KERNEL SPH_WENDLAND_C2 /* a constant: the compiler then folds kernel and dimension away */
+static const double width = 5, height = 3, g = 1;
+static const sph_tait water = {.rho0 = 1, .c = 20, .gamma = 7}; /* the fastest: about 2 */
 static double dx, h, dt, t, m;
 static int n, n_water; /* water first, then walls */
 static double x[MOST], y[MOST], vx[MOST], vy[MOST], ax[MOST], ay[MOST], rho[MOST], p[MOST], is_water[MOST];
@@ -36,13 +37,13 @@ static void need(sph_index answer) /* what a sweep returns: below 0 an error */
     exit(1);
 }
 
-static void add(double px, double py, int water)
+static void add(double px, double py, int wet)
 {
     x[n] = px;
     y[n] = py;
-    is_water[n] = water;
-    p[n] = water ? rho0 * g * (2 - py) : 0; /* at rest under its weight */
-    rho[n] = sph_density_tait(p[n], rho0, c, gamma7, 0);
+    is_water[n] = wet;
+    p[n] = wet ? water.rho0 * g * (2 - py) : 0; /* at rest under its weight */
+    rho[n] = sph_density_tait(p[n], water);
     n++;
 }
 static void fill(int across) /* particles across the column: not more than 20, for MOST in all */
@@ -51,8 +52,8 @@ static void fill(int across) /* particles across the column: not more than 20, f
     int i, j;
     dx = 1.0 / across;
     h = 1.3 * dx;
-    m = rho0 * dx * dx;
-    dt = sph_time_step_sound(h, c, 3);
+    m = water.rho0 * dx * dx;
+    dt = sph_time_step_sound(h, water.c, 3);
     for (j = 0; j < 2 * across; j++)
         for (i = 0; i < across; i++) add((i + 0.5) * dx, (j + 0.5) * dx, 1);
     n_water = n;
@@ -65,33 +66,34 @@ static void fill(int across) /* particles across the column: not more than 20, f
 /* continuity for the density, then pressures, then forces */
 static void rates(void)
 {
-    static double zero = 0, one = 1, divergence[MOST], p_wall[MOST], v_wall_x[MOST], v_wall_y[MOST];
+    static double one = 1, divergence[MOST], p_wall[MOST], v_wall_x[MOST], v_wall_y[MOST];
     const sph_points points = sph_points_separate(n, x, y, NULL);
     const double radius = sph_kernel_support(KERNEL) * h;
-    const sph_scalars R = sph_scalars_same(&radius), H = sph_scalars_same(&h), mass = sph_scalars_same(&m), density = sph_scalars_array(rho);
-    const sph_scalars none = sph_scalars_same(&zero);
-    const sph_vectors v = sph_vectors_separate(vx, vy, NULL), at_rest = {none, none, none}, no_normal = sph_vectors_separate(NULL, NULL, NULL);
+    const sph_scalars R = sph_scalars_same(&radius), H = sph_scalars_same(&h), mass = sph_scalars_same(&m);
+    const sph_scalars density = sph_scalars_array(rho), pressure = sph_scalars_array(p), c = {&water.c, 0};
+    const sph_vectors v = sph_vectors_separate(vx, vy, NULL); /* walls: 0 */
+    const sph_cloud all = sph_cloud_of(points, (sph_list){start, list_index}, H, sph_scalars_none());
+    const sph_cloud wet = sph_cloud_range(all, 0, n_water), walls = sph_cloud_range(all, n_water, n);
     const sph_gas gas = {mass, density, sph_scalars_same(&one)};
-    const sph_vec gravity = {0, -g, 0};
-    const sph_list list = {start, list_index};
-    const sph_fluid fluid = {mass, density, sph_scalars_array(p), sph_scalars_same(&c), v, SPH_VISCOSITY_MONAGHAN, 0.05, 0, 0.1};
+    const sph_fluid fluid = {mass, density, pressure, c, v, SPH_VISCOSITY_MONAGHAN, 0.05, 0, 0.1};
+    const sph_wall wall = {.share = sph_scalars_array(is_water), .rho = density, .p = pressure, .v = v,
+                           .velocity = v, .gravity = {0, -g, 0}};
+    const sph_wall_out on_wall = {p_wall, sph_vector_out_separate(v_wall_x, v_wall_y, NULL), NULL};
     sph_grid grid;
     int64_t pairs;
     int i;
     need(sph_grid_build(DIM, points, radius, work, sph_grid_workspace(DIM, n), &grid));
     need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, R, R, 0, start, list_index, MOST * NEIGHBOURS, &pairs));
-    need(sph_divergence_difference(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), 0, n_water), gas, v, divergence));
+    need(sph_divergence_difference(KERNEL, DIM, wet, gas, v, divergence));
     for (i = 0; i < n_water; i++) {
         rho[i] -= dt * rho[i] * divergence[i];
-        p[i] = sph_pressure_tait(rho[i], rho0, c, gamma7, 0);
+        p[i] = sph_pressure_tait(rho[i], water);
     }
     /* the walls stand still, also for the viscosity: their v_wall, which would make them rough, is not used */
-    need(sph_wall_adami(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), n_water, n), sph_scalars_array(is_water), density, sph_scalars_array(p), v, at_rest, gravity, no_normal, p_wall, sph_vector_out_separate(v_wall_x, v_wall_y, NULL), NULL));
-    for (i = n_water; i < n; i++) {
-        p[i] = fmax(p_wall[i], 0); /* a wall pushes, it does not pull */
-        rho[i] = sph_density_tait(p[i], rho0, c, gamma7, 0);
-    }
-    need(sph_fluid_rates_monaghan(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), 0, n_water), fluid, sph_vector_out_separate(ax, ay, NULL), NULL, NULL));
+    need(sph_wall_adami(KERNEL, DIM, walls, wall, on_wall));
+    for (i = n_water; i < n; i++) /* a wall pushes, it does not pull */
+        rho[i] = sph_density_tait(p[i] = fmax(p_wall[i], 0), water);
+    need(sph_fluid_rates_monaghan(KERNEL, DIM, wet, fluid, (sph_vector_out){.x = ax, .y = ay}, NULL, NULL));
 }
 /* kick, drift, kick: leapfrog */
 static void step(void)
@@ -154,7 +156,7 @@ static int test(void)
         if (bottom) floor_p += p[i];
         count += bottom;
     }
-    floor_p /= rho0 * g * depth * count;
+    floor_p /= water.rho0 * g * depth * count;
     slope = (at[1] - at[0]) / (2.98 - 1.83);
     if (!(fabs(slope / ((3.67 - 2.11) / (2.98 - 1.83)) - 1) < 0.1)) failed = printf("FAILED: the front is not within 10 %% of the experiment: %g\n", slope);
     if (!(most < 1.003)) failed = printf("FAILED: energy grows by a factor of %g\n", most);

@@ -67,11 +67,14 @@ static void density(void)
     need(sph_grid_build(DIM, points, support * h[0], work, size, &grid));
     for (i = 0; i < N; i++) reach[i] = support * h[i];
     do {
-        const sph_scalars radius = sph_scalars_array(reach);
-        need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, radius, radius, 0, start, NULL, 0, &pairs)); /* counts */
+        const sph_scalars radius = sph_scalars_array(reach), none = sph_scalars_none();
+        const sph_density_options options = {.reach = radius, .eta = ETA, .tolerance = 1e-6};
+        const sph_density_out out = {h, rho, omega, status};
+        need(sph_grid_count(DIM, &grid, points, SPH_GATHER, radius, radius, 0, start, &pairs));
         index = must(realloc(index, (size_t)pairs * sizeof *index));
         need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, radius, radius, 0, start, index, pairs, &pairs));
-        failed = sph_density_adaptive(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, (sph_list){start, index}, sph_scalars_none(), sph_scalars_none()), 0, N), radius, sph_scalars_same(&m), ETA, 1e-6, h, rho, omega, status);
+        const sph_cloud cloud = sph_cloud_of(points, (sph_list){start, index}, none, none);
+        failed = sph_density_adaptive(KERNEL, DIM, cloud, sph_scalars_same(&m), options, out);
         need(failed);
         for (i = 0; i < N; i++)
             if (status[i] == SPH_LIST_TOO_SHORT) reach[i] = support * h[i];

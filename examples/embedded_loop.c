@@ -16,7 +16,8 @@ enum { DIM = 2, SIDE = 16, LAYERS = 2, N_WATER = SIDE * SIDE / 2, N = N_WATER + 
 #define KERNEL SPH_CUBIC_SPLINE /* a constant: the compiler then folds kernel and dimension away */
 
 /* a particle for each light: lengths are in lights, the density is 1, gravity and so the weight of a particle, too */
-static const float h = 1.0f, radius = 2.0f, c = 30.0f, dt = 0.007f, m = 1.0f, zero = 0.0f;
+static const float h = 1.0f, radius = 2.0f, dt = 0.007f, m = 1.0f;
+static const sph_tait water = {.rho0 = 1.0f, .c = 30.0f, .gamma = 1.0f};
 static float x[N], y[N], vx[N], vy[N], ax[N], ay[N], rho[N], p[N], p_wall[N], wall_vx[N], wall_vy[N], is_water[N];
 static sph_index start[N + 1], list_index[N * NEIGHBOURS];
 static double work[(N + 18) * 20 / 8 + 1]; /* of the search: sph_grid_workspace(2, N), which setup() compares */
@@ -46,13 +47,15 @@ static int setup(void)
 static int step(float gx, float gy)
 {
     const sph_points points = sph_points_separate(N, x, y, 0);
-    const sph_scalars R = sph_scalars_same(&radius), H = sph_scalars_same(&h), mass = sph_scalars_same(&m), density = sph_scalars_array(rho);
-    const sph_scalars pressure = sph_scalars_array(p), none = sph_scalars_same(&zero);
-    const sph_vectors v = sph_vectors_separate(vx, vy, 0), at_rest = {none, none, none}, no_normal = sph_vectors_separate(0, 0, 0);
-    const sph_vector_out a = sph_vector_out_separate(ax, ay, 0), v_wall = sph_vector_out_separate(wall_vx, wall_vy, 0);
-    const sph_fluid fluid = {mass, density, pressure, sph_scalars_same(&c), v, SPH_VISCOSITY_MONAGHAN, 0.8f, 0, 0.1f};
-    const sph_vec gravity = {gx, gy, 0};
-    const sph_list list = {start, list_index};
+    const sph_scalars R = sph_scalars_same(&radius), H = sph_scalars_same(&h), mass = sph_scalars_same(&m);
+    const sph_scalars density = sph_scalars_array(rho), pressure = sph_scalars_array(p), c = {&water.c, 0};
+    const sph_vectors v = sph_vectors_separate(vx, vy, 0); /* walls: 0 */
+    const sph_cloud all = sph_cloud_of(points, (sph_list){start, list_index}, H, sph_scalars_none());
+    const sph_cloud wet = sph_cloud_range(all, 0, N_WATER), walls = sph_cloud_range(all, N_WATER, N);
+    const sph_fluid fluid = {mass, density, pressure, c, v, SPH_VISCOSITY_MONAGHAN, 0.8f, 0, 0.1f};
+    const sph_wall wall = {.share = sph_scalars_array(is_water), .rho = density, .p = pressure, .v = v,
+                           .velocity = v, .gravity = {gx, gy, 0}};
+    const sph_wall_out on_wall = {p_wall, sph_vector_out_separate(wall_vx, wall_vy, 0), 0};
     sph_grid grid;
     int64_t pairs;
     int i, error;
@@ -64,19 +67,18 @@ static int step(float gx, float gy)
     }
     error = sph_grid_build(DIM, points, radius, work, sizeof work, &grid);
     if (!error) error = sph_grid_lists(DIM, &grid, points, SPH_GATHER, R, R, 0, start, list_index, N * NEIGHBOURS, &pairs);
-    if (!error) error = sph_density_summation(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), 0, N_WATER), mass, rho); /* does not drift, however long this runs */
+    if (!error) error = sph_density_summation(KERNEL, DIM, wet, mass, rho); /* does not drift in time */
     for (i = 0; i < N_WATER; i++) {
         rho[i] = fmaxf(rho[i], 1); /* the surface lets go: no tension */
-        p[i] = sph_pressure_tait(rho[i], 1, c, 1, 0);
+        p[i] = sph_pressure_tait(rho[i], water);
     }
-    if (!error)
-        error = sph_wall_adami(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), N_WATER, N), sph_scalars_array(is_water), density, pressure, v, at_rest, gravity, no_normal, p_wall, v_wall, 0);
+    if (!error) error = sph_wall_adami(KERNEL, DIM, walls, wall, on_wall);
     if (error < 0) return error; /* above 0: wall particles without water in reach */
     for (i = N_WATER; i < N; i++) {
         p[i] = p_wall[i] > 0 ? p_wall[i] : 0;
-        rho[i] = sph_density_tait(p[i], 1, c, 1, 0);
+        rho[i] = sph_density_tait(p[i], water);
     }
-    return sph_fluid_rates_monaghan(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), 0, N_WATER), fluid, a, 0, 0);
+    return sph_fluid_rates_monaghan(KERNEL, DIM, wet, fluid, sph_vector_out_separate(ax, ay, 0), 0, 0);
 }
 
 /* What the firmware calls: some steps, then the lights. */

@@ -65,15 +65,16 @@ static double wave(double px, double py) { return sin(2 * pi * px) * cos(pi * py
 static void gradients(int side, double (*field)(double, double))
 {
     sph_points points;
-    sph_list list;
+    sph_cloud cloud;
     int i;
     fill(side);
     for (i = 0; i < n; i++) f[i] = field(x[i], y[i]);
     points = sph_points_separate(n, x, y, NULL);
-    list = neighbours(points);
-    need(sph_gradient_difference(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_same(&V)), 0, n), sph_scalars_array(f), plain_x, plain_y, NULL));
-    need(
-        sph_gradient_cspm(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_same(&V)), 0, n), sph_scalars_array(f), cspm_x, cspm_y, NULL, NULL, NULL));
+    cloud = sph_cloud_of(points, neighbours(points), sph_scalars_same(&h), sph_scalars_same(&V));
+    need(sph_gradient_difference(KERNEL, DIM, cloud, sph_scalars_array(f),
+                                 sph_vector_out_separate(plain_x, plain_y, NULL)));
+    need(sph_gradient_cspm(KERNEL, DIM, cloud, sph_scalars_array(f),
+                           (sph_derivative_out){.gx = cspm_x, .gy = cspm_y}));
 }
 /* length of the error of particle i against the gradient of the wave */
 static double error(int i, const double *gx, const double *gy)

@@ -16,16 +16,22 @@
 
 enum { DIM = 2, SIDE = 33, N = SIDE * SIDE, NEIGHBOURS = 40 };
 #define KERNEL SPH_WENDLAND_C2 /* a constant: the compiler then folds kernel and dimension away */
-static const double pi = 3.14159265358979324, dx = 1.0 / (SIDE - 1), conductivity = 1;
+static const double pi = 3.14159265358979324, conductivity = 1;
+static const double dx = 1.0 / (SIDE - 1), h = 1.3 / (SIDE - 1), V = 1.0 / ((SIDE - 1) * (SIDE - 1));
 static double x[N], y[N], temperature[N], rate[N], row[N * NEIGHBOURS], dt, t;
 static sph_index start[N + 1], list_index[N * NEIGHBOURS];
-static const sph_list list = {start, list_index};
 
 static void need(sph_index failed) /* what a sweep returns: 0, or how many particles failed, or an error */
 {
     if (failed == 0) return;
     fprintf(stderr, "heat_plate: %s\n", failed < 0 ? sph_status_text((int)failed) : "particles without an answer");
     exit(1);
+}
+
+static sph_cloud cloud(void)
+{
+    const sph_list list = {start, list_index};
+    return sph_cloud_of(sph_points_separate(N, x, y, NULL), list, sph_scalars_same(&h), sph_scalars_same(&V));
 }
 
 static int on_edge(int i) { return i % SIDE == 0 || i % SIDE == SIDE - 1 || i / SIDE == 0 || i / SIDE == SIDE - 1; }
@@ -45,19 +51,19 @@ static void fill(void)
 
 static void make_rows(void)
 {
-    const sph_points points = sph_points_separate(N, x, y, NULL);
-    const double h = 1.3 * dx, V = dx * dx, radius = sph_kernel_support(KERNEL) * h;
+    const sph_points points = cloud().points;
+    const double radius = sph_kernel_support(KERNEL) * h;
     const sph_scalars R = sph_scalars_same(&radius);
     const size_t size = sph_grid_workspace(DIM, N);
     void *const work = malloc(size);
     const sph_elliptic_options options = sph_elliptic_defaults();
-    const sph_row_out out = {row, NULL, NULL, NULL, NULL};
     sph_grid grid;
     int64_t pairs;
     need(sph_grid_build(DIM, points, radius, work, size, &grid));
     need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, R, R, 0, start, list_index, N * NEIGHBOURS, &pairs));
-    need(sph_elliptic_rows_msph(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_same(&V)), 0, N), sph_scalars_same(&conductivity), options, out));
-    need(sph_rows_time_step(0, N, N, list, row, &dt));
+    need(sph_elliptic_rows_msph(KERNEL, DIM, cloud(), sph_scalars_same(&conductivity), options,
+                                (sph_row_out){.row = row}));
+    need(sph_rows_time_step(cloud(), row, &dt));
     dt *= 0.5; /* the longest stable step, and half of it so that nothing ever gets hotter than its neighbourhood */
     free(work);
 }
@@ -65,7 +71,7 @@ static void make_rows(void)
 static void step(void) /* explicit Euler; the particles on the edge keep their temperature */
 {
     int i;
-    need(sph_rows_apply(0, N, N, list, row, NULL, sph_scalars_array(temperature), rate));
+    need(sph_rows_apply(cloud(), row, NULL, sph_scalars_array(temperature), rate));
     for (i = 0; i < N; i++)
         if (!on_edge(i)) temperature[i] += dt * rate[i];
     t += dt;

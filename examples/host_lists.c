@@ -57,10 +57,8 @@ static void find_pairs(void)
             for (cx = (int)(x[i] * CELLS) - 1; cx <= (int)(x[i] * CELLS) + 1; cx++) {
                 if (cx < 0 || cx >= CELLS || cy < 0 || cy >= CELLS) continue;
                 for (j = first[cy * CELLS + cx]; j >= 0; j = next[j])
-                    if (j > i && (x[i] - x[j]) * (x[i] - x[j]) + (y[i] - y[j]) * (y[i] - y[j]) < reach * reach && pairs < PAIRS) {
-                        pair[pairs][0] = i;
-                        pair[pairs++][1] = j;
-                    }
+                    if (j > i && pow(x[i] - x[j], 2) + pow(y[i] - y[j], 2) < reach * reach && pairs < PAIRS)
+                        pair[pairs][0] = i, pair[pairs++][1] = j;
             }
 }
 
@@ -68,6 +66,7 @@ static void find_pairs(void)
 
 static void by_pairs(void)
 {
+    const sph_viscosity_terms viscosity = {.alpha = 1, .beta = 2, .eta = 0.1};
     int i, q;
     for (i = 0; i < N; i++) {
         rho[i] = m[i] * sph_kernel_w(KERNEL, DIM, 0, h);
@@ -84,9 +83,11 @@ static void by_pairs(void)
         const int a = pair[q][0], b = pair[q][1];
         const double dx = x[a] - x[b], dy = y[a] - y[b], r = sqrt(dx * dx + dy * dy); /* x_ij = x_i - x_j, everywhere */
         const double vr = (vx[a] - vx[b]) * dx + (vy[a] - vy[b]) * dy;
-        const double Pi = sph_viscosity_pair_monaghan(1, 2, 0.1, h, 0.5 * (c[a] + c[b]), 0.5 * (rho[a] + rho[b]), vr, r);
+        const sph_fluid_side at_a = {.rho = rho[a], .p = p[a]}, at_b = {.rho = rho[b], .p = p[b]};
+        const sph_encounter e = {vr, r, h, .c = 0.5 * (c[a] + c[b]), .rho = 0.5 * (rho[a] + rho[b])};
+        const double Pi = sph_viscosity_pair_monaghan(viscosity, e);
         const double F = sph_kernel_f(KERNEL, DIM, r, h); /* grad_i W = F x_ij */
-        const double s = (sph_pressure_pair_monaghan(p[a], rho[a], p[b], rho[b]) + Pi) * F;
+        const double s = (sph_pressure_pair_monaghan(at_a, at_b) + Pi) * F;
         ax1[a] -= m[b] * s * dx;
         ay1[a] -= m[b] * s * dy;
         ax1[b] += m[a] * s * dx;
@@ -101,10 +102,11 @@ static void by_pairs(void)
 static sph_index by_rows(void)
 {
     static sph_index start[N + 2], row[2 * PAIRS];
-    const sph_points points = sph_points_separate(N, x, y, NULL);
+    const sph_points at = sph_points_separate(N, x, y, NULL);
     const sph_vectors v = sph_vectors_separate(vx, vy, NULL);
     const sph_fluid gas = {sph_scalars_array(m), sph_scalars_array(rho), sph_scalars_array(p), sph_scalars_array(c), v, SPH_VISCOSITY_MONAGHAN, 1, 2, 0.1};
     const sph_vector_out acceleration = sph_vector_out_separate(ax2, ay2, NULL);
+    const sph_cloud all = sph_cloud_of(at, (sph_list){start, row}, sph_scalars_same(&h), sph_scalars_none());
     int i, q;
     memset(start, 0, sizeof start);
     for (q = 0; q < pairs; q++) { /* count, two places on ... */
@@ -116,7 +118,7 @@ static sph_index by_rows(void)
         row[start[pair[q][0] + 1]++] = pair[q][1];
         row[start[pair[q][1] + 1]++] = pair[q][0];
     }
-    return sph_fluid_rates_monaghan(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, (sph_list){start, row}, sph_scalars_same(&h), sph_scalars_none()), 0, N), gas, acceleration, NULL, heat2);
+    return sph_fluid_rates_monaghan(KERNEL, DIM, all, gas, acceleration, NULL, heat2);
 }
 
 /* -------- */
@@ -152,7 +154,6 @@ int main(int argc, char **argv)
     double worst, along = 0, exact = 0, momentum = 0;
     char part[4096]; /* renamed when it is whole, so that no half of a file is left; a device is written as it is */
     FILE *file = stdout;
-    sph_index answer;
     int i;
     if (argc > 1 && !tests && !writes) {
         const int help = strcmp(argv[1], "-h") == 0;
@@ -171,7 +172,7 @@ int main(int argc, char **argv)
     fill();
     find_pairs();
     by_pairs();
-    answer = by_rows();
+    const sph_index answer = by_rows();
     worst = fmax(fmax(off(ax1, ax2), off(ay1, ay2)), off(heat1, heat2));
     for (i = 0; i < N; i++) momentum += m[i] * (ax2[i] + ay2[i]);
     for (i = 0; i < N; i++) {

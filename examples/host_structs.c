@@ -59,7 +59,7 @@ static void derivatives(void)
     const sph_scalars area = sph_scalars_strided(&hill[0].area, STRIDE), height = sph_scalars_strided(&hill[0].height, STRIDE);
     const double h = sph_kernel_h_over_dx(KERNEL) / SIDE, radius = sph_kernel_support(KERNEL) * h;
     static sph_index start[N + 1], list_index[N * NEIGHBOURS];
-    const sph_list list = {start, list_index};
+    const sph_cloud cloud = sph_cloud_of(points, (sph_list){start, list_index}, sph_scalars_same(&h), area);
     const sph_scalars R = sph_scalars_same(&radius);
     void *const work = malloc(sph_grid_workspace(DIM, N));
     sph_derivative_out out = {0};
@@ -74,7 +74,7 @@ static void derivatives(void)
     out.stride = STRIDE;
     out.status = status;
     /* exact for quadratic fields, at the edge, too; where that is ill-conditioned weighted least squares take over (status: SPH_FELL_BACK) */
-    if (sph_derivatives_icspm(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, sph_scalars_same(&h), area), 0, N), height, 1e-3, 1, out) < 0) need(-1);
+    if (sph_derivatives_icspm(KERNEL, DIM, cloud, height, 1e-3, 1, out) < 0) need(-1);
 }
 
 static double parabola(double x, double y) { return 1 + 2 * x - y + 3 * x * x + 4 * x * y - 2 * y * y; }

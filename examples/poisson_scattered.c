@@ -80,10 +80,13 @@ static void poisson(int side)
     const double dx = 1.0 / (side - 1), h = 1.3 * dx, V = dx * dx, radius = sph_kernel_support(KERNEL) * h;
     const sph_points points = sph_points_separate(n, x, y, NULL);
     const sph_list list = {start, list_index};
-    const sph_scalars R = sph_scalars_same(&radius), H = sph_scalars_same(&h), volume = sph_scalars_same(&V), mobility = sph_scalars_same(&one);
-    const sph_scalars none = sph_scalars_same(&zero);
-    const sph_diagonal no_normal = {none, none, none}; /* Dirichlet conditions need none */
-    const sph_row_out out = {row, diagonal, NULL, NULL, NULL};
+    const sph_cloud cloud = sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_same(&V));
+    const sph_scalars R = sph_scalars_same(&radius), mobility = sph_scalars_same(&one);
+    const sph_scalars edge = sph_scalars_array(is_edge), none = sph_scalars_same(&zero);
+    /* u = what is given: no slope, so any normal will do */
+    const sph_boundary dirichlet = {.normal = {none, none, none}, .alpha = edge, .beta = none};
+    const sph_csr matrix = {matrix_start, column, value, MOST * (NEIGHBOURS + 1)};
+    const sph_row_out out = {.row = row, .diagonal = diagonal};
     const size_t size = sph_grid_workspace(DIM, n);
     void *const work = malloc(size);
     sph_elliptic_options options = sph_elliptic_defaults();
@@ -97,12 +100,12 @@ static void poisson(int side)
     need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, R, R, 0, start, list_index, MOST * NEIGHBOURS, &pairs));
     options.trace = 1; /* with a source and points in disorder: the right size of the rows, without which solutions do not converge */
     inside.status = status;
-    answer = sph_elliptic_rows_msph(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, volume), 0, n), mobility, options, inside);
+    answer = sph_elliptic_rows_msph(KERNEL, DIM, cloud, mobility, options, inside);
     if (answer < 0) need(answer);
     for (i = 0; i < n; i++)
         if (!(is_edge[i] > 0)) need(status[i]); /* rows of the edge may have to do without (SPH_FELL_BACK): they are written over */
-    need(sph_elliptic_rows_boundary(KERNEL, DIM, sph_cloud_range(sph_cloud_of(points, list, H, volume), 0, n), mobility, options, no_normal, sph_scalars_array(is_edge), none, out));
-    need(sph_csr_assemble(0, n, n, list, row, diagonal, 1, matrix_start, column, value, MOST * (NEIGHBOURS + 1), NULL));
+    need(sph_elliptic_rows_boundary(KERNEL, DIM, cloud, mobility, options, dirichlet, out));
+    need(sph_csr_assemble(cloud, row, diagonal, 1, matrix, NULL));
     free(work);
     solve(side, matrix_start, column, value);
 }

@@ -19,7 +19,6 @@ enum { DIM = 2, CLUMPS = 12 * 12, N = 4 * CLUMPS, NEIGHBOURS = 60, COLUMNS = 37,
 static const double spacing = 1.0 / 24, distance = 0.8 / 24, dt = 0.1 / 24; /* N particles in good order; the speed of most is about 1 */
 static double x[N], y[N], vx[N], vy[N], nearest[N], m = 1, inverse_mass = 1, t;
 static sph_index start[N + 1], list_index[N * NEIGHBOURS];
-static const sph_list list = {start, list_index};
 
 static void need(sph_index failed) /* what a sweep returns: 0, or how many particles failed, or an error */
 {
@@ -29,6 +28,10 @@ static void need(sph_index failed) /* what a sweep returns: 0, or how many parti
 }
 
 static sph_points points(void) { return sph_points_periodic(sph_points_separate(N, x, y, NULL), 1, 1, 0); }
+static sph_cloud cloud(void) /* of points with neighbours: nothing here asks for a kernel or volumes */
+{
+    return sph_cloud_of(points(), (sph_list){start, list_index}, sph_scalars_none(), sph_scalars_none());
+}
 
 static uint64_t state;
 static double uniform(void)
@@ -63,10 +66,12 @@ static void search(double radius)
 
 static void step(int with_collisions)
 {
+    const sph_scalars inverse = sph_scalars_same(&inverse_mass);
+    const sph_collision bounce = {.distance = distance, .restitution = 1, .inverse_mass = inverse};
     int i;
     if (with_collisions) {
         search(distance);
-        need(sph_collide_sequential(DIM, sph_cloud_range(sph_cloud_of(points(), list, sph_scalars_none(), sph_scalars_none()), 0, N), distance, sph_scalars_same(&inverse_mass), 1, vx, vy, NULL, 1, NULL));
+        need(sph_collide_sequential(DIM, cloud(), bounce, sph_vector_out_separate(vx, vy, NULL), NULL));
     }
     for (i = 0; i < N; i++) {
         x[i] += dt * vx[i];
@@ -86,8 +91,8 @@ static order measure(void)
     order o = {0, 0, {0, 0, {0, 0, 0}, {0, 0, 0}}};
     int i;
     search(3.5 * spacing);
-    need(sph_nearest_distance(DIM, 0, N, points(), points(), list, nearest, NULL));
-    need(sph_conserved_sums(DIM, 0, N, points(), sph_scalars_same(&m), v, &o.sums));
+    need(sph_nearest_distance(DIM, cloud(), points(), sph_scalar_out_array(nearest, NULL)));
+    need(sph_conserved_sums(DIM, cloud(), sph_scalars_same(&m), v, &o.sums));
     for (i = 0; i < N; i++) {
         o.mean += nearest[i] / spacing / N;
         o.close += (nearest[i] < 0.5 * spacing) / (double)N;

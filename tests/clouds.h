@@ -4,7 +4,7 @@
  *
  *     cloud c = cloud_lattice(2, 11, 2.0, 0.25, 1);      11 x 11 particles on the unit square, h = 2 dx, jittered by up to dx / 4
  *     cloud_set(&c, field_smooth);                       c.f
- *     ... cloud_points(&c), cloud_list(&c), cloud_h(&c), cloud_V(&c), cloud_f(&c) ...
+ *     ... cloud_view(&c), cloud_f(&c) ...              its parts: cloud_points, cloud_list, cloud_h, cloud_V
  *     cloud_free(&c);
  *
  * Include it after sph.h. Memory is checked by abort: a test that has none has nothing to say.
@@ -190,7 +190,7 @@ static inline void cloud_neighbors(cloud *c, double radius)
     free(c->index);
     c->index = 0;
     if (sph_grid_build(c->dim, cloud_points(c), reach, work, size, &g) != 0) abort();
-    if (sph_grid_lists(c->dim, &g, cloud_points(c), SPH_GATHER, R, R, 0, c->start, 0, 0, &c->pairs) != 0) abort();
+    if (sph_grid_count(c->dim, &g, cloud_points(c), SPH_GATHER, R, R, 0, c->start, &c->pairs) != 0) abort();
     c->index = (sph_index *)cloud_memory((size_t)c->pairs, sizeof *c->index);
     if (sph_grid_lists(c->dim, &g, cloud_points(c), SPH_GATHER, R, R, 0, c->start, c->index, c->pairs, &c->pairs) != 0) abort();
     free(work);

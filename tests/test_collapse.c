@@ -86,6 +86,11 @@ static sph_list heap_list(const heap *s)
     l.index = s->rows.index;
     return l;
 }
+static sph_cloud heap_cloud(const heap *s)
+{
+    const sph_points x = sph_points_separate(s->n, s->x[0], s->x[1], s->x[2]);
+    return sph_cloud_of(x, heap_list(s), sph_scalars_array(s->h), sph_scalars_none());
+}
 
 static int ascending(const void *a, const void *b) { return *(const sph_index *)a < *(const sph_index *)b ? -1 : 1; }
 static void test_neighbours(void)
@@ -147,8 +152,7 @@ static void test_tree_gravity(void)
     const sph_vector_out a = sph_vector_out_separate(s.a[0], s.a[1], s.a[2]);
     double error[ANGLES], momentum[ANGLES], e, p, whole[3];
     int k, c;
-    CHECK(sph_gravity_direct(COLLAPSE_KERNEL, 0, s.n, sph_points_separate(s.n, s.x[0], s.x[1], s.x[2]), sph_scalars_array(s.h), sph_scalars_array(s.m), 0.8, a,
-                             NULL) == 0);
+    CHECK(sph_gravity_direct(COLLAPSE_KERNEL, heap_cloud(&s), sph_scalars_array(s.m), 0.8, a, NULL) == 0);
     tree_moments(&s.t, s.x[0], s.x[1], s.x[2], s.m);
     CHECK_CLOSE(s.t.node[0].q[0] + s.t.node[0].q[2] + s.t.node[0].q[5], 0.0, 1e-14);
     for (k = 0; k < ANGLES; k++) {
@@ -363,8 +367,10 @@ static double energy(const collapse *g)
 {
     double *const phi = (double *)tree_memory(NULL, 4 * (size_t)g->s.n, sizeof *phi), e = 0;
     const sph_vector_out a = sph_vector_out_separate(phi + g->s.n, phi + 2 * g->s.n, phi + 3 * g->s.n);
+    const sph_cloud open =
+        sph_cloud_of(collapse_open(g), collapse_list(g), collapse_field(g, H), sph_scalars_none());
     sph_index i;
-    CHECK(sph_gravity_direct(COLLAPSE_KERNEL, 0, g->s.n, collapse_open(g), collapse_field(g, H), sph_scalars_same(&g->model.m), 1, a, phi) == 0);
+    CHECK(sph_gravity_direct(COLLAPSE_KERNEL, open, sph_scalars_same(&g->model.m), 1, a, phi) == 0);
     for (i = 0; i < g->s.n; i++)
         e += g->model.m * (0.5 * (pow(g->a[VX][i], 2) + pow(g->a[VY][i], 2) + pow(g->a[VZ][i], 2)) + g->a[P][i] / (0.4 * g->a[RHO][i]) + 0.5 * phi[i]);
     free(phi);

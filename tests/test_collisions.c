@@ -42,24 +42,35 @@ static void gas_free(gas *g)
     free(g->count);
 }
 static sph_vectors gas_v(const gas *g) { return sph_vectors_separate(g->v[0], g->v[1], g->v[2]); }
+static sph_cloud gas_cloud(const gas *g)
+{
+    return sph_cloud_of(cloud_points(&g->c), cloud_list(&g->c), sph_scalars_none(), sph_scalars_none());
+}
+static sph_collision gas_collision(const gas *g, double restitution)
+{
+    const sph_collision c = {g->distance, SPH_R(restitution), sph_scalars_array(g->w)};
+    return c;
+}
 
 enum { SEQUENTIAL, WEIGHTED, LITERAL, FORMS };
 /* one sweep over all particles; the velocities are changed */
 static sph_index collide(int form, gas *g, double restitution, sph_collision_report *report)
 {
     const int dim = g->c.dim;
-    const sph_points x = cloud_points(&g->c);
-    const sph_list list = cloud_list(&g->c);
-    const sph_scalars w = sph_scalars_array(g->w);
+    const sph_cloud all = gas_cloud(g);
+    const sph_collision c = gas_collision(g, restitution);
+    const sph_vectors v = gas_v(g);
     const sph_vector_out dv = sph_vector_out_separate(g->dv[0], g->dv[1], g->dv[2]);
     sph_index i, answer;
     int k;
-    if (form == SEQUENTIAL) return sph_collide_sequential(dim, sph_cloud_range(sph_cloud_of(x, list, sph_scalars_none(), sph_scalars_none()), 0, g->c.n), g->distance, w, SPH_R(restitution), g->v[0], g->v[1], g->v[2], 1, report);
+    if (form == SEQUENTIAL)
+        return sph_collide_sequential(dim, all, c, sph_vector_out_separate(g->v[0], g->v[1], g->v[2]),
+                                      report);
     if (form == WEIGHTED) {
-        answer = sph_collision_count(dim, sph_cloud_range(sph_cloud_of(x, list, sph_scalars_none(), sph_scalars_none()), 0, g->c.n), g->distance, w, gas_v(g), g->count);
+        answer = sph_collision_count(dim, all, c, v, g->count);
         CHECK(answer >= 0);
-        answer = sph_collision_change_weighted(dim, sph_cloud_range(sph_cloud_of(x, list, sph_scalars_none(), sph_scalars_none()), 0, g->c.n), g->distance, w, SPH_R(restitution), gas_v(g), g->count, dv);
-    } else answer = sph_collision_change_literal(dim, sph_cloud_range(sph_cloud_of(x, list, sph_scalars_none(), sph_scalars_none()), 0, g->c.n), g->distance, w, SPH_R(restitution), gas_v(g), dv);
+        answer = sph_collision_change_weighted(dim, all, c, v, g->count, dv);
+    } else answer = sph_collision_change_literal(dim, all, c, v, dv);
     for (i = 0; i < g->c.n; i++)
         for (k = 0; k < dim; k++) g->v[k][i] += g->dv[k][i];
     return answer;
@@ -228,7 +239,6 @@ static void test_walls(void)
 static void test_lists(void)
 {
     gas full = patch(5, 0), half = patch(5, 0), part = patch(5, 0);
-    const sph_points x = cloud_points(&half.c);
     sph_index i, p, q = 0;
     double worst = 0.0;
     for (i = 0; i < half.c.n; i++) { /* j > i only */
@@ -260,7 +270,8 @@ static void test_lists(void)
         sph_collision_report report = {0, 0, SPH_R(0)};
         sph_index expected = 0, j;
         gas before = patch(5, 0);
-        CHECK(sph_collide_sequential(2, sph_cloud_range(sph_cloud_of(x, cloud_list(&part.c), sph_scalars_none(), sph_scalars_none()), 0, 40), part.distance, sph_scalars_array(part.w), SPH_R(1), part.v[0], part.v[1], 0, 1, &report) == 0);
+        CHECK(sph_collide_sequential(2, sph_cloud_range(gas_cloud(&part), 0, 40), gas_collision(&part, 1.0),
+                                     sph_vector_out_separate(part.v[0], part.v[1], 0), &report) == 0);
         for (i = 40; i < part.c.n; i++) {
             int touched = 0;
             for (p = part.c.start[i]; p < part.c.start[i + 1]; p++) touched |= part.c.index[p] < 40;
@@ -287,7 +298,7 @@ static void test_coincident(void)
     g.c.x[1] = g.c.x[0];
     g.c.y[1] = g.c.y[0];
     cloud_neighbors(&g.c, 0.85);
-    CHECK(sph_collision_count(2, cloud_view(&g.c), g.distance, sph_scalars_array(g.w), gas_v(&g), g.count) == 2);
+    CHECK(sph_collision_count(2, gas_cloud(&g), gas_collision(&g, 0.5), gas_v(&g), g.count) == 2);
     CHECK(collide(WEIGHTED, &g, 0.5, 0) == 0);
     CHECK(collide(SEQUENTIAL, &g, 0.5, &report) == 0);
     CHECK(report.coincident == 1);
@@ -341,10 +352,11 @@ static void test_acceleration(void)
     a = sph_vector_out_separate(g.dv[0], g.dv[1], g.dv[2]);
     r = 0.5;
     speed = hypot(1.0, 0.5);
-    CHECK(sph_collision_acceleration_literal(2, sph_cloud_range(sph_cloud_of(cloud_points(&c), cloud_list(&g.c), sph_scalars_none(), sph_scalars_none()), 0, 2), g.distance, sph_scalars_array(g.w), SPH_R(0.3), gas_v(&g), SPH_R(speed * dt / r), a) == 0);
+    CHECK(sph_collision_acceleration_literal(2, gas_cloud(&g), gas_collision(&g, 0.3), gas_v(&g),
+                                             SPH_R(speed * dt / r), a) == 0);
     {
         const double ax = (double)g.dv[0][0];
-        CHECK(sph_collision_change_literal(2, sph_cloud_range(sph_cloud_of(cloud_points(&c), cloud_list(&g.c), sph_scalars_none(), sph_scalars_none()), 0, 2), g.distance, sph_scalars_array(g.w), SPH_R(0.3), gas_v(&g), a) == 0);
+        CHECK(sph_collision_change_literal(2, gas_cloud(&g), gas_collision(&g, 0.3), gas_v(&g), a) == 0);
         CHECK(ax != 0.0);
         CHECK_RELATIVE((double)g.dv[0][0] / dt, ax, 1e3 * EPSILON);
     }

@@ -102,7 +102,7 @@ typedef struct world {
     double number[NUMBERS];
     int k, dim, bins, left, right;
     sph_index first, last, n, m; /* n: sources, m: of the other positions */
-    size_t stride, other_stride, array_stride, work_size;
+    size_t stride, other_stride, array_stride, work_size, block_size;
     double box[3];
     uint64_t same; /* one value for all */
 } world;
@@ -152,6 +152,16 @@ static sph_cloud cloud_of(const world *w)
 {
     return sph_cloud_range(sph_cloud_of(points_of(w), list_of(w), scalars_of(w, H), scalars_of(w, V)), w->first, w->last);
 }
+static sph_cloud last_of(const world *w) /* its last target alone */
+{
+    const sph_index i = w->first < 0 ? w->first : w->last - 1;
+    return sph_cloud_range(cloud_of(w), i, i + 1);
+}
+static sph_cloud others_with_list(const world *w)
+{
+    const sph_scalars none = sph_scalars_none();
+    return sph_cloud_range(sph_cloud_of(others_of(w), list_of(w), none, none), w->first, w->last);
+}
 static sph_fluid fluid_of(const world *w)
 {
     sph_fluid f;
@@ -184,12 +194,26 @@ static sph_derivative_out derivative_out_of(const world *w)
     o.status = (unsigned char *)w->a[STATUS];
     return o;
 }
+static sph_scalar_out scalar_out_of(const world *w)
+{
+    return sph_scalar_out_array(real_of(w, S0), (unsigned char *)w->a[STATUS]);
+}
 static sph_row_out row_out_of(const world *w)
 {
     sph_row_out o;
     o.row = real_of(w, R0);
     o.diagonal = real_of(w, S0);
     o.factor = real_of(w, S2);
+    o.conditioning = real_of(w, S1);
+    o.status = (unsigned char *)w->a[STATUS];
+    return o;
+}
+static sph_gradient_row_out gradient_row_out_of(const world *w)
+{
+    sph_gradient_row_out o;
+    o.x = real_of(w, R0);
+    o.y = real_of(w, R1);
+    o.z = real_of(w, R2);
     o.conditioning = real_of(w, S1);
     o.status = (unsigned char *)w->a[STATUS];
     return o;
@@ -208,6 +232,56 @@ static sph_elliptic_options options_of(const world *w)
     o.conditioning_min = SPH_R(w->number[CONDITIONING]);
     return o;
 }
+static sph_elliptic_options options_with_source(const world *w)
+{
+    sph_elliptic_options o = options_of(w);
+    o.source = scalars_of(w, U);
+    return o;
+}
+static sph_boundary boundary_of(const world *w)
+{
+    sph_boundary b;
+    b.normal = vectors_of(w, BX);
+    b.alpha = scalars_of(w, F);
+    b.beta = scalars_of(w, U);
+    return b;
+}
+static sph_csr csr_of(const world *w)
+{
+    sph_csr m;
+    m.start = index_of(w, I0);
+    m.column = index_of(w, I1);
+    m.value = real_of(w, R0);
+    m.capacity = (int64_t)w->number[CAPACITY];
+    return m;
+}
+static sph_collision collision_of(const world *w)
+{
+    sph_collision c;
+    c.distance = SPH_R(w->number[DISTANCE]);
+    c.restitution = SPH_R(w->number[RESTITUTION]);
+    c.inverse_mass = scalars_of(w, INVERSE_M);
+    return c;
+}
+static sph_cleaning cleaning_of(const world *w)
+{
+    sph_cleaning c;
+    c.gas = gas_of(w);
+    c.field = vectors_of(w, BX);
+    c.psi = scalars_of(w, F);
+    c.div_v = scalars_of(w, U);
+    c.ch = SPH_R(w->number[CH]);
+    c.sigma = SPH_R(w->number[SIGMA]);
+    return c;
+}
+static sph_cleaning_out cleaning_out_of(const world *w)
+{
+    sph_cleaning_out o;
+    o.rate_B = vector_out_of(w, O0);
+    o.rate_psi = real_of(w, S0);
+    o.div_B = real_of(w, S1);
+    return o;
+}
 static sph_vec along_x(double x)
 {
     sph_vec v;
@@ -220,7 +294,7 @@ static sph_vec along_x(double x)
 
 /* clang-format off */
 #define RANGE (sph_kernel)w->k, w->dim, cloud_of(w)
-#define RANGE_1D (sph_kernel)w->k, cloud_of(w)
+#define RANGE_ONE (sph_kernel)w->k, cloud_of(w) /* where the dimension is known */
 #define LIST w->dim, cloud_of(w)
 #define A(a) scalars_of(w, a)
 #define R(a) real_of(w, a)
@@ -230,12 +304,11 @@ static sph_vec along_x(double x)
 #define CALL(name, ...) static sph_index call_##name(const world *w) { return (sph_index)sph_##name(__VA_ARGS__); }
 
 CALL(shepard_sum, RANGE, R(S0))
-CALL(interpolate_shepard, RANGE, A(F), R(S0), STATE)
+CALL(interpolate_shepard, RANGE, A(F), scalar_out_of(w))
 CALL(density_summation, RANGE, A(M), R(S0))
-CALL(density_adaptive, (sph_kernel)w->k, LIST, A(REACH), A(M), X(ETA), X(TOLERANCE), R(GUESS), R(S0), R(S3), STATE)
-CALL(gradient_difference, RANGE, A(F), R(O0), R(O1), R(O2))
-CALL(gradient_cspm, RANGE, A(F), R(O0), R(O1), R(O2), R(S1), STATE)
-CALL(gradient_rows_cspm, RANGE, R(R0), R(R1), R(R2), R(S1), STATE)
+CALL(gradient_difference, RANGE, A(F), vector_out_of(w, O0))
+CALL(gradient_cspm, RANGE, A(F), derivative_out_of(w))
+CALL(gradient_rows_cspm, RANGE, gradient_row_out_of(w))
 CALL(laplacian_brookshaw, RANGE, A(F), R(S0))
 CALL(laplacian_rows_brookshaw, RANGE, R(R0))
 CALL(laplacian_kernel, RANGE, A(F), R(S0))
@@ -246,57 +319,61 @@ CALL(derivatives_wls, RANGE, A(F), X(LEAST), derivative_out_of(w))
 CALL(derivative_rows_cspm, RANGE, jet_of(w), row_out_of(w))
 CALL(derivative_rows_icspm, RANGE, jet_of(w), row_out_of(w))
 CALL(derivative_rows_wls, RANGE, jet_of(w), row_out_of(w))
-CALL(second_derivative_bim, RANGE_1D, A(F), w->left, w->right, R(S0), STATE)
-CALL(second_derivative_rows_bim, RANGE_1D, w->left, w->right, R(R0), STATE)
-CALL(elliptic_brookshaw, RANGE, A(MX), options_of(w), A(F), A(U), R(S0), STATE)
-CALL(elliptic_brookshaw_corrected, RANGE, A(MX), options_of(w), A(F), A(U), R(S0), STATE)
-CALL(elliptic_schwaiger, RANGE, A(MX), options_of(w), A(F), A(U), R(S0), STATE)
-CALL(elliptic_msph, RANGE, A(MX), options_of(w), A(F), A(U), R(S0), STATE)
+CALL(second_derivative_bim, RANGE_ONE, A(F), w->left, w->right, scalar_out_of(w))
+CALL(second_derivative_rows_bim, RANGE_ONE, w->left, w->right, R(R0), STATE)
+CALL(elliptic_brookshaw, RANGE, A(MX), options_with_source(w), A(F), scalar_out_of(w))
+CALL(elliptic_brookshaw_corrected, RANGE, A(MX), options_with_source(w), A(F), scalar_out_of(w))
+CALL(elliptic_schwaiger, RANGE, A(MX), options_with_source(w), A(F), scalar_out_of(w))
+CALL(elliptic_msph, RANGE, A(MX), options_with_source(w), A(F), scalar_out_of(w))
 CALL(elliptic_rows_brookshaw, RANGE, A(MX), options_of(w), row_out_of(w))
 CALL(elliptic_rows_brookshaw_corrected, RANGE, A(MX), options_of(w), row_out_of(w))
 CALL(elliptic_rows_schwaiger, RANGE, A(MX), options_of(w), row_out_of(w))
 CALL(elliptic_rows_msph, RANGE, A(MX), options_of(w), row_out_of(w))
 CALL(elliptic_rows_anisotropic, RANGE, diagonal_of(w, MX), row_out_of(w))
 CALL(elliptic_rows_msph_diagonal, RANGE, diagonal_of(w, MX), options_of(w), row_out_of(w))
-CALL(elliptic_rows_boundary, RANGE, A(MX), options_of(w), diagonal_of(w, BX), A(F), A(U), row_out_of(w))
-CALL(rows_apply, w->first, w->last, w->n, list_of(w), R(ROW), R(DIAGONAL), A(F), R(S0))
-CALL(rows_monotone, w->first, w->last, w->n, list_of(w), R(ROW), R(DIAGONAL), STATE)
-CALL(rows_time_step, w->first, w->last, w->n, list_of(w), R(ROW), R(S0))
-CALL(rows_growth, w->dim, w->first < 0 ? w->first : w->last - 1, points_of(w), list_of(w), R(ROW), X(TAU), along_x(w->number[WAVE]), R(S0), R(S1))
-CALL(csr_size, w->first, w->last, list_of(w))
-CALL(csr_assemble, w->first, w->last, w->n, list_of(w), R(ROW), R(DIAGONAL), 0, I(I0), I(I1), R(R0), (int64_t)w->number[CAPACITY], (int64_t *)w->a[REPORT])
+CALL(elliptic_rows_boundary, RANGE, A(MX), options_of(w), boundary_of(w), row_out_of(w))
+CALL(rows_apply, cloud_of(w), R(ROW), R(DIAGONAL), A(F), R(S0))
+CALL(rows_monotone, cloud_of(w), R(ROW), R(DIAGONAL), STATE)
+CALL(rows_time_step, cloud_of(w), R(ROW), R(S0))
+CALL(rows_growth, w->dim, last_of(w), R(ROW), X(TAU), along_x(w->number[WAVE]), R(S0), R(S1))
+CALL(csr_size, cloud_of(w))
+CALL(csr_assemble, cloud_of(w), R(ROW), R(DIAGONAL), 0, csr_of(w), (int64_t *)w->a[REPORT])
 CALL(fluid_rates_monaghan, RANGE, fluid_of(w), vector_out_of(w, O0), R(S0), R(S1))
 CALL(fluid_rates_colagrossi, RANGE, fluid_of(w), vector_out_of(w, O0), R(S0), R(S1))
 CALL(fluid_rates_hu_adams, RANGE, fluid_of(w), vector_out_of(w, O0), R(S0), R(S1))
 CALL(density_number, RANGE, A(M), R(S0))
-CALL(viscous_mu_morris, RANGE, A(M), A(RHO), vectors_of(w, VX), A(U), X(PARAMETER_C), vector_out_of(w, O0))
-CALL(viscous_mu_monaghan_cleary, RANGE, A(M), A(RHO), vectors_of(w, VX), A(U), X(PARAMETER_C), vector_out_of(w, O0))
-CALL(velocity_xsph, RANGE, A(M), A(RHO), vectors_of(w, VX), X(PARAMETER_C), vector_out_of(w, O0))
-CALL(wall_adami, RANGE, A(V), A(U), A(P), vectors_of(w, VX), vectors_of(w, BX), along_x(w->number[GRAVITY]), vectors_of(w, MX), R(S0), vector_out_of(w, O0), STATE)
-CALL(collision_count, LIST, X(DISTANCE), A(INVERSE_M), vectors_of(w, VX), I(I0))
-CALL(collision_change_weighted, LIST, X(DISTANCE), A(INVERSE_M), X(RESTITUTION), vectors_of(w, VX), I(COUNT), vector_out_of(w, O0))
-CALL(collision_change_literal, LIST, X(DISTANCE), A(INVERSE_M), X(RESTITUTION), vectors_of(w, VX), vector_out_of(w, O0))
-CALL(collision_acceleration_literal, LIST, X(DISTANCE), A(INVERSE_M), X(RESTITUTION), vectors_of(w, VX), X(CONTACT), vector_out_of(w, O0))
-CALL(nearest_distance, w->dim, w->first, w->last, others_of(w), points_of(w), list_of(w), R(S0), STATE)
-CALL(hexatic_order, cloud_of(w), R(S0), STATE)
+CALL(viscous_mu_morris, RANGE, fluid_of(w), A(U), vector_out_of(w, O0))
+CALL(viscous_mu_monaghan_cleary, RANGE, fluid_of(w), A(U), vector_out_of(w, O0))
+CALL(velocity_xsph, RANGE, fluid_of(w), X(PARAMETER_C), vector_out_of(w, O0))
+CALL(collision_count, LIST, collision_of(w), vectors_of(w, VX), I(I0))
+CALL(collision_change_weighted, LIST, collision_of(w), vectors_of(w, VX), I(COUNT), vector_out_of(w, O0))
+CALL(collision_change_literal, LIST, collision_of(w), vectors_of(w, VX), vector_out_of(w, O0))
+CALL(collision_acceleration_literal, LIST, collision_of(w), vectors_of(w, VX), X(CONTACT),
+     vector_out_of(w, O0))
+CALL(nearest_distance, w->dim, others_with_list(w), points_of(w), scalar_out_of(w))
+CALL(hexatic_order, cloud_of(w), scalar_out_of(w))
 CALL(radial_distribution, LIST, X(DISTANCE), X(DENSITY), w->bins, R(S0))
 CALL(count_coincident, LIST, X(WITHIN))
 CALL(separate_coincident, LIST, X(WITHIN), X(STEP), vector_out_of(w, O0))
-CALL(conserved_sums, w->dim, w->first, w->last, points_of(w), A(M), vectors_of(w, VX), (sph_conserved *)w->a[S0])
+CALL(conserved_sums, LIST, A(M), vectors_of(w, VX), (sph_conserved *)w->a[S0])
 CALL(divergence_difference, RANGE, gas_of(w), vectors_of(w, BX), R(S0))
 CALL(divergence_symmetric, RANGE, gas_of(w), vectors_of(w, BX), R(S0))
 CALL(gradient_symmetric, RANGE, gas_of(w), A(F), vector_out_of(w, O0))
-CALL(cleaning_rates, RANGE, gas_of(w), vectors_of(w, BX), A(F), A(U), X(CH), X(SIGMA), vector_out_of(w, O0), R(S0), R(S1))
-CALL(cleaning_rates_symmetric, RANGE, gas_of(w), vectors_of(w, BX), A(F), A(U), X(CH), X(SIGMA), vector_out_of(w, O0), R(S0), R(S1))
-CALL(cleaning_rates_nonconservative, RANGE, gas_of(w), vectors_of(w, BX), A(F), A(U), X(CH), X(SIGMA), vector_out_of(w, O0), R(S0), R(S1))
-CALL(gravity_direct, (sph_kernel)w->k, w->first, w->last, points_of(w), A(H), A(M), X(GRAVITY), vector_out_of(w, O0), R(S0))
-CALL(gravity_zeta, RANGE_1D, A(M), A(RHO), R(S0))
-CALL(gravity_correction, RANGE_1D, gas_of(w), A(F), X(GRAVITY), vector_out_of(w, O0))
+CALL(cleaning_rates, RANGE, cleaning_of(w), cleaning_out_of(w))
+CALL(cleaning_rates_symmetric, RANGE, cleaning_of(w), cleaning_out_of(w))
+CALL(cleaning_rates_nonconservative, RANGE, cleaning_of(w), cleaning_out_of(w))
+CALL(gravity_direct, RANGE_ONE, A(M), X(GRAVITY), vector_out_of(w, O0), R(S0))
+CALL(gravity_zeta, RANGE_ONE, A(M), A(RHO), R(S0))
+CALL(gravity_correction, RANGE_ONE, gas_of(w), A(F), X(GRAVITY), vector_out_of(w, O0))
 CALL(grid_workspace, w->dim, w->n)
 CALL(grid_build, w->dim, points_of(w), X(DISTANCE), w->a[WORK], w->work_size, (sph_grid *)w->a[GRID])
 CALL(grid_lists, w->dim, (const sph_grid *)w->a[GRID], points_of(w), (int)w->number[CRITERION], A(REACH), A(REACH), (int)w->number[FLAGS], I(I0), I(I1),
      (int64_t)w->number[CAPACITY], (int64_t *)w->a[REPORT])
+CALL(grid_count, w->dim, (const sph_grid *)w->a[GRID], points_of(w), (int)w->number[CRITERION], A(REACH), A(REACH), (int)w->number[FLAGS], I(I0),
+     (int64_t *)w->a[REPORT])
 CALL(grid_renumber, (sph_grid *)w->a[GRID])
+CALL(search, w->dim, points_of(w), A(REACH), (int)w->number[CRITERION], w->a[WORK], w->block_size, (sph_neighbors *)w->a[REPORT])
+CALL(search_size, w->dim, w->n, (int64_t)w->number[CAPACITY])
 CALL(permute, w->n, I(ORDER), R(F), w->array_stride, R(S0))
 CALL(permute_inverse, w->n, I(ORDER), I(I0))
 CALL(rebuild_due, w->dim, points_of(w), others_of(w), X(SKIN))
@@ -304,7 +381,7 @@ CALL(rebuild_due, w->dim, points_of(w), others_of(w), X(SKIN))
 static sph_index call_collide_sequential(const world *w)
 {
     sph_collision_report *const report = (sph_collision_report *)w->a[REPORT];
-    const sph_index answer = sph_collide_sequential(LIST, X(DISTANCE), A(INVERSE_M), X(RESTITUTION), R(VX), R(VY), R(VZ), w->array_stride, report);
+    const sph_index answer = sph_collide_sequential(LIST, collision_of(w), vector_out_of(w, VX), report);
     if (answer >= 0 && report) CHECK(sphi_finite(report->energy));
     return answer;
 }
@@ -312,6 +389,35 @@ static sph_index call_grid_order(const world *w) { return sph_grid_order((const 
 static sph_index call_curl_difference(const world *w) /* three components in any dimension */
 {
     return sph_curl_difference(RANGE, gas_of(w), vectors_of(w, BX), sph_vector_out_separate(R(O0), R(S0), R(S1)));
+}
+static sph_index call_density_adaptive(const world *w)
+{
+    sph_density_options d;
+    sph_density_out o;
+    d.reach = A(REACH);
+    d.eta = X(ETA);
+    d.tolerance = X(TOLERANCE);
+    o.h = R(GUESS);
+    o.rho = R(S0);
+    o.omega = R(S3);
+    o.status = STATE;
+    return sph_density_adaptive(RANGE, A(M), d, o);
+}
+static sph_index call_wall_adami(const world *w)
+{
+    sph_wall s;
+    sph_wall_out o;
+    s.share = A(V);
+    s.rho = A(U);
+    s.p = A(P);
+    s.v = vectors_of(w, VX);
+    s.velocity = vectors_of(w, BX);
+    s.normal = vectors_of(w, MX);
+    s.gravity = along_x(w->number[GRAVITY]);
+    o.p = R(S0);
+    o.v = vector_out_of(w, O0);
+    o.status = STATE;
+    return sph_wall_adami(RANGE, s, o);
 }
 static sph_index call_elliptic_diagnose(const world *w)
 {
@@ -332,13 +438,13 @@ static sph_index call_mhd_rates(const world *w)
     sph_mhd s;
     sph_mhd_out o;
     s.gas = gas_of(w);
-    s.P = A(P);
+    s.p = A(P);
     s.u = A(U);
     s.cs = A(C);
     s.alpha = A(ALPHA);
     s.alpha_B = A(ALPHA_B);
     s.v = vectors_of(w, VX);
-    s.B = vectors_of(w, BX);
+    s.field = vectors_of(w, BX);
     s.psi = A(F);
     s.ch = X(CH);
     s.sigma = X(SIGMA);
@@ -356,7 +462,8 @@ static sph_index call_mhd_rates(const world *w)
 }
 
 /* What a function has besides arrays and numbers. COUNTS: its answer is no number of failures. OPAQUE: its outputs are not one number a target (or pair). RAW: numbers are moved,
-   not looked at. HEAVY: masses must be positive. KEEPS: only the first scalar output is 0 where there is no answer. SIZE: it answers a size. */
+   not looked at. HEAVY: masses must be positive. KEEPS: only the first scalar output is 0 where there is no answer. SIZE: it answers a size.
+   SAYS: REPORT begins with a number of pairs, and is written whatever the answer. */
 enum {
     DIM = 1,
     KERNEL = 2,
@@ -371,7 +478,8 @@ enum {
     ONE_ROW = 1024,
     SIZE = 2048,
     HEAVY = 4096,
-    KEEPS = 8192
+    KEEPS = 8192,
+    SAYS = 16384
 };
 
 typedef struct function {
@@ -452,7 +560,8 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(viscous_mu_monaghan_cleary, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(U) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
     FUNCTION(velocity_xsph, SMOOTHED, ALL, MASSES | BIT(RHO) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
     FUNCTION(wall_adami, SMOOTHED | KEEPS, ALL, VOLUMES | BIT(U) | BIT(P) | XYZ(VX) | XYZ(BX), BIT(MX), BIT(S0) | XYZ(O0), BIT(STATUS), N(GRAVITY)),
-    FUNCTION(collide_sequential, LISTED | STRIDE | OPAQUE, ALL, COLLIDERS, 0, XYZ(VX), BIT(REPORT), N(DISTANCE) | N(RESTITUTION)),
+    FUNCTION(collide_sequential, LISTED | OPAQUE, ALL, COLLIDERS, 0, XYZ(VX), BIT(REPORT),
+             N(DISTANCE) | N(RESTITUTION)),
     FUNCTION(collision_count, LISTED | COUNTS, ALL, COLLIDERS, 0, BIT(I0), 0, N(DISTANCE)),
     FUNCTION(collision_change_weighted, LISTED, ALL, COLLIDERS | BIT(COUNT), 0, XYZ(O0), 0, N(DISTANCE) | N(RESTITUTION)),
     FUNCTION(collision_change_literal, LISTED, ALL, COLLIDERS, 0, XYZ(O0), 0, N(DISTANCE) | N(RESTITUTION)),
@@ -477,7 +586,10 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(gravity_correction, KERNEL | TARGETS | COUNTED, 4, GAS | BIT(F), 0, XYZ(O0), 0, N(GRAVITY)),
     FUNCTION(grid_workspace, DIM | COUNTED | SIZE, ALL, 0, 0, 0, 0, 0),
     FUNCTION(grid_build, DIM | COUNTED | OPAQUE, ALL, XYZ(PX), 0, BIT(WORK) | BIT(GRID), 0, N(DISTANCE)),
-    FUNCTION(grid_lists, DIM | COUNTED | OPAQUE, ALL, XYZ(PX) | BIT(REACH) | BIT(GRID), 0, BIT(I0) | BIT(REPORT), BIT(I1), N(CRITERION) | N(FLAGS) | N(CAPACITY)),
+    FUNCTION(grid_lists, DIM | COUNTED | OPAQUE | SAYS, ALL, XYZ(PX) | BIT(REACH) | BIT(GRID), 0, BIT(I0) | BIT(I1) | BIT(REPORT), 0, N(CRITERION) | N(FLAGS) | N(CAPACITY)),
+    FUNCTION(grid_count, DIM | COUNTED | OPAQUE | SAYS, ALL, XYZ(PX) | BIT(REACH) | BIT(GRID), 0, BIT(I0) | BIT(REPORT), 0, N(CRITERION) | N(FLAGS)),
+    FUNCTION(search, DIM | COUNTED | OPAQUE | SAYS, ALL, XYZ(PX) | BIT(REACH), 0, BIT(WORK) | BIT(REPORT), 0, N(CRITERION)),
+    FUNCTION(search_size, DIM | COUNTED | SIZE, ALL, 0, 0, 0, 0, 0),
     FUNCTION(grid_order, SIZE, ALL, BIT(GRID), 0, 0, 0, 0),
     FUNCTION(grid_renumber, OPAQUE, ALL, 0, 0, BIT(GRID) | BIT(WORK), 0, 0),
     FUNCTION(permute, COUNTED | STRIDE | RAW, ALL, BIT(ORDER) | BIT(F), 0, BIT(S0), 0, 0),
@@ -517,7 +629,7 @@ static ground ground_new(int dim, int side)
 {
     cloud c = cloud_lattice(dim, side, 1.6, 0.12, 9);
     const double support = 2.0 * 1.05 * (double)c.h;
-    const size_t n = (size_t)c.n, room[] = {n, 0, n + 1, n * n, sph_grid_workspace(dim, c.n), 256};
+    const size_t n = (size_t)c.n, room[] = {n, 0, n + 1, n * n, sph_search_size(dim, c.n, (int64_t)(n * n)), 256}; /* the block of a search is a workspace, too */
     static const size_t item[] = {sizeof(sph_real), sizeof(sph_index), 1, 1};
     ground g;
     world *const w = &g.good;
@@ -552,7 +664,8 @@ static ground ground_new(int dim, int side)
     w->right = (int)c.n - 1;
     w->last = w->n = w->m = c.n;
     w->stride = w->other_stride = w->array_stride = 1;
-    w->work_size = room[WORK_ROOM];
+    w->work_size = sph_grid_workspace(dim, c.n);
+    w->block_size = room[WORK_ROOM];
 
     pcg32_seed(&random, 5, 5);
     for (a = QX; a <= DIAGONAL; a++)
@@ -616,6 +729,7 @@ static double denormal(void) { return flushes() ? 4096.0 * LEAST_NORMAL : LEAST_
 enum { END, NOT_THIS, GO };
 static char what[96];  /* the way, in words */
 static int64_t needed; /* the size that would do */
+static int64_t said;   /* the number of pairs that is to be said */
 static const ground *here;
 
 static int nth(uint64_t set, int v) /* the member number v of a set, or -1 */
@@ -867,7 +981,9 @@ static int spoil_part(const function *f, world *w, int v) /* what is outside is 
     real_of(w, GUESS)[0] = real_of(w, GUESS)[w->n - 1] = real_of(w, DIAGONAL)[0] = SPH_R(NAN);
     return f->has & TARGETS ? GO : NOT_THIS;
 }
-static int spoil_optional(const function *f, world *w, int v) /* each is left out; and all, with the components that the dimension has not */
+/* each is left out; and all, with the components that the dimension has not and what the function does not
+   use, as the volumes of a cloud where it reads masses */
+static int spoil_optional(const function *f, world *w, int v)
 {
     const uint64_t all = f->reads | f->may_read | f->writes | f->may_write, beyond = all & ~there(w->dim, all), set = there(w->dim, f->may_read | f->may_write);
     int a = nth(set, v);
@@ -878,7 +994,7 @@ static int spoil_optional(const function *f, world *w, int v) /* each is left ou
     }
     if ((v > 0 && nth(set, v - 1) < 0) || !(set | beyond)) return END;
     for (a = 0; a < ARRAYS; a++)
-        if ((set | beyond) & BIT(a)) w->a[a] = 0;
+        if (!(all & BIT(a)) || (set | beyond) & BIT(a)) w->a[a] = 0;
     return GO;
 }
 static int spoil_twice(const function *f, world *w, int v)
@@ -992,7 +1108,7 @@ static int spoil_1e_30(const function *f, world *w, int v) { return v > 0 ? END 
 static int spoil_denormal_x(const function *f, world *w, int v)
 {
     if (v > 1) return END;
-    if (v == 1 && (f->reads & BIT(GRID) || f->writes & BIT(GRID))) return NOT_THIS;
+    if (v == 1 && (f->reads & BIT(GRID) || f->writes & BIT(GRID) || f->call == call_search)) return NOT_THIS;
     return scale(f, w, denormal(), v ? denormal() : 1.0);
 }
 static int set_values(const function *f, world *w, double size)
@@ -1010,19 +1126,24 @@ static int spoil_huge_values(const function *f, world *w, int v) { return v > 0 
 
 static int spoil_capacity(const function *f, world *w, int v) /* every size up to what is needed */
 {
-    const int work = f->call == call_grid_build, column = (f->writes & BIT(R0) && f->has & OPAQUE) != 0;
+    const int work = f->call == call_grid_build, column = (f->writes & BIT(R0) && f->has & OPAQUE) != 0, block = f->call == call_search;
+    const int64_t fixed = (int64_t)sph_search_size(w->dim, w->n, 0), most = w->dim == 1 ? 8 : w->dim == 2 ? 32 : 128;
     int64_t pairs = 0;
-    needed = work ? (int64_t)w->work_size : column ? here->pairs + w->n : 0;
-    if (f->numbers & N(CAPACITY)) {
-        if (sph_grid_lists(w->dim, (const sph_grid *)w->a[GRID], points_of(w), (int)w->number[CRITERION], scalars_of(w, REACH), scalars_of(w, REACH), 0,
-                           index_of(w, I0), 0, 0, &pairs) != 0)
+    needed = said = work ? (int64_t)w->work_size : column ? here->pairs + w->n : 0;
+    if (f->numbers & N(CAPACITY) || block) {
+        if (sph_grid_count(w->dim, (const sph_grid *)w->a[GRID], points_of(w), (int)w->number[CRITERION], scalars_of(w, REACH), scalars_of(w, REACH), 0,
+                           index_of(w, I0), &pairs) != 0)
             abort();
         memset(w->a[I0], MARK, here->size[I0]);
-        needed = pairs;
+        needed = said = pairs;
+    }
+    if (block) {
+        needed = (int64_t)sph_search_size(w->dim, w->n, pairs);
+        said = v >= fixed ? pairs : w->n * (most < w->n - 1 ? most : w->n - 1); /* where there is no grid: a guess */
     }
     snprintf(what, sizeof what, "%d of %ld", v, (long)needed);
     if (v >= needed) return END;
-    w->work_size = (size_t)v;
+    w->work_size = w->block_size = (size_t)v;
     w->number[CAPACITY] = v;
     return GO;
 }
@@ -1091,7 +1212,8 @@ static void free_region(const function *f, const world *w, int a, size_t *from, 
     const size_t item = arrays[a].holds == REAL ? sizeof(sph_real) : arrays[a].holds == INDEX_ ? sizeof(sph_index) : 1;
     *from = 0;
     *to = here->size[a];
-    if ((a == I1 || a == R0) && f->has & OPAQUE) *to = (size_t)w->number[CAPACITY] * item;
+    if (a == WORK) *to = f->call == call_search ? w->block_size : w->work_size;
+    else if ((a == I1 || a == R0) && f->has & OPAQUE) *to = (size_t)w->number[CAPACITY] * item;
     else if (f->has & OPAQUE || arrays[a].room == ROWS) return;
     else if (arrays[a].room == EACH && !(f->has & RAW)) *from = (size_t)w->first * item, *to = (size_t)w->last * item;
     else if (arrays[a].room == ROOM) *from = (size_t)start[w->first] * item, *to = (size_t)start[w->last] * item;
@@ -1141,6 +1263,7 @@ static const char *judge(const function *f, const world *w, const char *expected
     const uint64_t outputs = f->writes | f->may_write;
     const int aliased = strcmp(now_column, "alias") == 0, none = strcmp(expected, "none") == 0, ok = strcmp(expected, "ok") == 0,
               some = strcmp(expected, "some") == 0, finite = strcmp(expected, "finite") == 0, zero = strcmp(expected, "0") == 0;
+    const int grows = f->numbers & N(CAPACITY) || f->call == call_search;
     int a, e;
     for (e = 0; e < ERRORS && strcmp(errors[e].name, expected) != 0; e++) {}
     if (e == ERRORS && !none && !ok && !some && !finite && !zero) return "no such answer";
@@ -1150,7 +1273,13 @@ static const char *judge(const function *f, const world *w, const char *expected
     if (ok && answer > 0 && !(f->has & (COUNTS | SIZE))) return "some failed";
     if (some && answer == 0) return "nothing failed";
     if (e == ERRORS && !(f->has & SIZE) && answer > here->good.n) return "more failures than particles";
-    if ((e == ERRORS && !none) || (e < ERRORS && errors[e].answer == SPH_ERROR_CAPACITY && f->numbers & N(CAPACITY))) { /* take over what may have changed */
+    if (f->has & SAYS && w->a[REPORT]) {
+        const int64_t *const pairs = (const int64_t *)w->a[REPORT];
+        if (e < ERRORS && errors[e].answer != SPH_ERROR_CAPACITY && *pairs != 0) return "a number of pairs beside an error";
+        if (e == ERRORS && (*pairs < 0 || *pairs > (int64_t)here->good.n * here->good.n)) return "no such number of pairs";
+        memcpy(here->before + ((unsigned char *)w->a[REPORT] - here->live), w->a[REPORT], f->call == call_search ? sizeof(sph_neighbors) : sizeof *pairs);
+    }
+    if ((e == ERRORS && !none) || (e < ERRORS && errors[e].answer == SPH_ERROR_CAPACITY && grows)) { /* take over what may have changed */
         const char *const wrong = e < ERRORS ? 0 : judge_outputs(f, w, answer, aliased);
         if (wrong) return wrong;
         for (a = 0; a < ARRAYS; a++) {
@@ -1159,7 +1288,7 @@ static const char *judge(const function *f, const world *w, const char *expected
             free_region(f, w, a, &from, &to);
             memcpy(here->before + ((unsigned char *)w->a[a] - here->live) + from, (unsigned char *)w->a[a] + from, to - from);
         }
-        if (e < ERRORS && *(const int64_t *)w->a[REPORT] != needed) return "not the size that is needed";
+        if (e < ERRORS && *(const int64_t *)w->a[REPORT] != said) return "not the size that is needed";
     }
     if (memcmp(here->before, here->live, here->total) != 0) return e < ERRORS || none ? "something was written" : "something else was written";
     return 0;
@@ -1289,7 +1418,7 @@ static void test_tables(const char *path)
 /* Every public function of a header that takes arrays (points, lists, grids, orders), or says how large they must be, is in `functions`: SPH_FN at the start of a line. */
 static void test_complete(const char *path)
 {
-    static const char *const takes[] = {"sph_points ", "sph_cloud ", "sph_list ", "sph_grid *", "sph_index *", "_workspace("};
+    static const char *const takes[] = {"sph_points ", "sph_cloud ", "sph_list ", "sph_grid *", "sph_index *", "_workspace(", "_size("};
     FILE *const file = fopen(path, "r");
     char text[4 * LINE], name[LINE], *from, *end;
     size_t i;
@@ -1305,6 +1434,7 @@ static void test_complete(const char *path)
         if (!end) continue;
         for (from = end; from > text && from[-1] != ' ' && from[-1] != '*'; from--) {}
         snprintf(name, sizeof name, "%.*s", (int)(end - from), from);
+        if (strcmp(name, "sph_cloud_examine") == 0) continue; /* tests/test_doctor.c has its answers */
         if (strncmp(name, "sph_", 4) != 0 || strncmp(text, "SPH_FN sph_points ", 18) == 0 || strncmp(text, "SPH_FN sph_cloud ", 17) == 0) continue;
         *strchr(end, ')') = '\0';
         for (i = 0; i < sizeof takes / sizeof *takes && !strstr(from, takes[i]); i++) {}

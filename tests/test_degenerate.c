@@ -21,10 +21,8 @@ enum { OUTPUTS = 11 };
 
 typedef struct arguments {
     int k, dim;
-    sph_index first, last;
-    sph_points x;
-    sph_list list;
-    sph_scalars h, V, f;
+    sph_cloud cloud;
+    sph_scalars f;
     sph_jet d;
     sph_real least;
     int fallback;
@@ -33,9 +31,8 @@ typedef struct arguments {
     unsigned char *status;
 } arguments;
 
-#define CLOUD sph_cloud_range(sph_cloud_of(a->x, a->list, a->h, a->V), a->first, a->last)
-#define SWEEP (sph_kernel)a->k, a->dim, CLOUD
-#define SWEEP_1D (sph_kernel)a->k, CLOUD
+#define SWEEP (sph_kernel) a->k, a->dim, a->cloud
+#define SWEEP_1D (sph_kernel) a->k, a->cloud
 
 static sph_derivative_out derivative_out(const arguments *a)
 {
@@ -55,6 +52,27 @@ static sph_derivative_out derivative_out(const arguments *a)
     o.status = a->status;
     return o;
 }
+static sph_scalar_out scalar_out(const arguments *a) { return sph_scalar_out_array(a->out[0], a->status); }
+static sph_vector_out vector_out(const arguments *a)
+{
+    return sph_vector_out_separate(a->out[0], a->out[1], a->out[2]);
+}
+static sph_derivative_out gradient_out(const arguments *a)
+{
+    sph_derivative_out o = derivative_out(a);
+    o.conditioning = a->out[3];
+    return o;
+}
+static sph_gradient_row_out gradient_row_out(const arguments *a)
+{
+    sph_gradient_row_out o;
+    o.x = a->out[0];
+    o.y = a->out[1];
+    o.z = a->out[2];
+    o.conditioning = a->out[3];
+    o.status = a->status;
+    return o;
+}
 static sph_row_out row_out(const arguments *a)
 {
     sph_row_out o;
@@ -67,10 +85,19 @@ static sph_row_out row_out(const arguments *a)
 }
 
 static sph_index shepard_sum(const arguments *a) { return sph_shepard_sum(SWEEP, a->out[0]); }
-static sph_index interpolate(const arguments *a) { return sph_interpolate_shepard(SWEEP, a->f, a->out[0], a->status); }
-static sph_index difference(const arguments *a) { return sph_gradient_difference(SWEEP, a->f, a->out[0], a->out[1], a->out[2]); }
-static sph_index gradient(const arguments *a) { return sph_gradient_cspm(SWEEP, a->f, a->out[0], a->out[1], a->out[2], a->out[3], a->status); }
-static sph_index gradient_rows(const arguments *a) { return sph_gradient_rows_cspm(SWEEP, a->out[0], a->out[1], a->out[2], a->out[3], a->status); }
+static sph_index interpolate(const arguments *a)
+{
+    return sph_interpolate_shepard(SWEEP, a->f, scalar_out(a));
+}
+static sph_index difference(const arguments *a)
+{
+    return sph_gradient_difference(SWEEP, a->f, vector_out(a));
+}
+static sph_index gradient(const arguments *a) { return sph_gradient_cspm(SWEEP, a->f, gradient_out(a)); }
+static sph_index gradient_rows(const arguments *a)
+{
+    return sph_gradient_rows_cspm(SWEEP, gradient_row_out(a));
+}
 static sph_index brookshaw(const arguments *a) { return sph_laplacian_brookshaw(SWEEP, a->f, a->out[0]); }
 static sph_index brookshaw_rows(const arguments *a) { return sph_laplacian_rows_brookshaw(SWEEP, a->out[0]); }
 static sph_index kernel_laplacian(const arguments *a) { return sph_laplacian_kernel(SWEEP, a->f, a->out[0]); }
@@ -81,7 +108,10 @@ static sph_index wls(const arguments *a) { return sph_derivatives_wls(SWEEP, a->
 static sph_index cspm_rows(const arguments *a) { return sph_derivative_rows_cspm(SWEEP, a->d, row_out(a)); }
 static sph_index icspm_rows(const arguments *a) { return sph_derivative_rows_icspm(SWEEP, a->d, row_out(a)); }
 static sph_index wls_rows(const arguments *a) { return sph_derivative_rows_wls(SWEEP, a->d, row_out(a)); }
-static sph_index bim(const arguments *a) { return sph_second_derivative_bim(SWEEP_1D, a->f, a->left, a->right, a->out[0], a->status); }
+static sph_index bim(const arguments *a)
+{
+    return sph_second_derivative_bim(SWEEP_1D, a->f, a->left, a->right, scalar_out(a));
+}
 static sph_index bim_rows(const arguments *a) { return sph_second_derivative_rows_bim(SWEEP_1D, a->left, a->right, a->out[0], a->status); }
 
 /* what a function has: a dimension, an output for each axis, ends of the domain, a status */
@@ -160,12 +190,8 @@ static fixture fixture_of(cloud c)
     for (i = 0; i < n; i++) t.hs[i] = c.h;
     t.a.k = SPH_WENDLAND_C4_1D;
     t.a.dim = c.dim;
-    t.a.first = 0;
-    t.a.last = c.n;
-    t.a.x = cloud_points(&c);
-    t.a.list = cloud_list(&c);
-    t.a.h = sph_scalars_array(t.hs);
-    t.a.V = cloud_V(&c);
+    t.a.cloud = cloud_view(&c);
+    t.a.cloud.h = sph_scalars_array(t.hs);
     t.a.f = cloud_f(&c);
     t.a.d = sph_jet_laplacian(3);
     t.a.least = SPH_R(0);
@@ -191,13 +217,13 @@ static void check_outputs(const function *f, const fixture *t, const char *what,
 {
     const arguments *const a = &t->a;
     const int dim = a->dim;
-    const sph_index from = t->c.start[a->first], to = t->c.start[a->last];
+    const sph_index from = t->c.start[a->cloud.first], to = t->c.start[a->cloud.last];
     sph_index failed = 0, j;
     long bad = 0, stray = 0;
     int o;
     for (o = 0; o < OUTPUTS; o++) {
         const int pairs = o < f->per_pair;
-        const sph_index lo = pairs ? from : a->first, hi = pairs ? to : a->last;
+        const sph_index lo = pairs ? from : a->cloud.first, hi = pairs ? to : a->cloud.last;
         int written = o < f->outputs;
         if (f->outputs == OUTPUTS) written = o < 3 ? o < dim : o < 9 ? o - 3 < field_hessian_components(dim) : 1;
         else if ((f->has & VECTOR) && o < 3) written = o < dim;
@@ -211,18 +237,19 @@ static void check_outputs(const function *f, const fixture *t, const char *what,
     check_equal(f, dim, what, bad, 0);
     check_equal(f, dim, what, stray, 0);
     if (!(f->has & STATUS)) { /* only an overflow can fail here: a zero then */
-        for (j = a->first; j < a->last; j++) {
+        for (j = a->cloud.first; j < a->cloud.last; j++) {
             int zero = 0;
             for (o = 0; o < (f->has & VECTOR ? dim : 1) && !f->per_pair; o++) zero |= !(fabs((double)a->out[o][j]) > 0.0);
             failed += zero;
         }
-        check_equal(f, dim, what, answer >= 0 && answer <= (f->per_pair ? a->last - a->first : failed), 1);
+        check_equal(f, dim, what,
+                    answer >= 0 && answer <= (f->per_pair ? a->cloud.last - a->cloud.first : failed), 1);
         if (may_overflow) return;
         check_equal(f, dim, what, (long)answer, 0);
         return;
     }
     for (j = 0; j < t->c.n; j++) {
-        if (j < a->first || j >= a->last) stray += t->status[j] != STATUS_MARK;
+        if (j < a->cloud.first || j >= a->cloud.last) stray += t->status[j] != STATUS_MARK;
         else {
             failed += t->status[j] != SPH_OK;
             bad += t->status[j] > SPH_NOT_FINITE;
@@ -231,7 +258,7 @@ static void check_outputs(const function *f, const fixture *t, const char *what,
     check_equal(f, dim, what, bad, 0);
     check_equal(f, dim, what, stray, 0);
     check_equal(f, dim, what, (long)answer, (long)failed);
-    for (j = a->first; j < a->last; j++) { /* nothing but zeros where there is no answer */
+    for (j = a->cloud.first; j < a->cloud.last; j++) { /* nothing but zeros where there is no answer */
         const unsigned char s = t->status[j];
         sph_index p;
         if (s != SPH_TOO_FEW && s != SPH_SINGULAR && s != SPH_NOT_AVAILABLE && s != SPH_NOT_FINITE) continue;

@@ -65,16 +65,17 @@ static void gas_free(gas *g)
     free(g->start);
     free(g->index);
 }
-static sph_points gas_points(const gas *g)
+static sph_cloud gas_cloud(const gas *g, sph_scalars h)
 {
-    return sph_points_periodic(sph_points_separate(g->n, g->x[0], g->x[1], g->x[2]), SPH_R(g->box[0]), SPH_R(g->box[1]), SPH_R(g->box[2]));
+    const sph_points x = sph_points_separate(g->n, g->x[0], g->x[1], g->x[2]);
+    const sph_points boxed = sph_points_periodic(x, SPH_R(g->box[0]), SPH_R(g->box[1]), SPH_R(g->box[2]));
+    const sph_list list = {g->start, g->index};
+    return sph_cloud_of(boxed, list, h, sph_scalars_none());
 }
-static sph_list gas_list(const gas *g)
+static sph_density_options gas_options(const gas *g, double eta, double tolerance)
 {
-    sph_list l;
-    l.start = g->start;
-    l.index = g->index;
-    return l;
+    const sph_density_options o = {sph_scalars_array(g->reach), SPH_R(eta), SPH_R(tolerance)};
+    return o;
 }
 static double distance(const gas *g, sph_index i, sph_index j)
 {
@@ -110,7 +111,9 @@ static void gas_lists(gas *g)
 }
 static sph_index solve(sph_kernel k, gas *g, double eta, double tolerance)
 {
-    return sph_density_adaptive(k, g->dim, sph_cloud_range(sph_cloud_of(gas_points(g), gas_list(g), sph_scalars_none(), sph_scalars_none()), 0, g->n), sph_scalars_array(g->reach), sph_scalars_array(g->m), SPH_R(eta), SPH_R(tolerance), g->h, g->rho, g->omega, g->status);
+    const sph_density_out out = {g->h, g->rho, g->omega, g->status};
+    return sph_density_adaptive(k, g->dim, gas_cloud(g, sph_scalars_none()), sph_scalars_array(g->m),
+                                gas_options(g, eta, tolerance), out);
 }
 /* What a host does: build lists for the guesses, solve, and again where the list was too short. Returns the number of rounds, or ROUNDS + 1. */
 static int settle(sph_kernel k, gas *g, double eta, double tolerance)
@@ -199,7 +202,8 @@ static void test_lattice(sph_kernel k, int dim, int side, double rho_error, doub
     }
     check_solution(k, &g, eta, 1e-10, smooth);
     /* the sum alone, with the h that was found */
-    CHECK(sph_density_summation(k, dim, sph_cloud_range(sph_cloud_of(gas_points(&g), gas_list(&g), sph_scalars_array(g.h), sph_scalars_none()), 0, g.n), sph_scalars_array(g.m), given) == 0);
+    CHECK(sph_density_summation(k, dim, gas_cloud(&g, sph_scalars_array(g.h)), sph_scalars_array(g.m),
+                                given) == 0);
     for (i = 0; i < g.n; i++) CHECK_RELATIVE((double)given[i], (double)g.rho[i], BY_PRECISION(1e-13, 2e-6));
     free(given);
     gas_free(&g);
@@ -271,6 +275,7 @@ static void test_kernels(void)
         gas g = lattice(2, 12, 0.2, 11);
         sph_real *const h = (sph_real *)memory((size_t)g.n, sizeof(sph_real)), *const rho = (sph_real *)memory((size_t)g.n, sizeof(sph_real));
         sph_index i, ok = 0, half_way = g.n / 2;
+        int half;
         for (i = 0; i < g.n; i++) {
             g.m[i] = SPH_R((double)g.m[i] * (1.0 + 0.5 * sin(7.0 * i)));
             g.h[i] = SPH_R(0.3 / 12);
@@ -287,8 +292,13 @@ static void test_kernels(void)
         if (!sph_kernel_has_cusp(k) && k != SPH_GAUSSIAN && k != SPH_SUPER_GAUSSIAN)
             check_solution(k, &g, eta, tolerance, BY_PRECISION(1e-4, 1e-2)); /* some have a kink */
         for (i = 0; i < g.n; i++) g.h[i] = SPH_R(1.01) * h[i];
-        CHECK(sph_density_adaptive(k, 2, sph_cloud_range(sph_cloud_of(gas_points(&g), gas_list(&g), sph_scalars_none(), sph_scalars_none()), 0, half_way), sph_scalars_array(g.reach), sph_scalars_array(g.m), SPH_R(eta), SPH_R(tolerance), g.h, g.rho, 0, 0) >= 0);
-        CHECK(sph_density_adaptive(k, 2, sph_cloud_range(sph_cloud_of(gas_points(&g), gas_list(&g), sph_scalars_none(), sph_scalars_none()), half_way, g.n), sph_scalars_array(g.reach), sph_scalars_array(g.m), SPH_R(eta), SPH_R(tolerance), g.h, g.rho, 0, 0) >= 0);
+        for (half = 0; half < 2; half++) {
+            const sph_cloud all = gas_cloud(&g, sph_scalars_none());
+            const sph_cloud targets = sph_cloud_range(all, half ? half_way : 0, half ? g.n : half_way);
+            const sph_density_options options = gas_options(&g, eta, tolerance);
+            const sph_density_out out = {.h = g.h, .rho = g.rho};
+            CHECK(sph_density_adaptive(k, 2, targets, sph_scalars_array(g.m), options, out) >= 0);
+        }
         for (i = 0; i < g.n; i++)
             CHECK_RELATIVE((double)g.rho[i], (double)rho[i], k == SPH_GAUSSIAN || k == SPH_SUPER_GAUSSIAN ? 0.02 : BY_PRECISION(2e-5, 4e-3));
         free(h);
@@ -435,12 +445,13 @@ static void test_masses(void)
         const sph_real x = SPH_R(0), m = BY_PRECISION(SPH_R(4.9406564584124654e-324), SPH_R(1.4012984643248171e-45)), reach = SPH_R(0.3);
         const sph_index start[2] = {0, 0}, index[1] = {0};
         const sph_points points = sph_points_periodic(sph_points_separate(1, &x, &x, &x), SPH_R(1), SPH_R(1), SPH_R(1));
+        const sph_list list = {start, index};
+        const sph_cloud alone = sph_cloud_of(points, list, sph_scalars_none(), sph_scalars_none());
+        const sph_density_options options = {sph_scalars_same(&reach), SPH_R(1.2), SPH_R(1e-3)};
         sph_real h = SPH_R(0.1), rho = SPH_R(7), omega = SPH_R(7);
         unsigned char status = SPH_OK;
-        sph_list list;
-        list.start = start;
-        list.index = index;
-        CHECK(sph_density_adaptive(SPH_CUBIC_SPLINE, 3, sph_cloud_range(sph_cloud_of(points, list, sph_scalars_none(), sph_scalars_none()), 0, 1), sph_scalars_same(&reach), sph_scalars_same(&m), SPH_R(1.2), SPH_R(1e-3), &h, &rho, &omega, &status) == 1);
+        const sph_density_out out = {&h, &rho, &omega, &status};
+        CHECK(sph_density_adaptive(SPH_CUBIC_SPLINE, 3, alone, sph_scalars_same(&m), options, out) == 1);
         CHECK(status != SPH_OK && fabs((double)rho) + fabs((double)omega) <= 0.0 && h > SPH_R(0));
     }
 }

@@ -23,30 +23,27 @@ static const char *const method_name[METHODS] = {"cspm", "icspm", "wls"};
 
 static sph_index sweep_1d(int method, const cloud *c, sph_index first, sph_index last, sph_real least, int fallback, sph_derivative_out out)
 {
-    const sph_points x = cloud_points(c);
-    const sph_list l = cloud_list(c);
-    const sph_scalars h = cloud_h(c), V = cloud_V(c), f = cloud_f(c);
-    return method == CSPM    ? sph_derivatives_cspm(KERNEL, 1, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, out)
-           : method == ICSPM ? sph_derivatives_icspm(KERNEL, 1, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, fallback, out)
-                             : sph_derivatives_wls(KERNEL, 1, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, out);
+    const sph_cloud targets = sph_cloud_range(cloud_view(c), first, last);
+    const sph_scalars f = cloud_f(c);
+    return method == CSPM    ? sph_derivatives_cspm(KERNEL, 1, targets, f, least, out)
+           : method == ICSPM ? sph_derivatives_icspm(KERNEL, 1, targets, f, least, fallback, out)
+                             : sph_derivatives_wls(KERNEL, 1, targets, f, least, out);
 }
 static sph_index sweep_2d(int method, const cloud *c, sph_index first, sph_index last, sph_real least, int fallback, sph_derivative_out out)
 {
-    const sph_points x = cloud_points(c);
-    const sph_list l = cloud_list(c);
-    const sph_scalars h = cloud_h(c), V = cloud_V(c), f = cloud_f(c);
-    return method == CSPM    ? sph_derivatives_cspm(KERNEL, 2, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, out)
-           : method == ICSPM ? sph_derivatives_icspm(KERNEL, 2, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, fallback, out)
-                             : sph_derivatives_wls(KERNEL, 2, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, out);
+    const sph_cloud targets = sph_cloud_range(cloud_view(c), first, last);
+    const sph_scalars f = cloud_f(c);
+    return method == CSPM    ? sph_derivatives_cspm(KERNEL, 2, targets, f, least, out)
+           : method == ICSPM ? sph_derivatives_icspm(KERNEL, 2, targets, f, least, fallback, out)
+                             : sph_derivatives_wls(KERNEL, 2, targets, f, least, out);
 }
 static sph_index sweep_3d(int method, const cloud *c, sph_index first, sph_index last, sph_real least, int fallback, sph_derivative_out out)
 {
-    const sph_points x = cloud_points(c);
-    const sph_list l = cloud_list(c);
-    const sph_scalars h = cloud_h(c), V = cloud_V(c), f = cloud_f(c);
-    return method == CSPM    ? sph_derivatives_cspm(KERNEL, 3, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, out)
-           : method == ICSPM ? sph_derivatives_icspm(KERNEL, 3, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, fallback, out)
-                             : sph_derivatives_wls(KERNEL, 3, sph_cloud_range(sph_cloud_of(x, l, h, V), first, last), f, least, out);
+    const sph_cloud targets = sph_cloud_range(cloud_view(c), first, last);
+    const sph_scalars f = cloud_f(c);
+    return method == CSPM    ? sph_derivatives_cspm(KERNEL, 3, targets, f, least, out)
+           : method == ICSPM ? sph_derivatives_icspm(KERNEL, 3, targets, f, least, fallback, out)
+                             : sph_derivatives_wls(KERNEL, 3, targets, f, least, out);
 }
 static sph_index sweep(int method, const cloud *c, sph_index first, sph_index last, sph_real least, int fallback, sph_derivative_out out)
 {
@@ -57,30 +54,24 @@ static sph_index sweep(int method, const cloud *c, sph_index first, sph_index la
 
 static sph_index rows_1d(int method, const cloud *c, sph_jet d, sph_row_out out)
 {
-    const sph_points x = cloud_points(c);
-    const sph_list l = cloud_list(c);
-    const sph_scalars h = cloud_h(c), V = cloud_V(c);
-    return method == CSPM    ? sph_derivative_rows_cspm(KERNEL, 1, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out)
-           : method == ICSPM ? sph_derivative_rows_icspm(KERNEL, 1, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out)
-                             : sph_derivative_rows_wls(KERNEL, 1, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out);
+    const sph_cloud all = cloud_view(c);
+    return method == CSPM    ? sph_derivative_rows_cspm(KERNEL, 1, all, d, out)
+           : method == ICSPM ? sph_derivative_rows_icspm(KERNEL, 1, all, d, out)
+                             : sph_derivative_rows_wls(KERNEL, 1, all, d, out);
 }
 static sph_index rows_2d(int method, const cloud *c, sph_jet d, sph_row_out out)
 {
-    const sph_points x = cloud_points(c);
-    const sph_list l = cloud_list(c);
-    const sph_scalars h = cloud_h(c), V = cloud_V(c);
-    return method == CSPM    ? sph_derivative_rows_cspm(KERNEL, 2, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out)
-           : method == ICSPM ? sph_derivative_rows_icspm(KERNEL, 2, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out)
-                             : sph_derivative_rows_wls(KERNEL, 2, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out);
+    const sph_cloud all = cloud_view(c);
+    return method == CSPM    ? sph_derivative_rows_cspm(KERNEL, 2, all, d, out)
+           : method == ICSPM ? sph_derivative_rows_icspm(KERNEL, 2, all, d, out)
+                             : sph_derivative_rows_wls(KERNEL, 2, all, d, out);
 }
 static sph_index rows_3d(int method, const cloud *c, sph_jet d, sph_row_out out)
 {
-    const sph_points x = cloud_points(c);
-    const sph_list l = cloud_list(c);
-    const sph_scalars h = cloud_h(c), V = cloud_V(c);
-    return method == CSPM    ? sph_derivative_rows_cspm(KERNEL, 3, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out)
-           : method == ICSPM ? sph_derivative_rows_icspm(KERNEL, 3, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out)
-                             : sph_derivative_rows_wls(KERNEL, 3, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), d, out);
+    const sph_cloud all = cloud_view(c);
+    return method == CSPM    ? sph_derivative_rows_cspm(KERNEL, 3, all, d, out)
+           : method == ICSPM ? sph_derivative_rows_icspm(KERNEL, 3, all, d, out)
+                             : sph_derivative_rows_wls(KERNEL, 3, all, d, out);
 }
 static sph_index rows(int method, const cloud *c, sph_jet d, sph_row_out out)
 {
@@ -262,7 +253,8 @@ static const double cspm_41 = 1.432149e+01, icspm_41 = 4.934995e-02, bim_41 = 1.
 
 static sph_index bim(const cloud *c, sph_index left, sph_index right, sph_real *out, unsigned char *status)
 {
-    return sph_second_derivative_bim(KERNEL, cloud_view(c), cloud_f(c), left, right, out, status);
+    return sph_second_derivative_bim(KERNEL, cloud_view(c), cloud_f(c), left, right,
+                                     sph_scalar_out_array(out, status));
 }
 static double bim_error(const cloud *c, const sph_real *out)
 {
@@ -820,24 +812,23 @@ static void check_applied(const cloud *c, const sph_real *row, const sph_real *v
 }
 
 #define OTHER_ROWS(dim) \
-    static void other_rows_##dim(const cloud *c, sph_real *row, sph_real *wx, sph_real *wy, sph_real *wz, sph_real *out, sph_real *gx, sph_real *gy, \
-                                 sph_real *gz) \
+    static void other_rows_##dim(const cloud *c, sph_gradient_row_out w, sph_derivative_out g) \
     { \
-        const sph_points x = cloud_points(c); \
-        const sph_list l = cloud_list(c); \
-        const sph_scalars h = cloud_h(c), V = cloud_V(c), f = cloud_f(c); \
-        CHECK(sph_laplacian_brookshaw(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), f, out) == 0); \
-        CHECK(sph_laplacian_rows_brookshaw(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), row) == 0); \
+        const sph_cloud all = cloud_view(c); \
+        const sph_scalars f = cloud_f(c); \
+        sph_real *const row = w.conditioning, *const out = g.conditioning; \
+        CHECK(sph_laplacian_brookshaw(KERNEL, dim, all, f, out) == 0); \
+        CHECK(sph_laplacian_rows_brookshaw(KERNEL, dim, all, row) == 0); \
         check_applied(c, row, out); \
-        CHECK(sph_laplacian_kernel(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), f, out) == 0); \
-        CHECK(sph_laplacian_rows_kernel(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), row) == 0); \
+        CHECK(sph_laplacian_kernel(KERNEL, dim, all, f, out) == 0); \
+        CHECK(sph_laplacian_rows_kernel(KERNEL, dim, all, row) == 0); \
         check_applied(c, row, out); \
-        CHECK(sph_gradient_cspm(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), f, gx, gy, gz, out, 0) == 0); \
-        CHECK(sph_gradient_rows_cspm(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, c->n), wx, wy, wz, row, 0) == 0); \
+        CHECK(sph_gradient_cspm(KERNEL, dim, all, f, g) == 0); \
+        CHECK(sph_gradient_rows_cspm(KERNEL, dim, all, w) == 0); \
         CHECK(memcmp(out, row, (size_t)c->n * sizeof *out) == 0); /* conditioning */ \
-        check_applied(c, wx, gx); \
-        if (dim > 1) check_applied(c, wy, gy); \
-        if (dim > 2) check_applied(c, wz, gz); \
+        check_applied(c, w.x, g.gx); \
+        if (dim > 1) check_applied(c, w.y, g.gy); \
+        if (dim > 2) check_applied(c, w.z, g.gz); \
     }
 OTHER_ROWS(1)
 OTHER_ROWS(2)
@@ -852,15 +843,23 @@ static void test_other_rows(void)
         const size_t pairs = (size_t)c.pairs, n = (size_t)c.n;
         sph_real *const row = (sph_real *)cloud_memory(4 * pairs + 4 * n, sizeof *row), *const out = row + 4 * pairs;
         unsigned char *const status = (unsigned char *)cloud_memory(n, 1);
+        const sph_gradient_row_out w = {.x = row + pairs,
+                                        .y = dim > 1 ? row + 2 * pairs : 0,
+                                        .z = dim > 2 ? row + 3 * pairs : 0,
+                                        .conditioning = row};
+        const sph_derivative_out g = {.gx = out + n,
+                                      .gy = dim > 1 ? out + 2 * n : 0,
+                                      .gz = dim > 2 ? out + 3 * n : 0,
+                                      .conditioning = out};
         cloud_set(&c, field_smooth);
         if (dim == 1) {
-            other_rows_1(&c, row, row + pairs, 0, 0, out, out + n, 0, 0);
+            other_rows_1(&c, w, g);
             CHECK(bim(&c, 0, c.n - 1, out, 0) == 2);
             CHECK(sph_second_derivative_rows_bim(KERNEL, cloud_view(&c), 0, c.n - 1, row, status) == 2);
             CHECK(status[0] == SPH_NOT_AVAILABLE && status[1] == SPH_OK && status[c.n - 1] == SPH_NOT_AVAILABLE);
             check_applied(&c, row, out);
-        } else if (dim == 2) other_rows_2(&c, row, row + pairs, row + 2 * pairs, 0, out, out + n, out + 2 * n, 0);
-        else other_rows_3(&c, row, row + pairs, row + 2 * pairs, row + 3 * pairs, out, out + n, out + 2 * n, out + 3 * n);
+        } else if (dim == 2) other_rows_2(&c, w, g);
+        else other_rows_3(&c, w, g);
         free(row);
         free(status);
         cloud_free(&c);
@@ -989,8 +988,9 @@ static void test_scales(void)
             sph_moments_add(dim, &m, e, sph_test_weights_cspm(KERNEL, dim, sph_length(dim, e), c.V[j]));
         }
         CHECK(sphi_blocks_fill(dim, &m, &b) == 1);
-        for (i = 0; i < dim; i++) CHECK_CLOSE((double)b.K[i][i], 1.0, 8.0 * (double)SPH_EPSILON);
-        for (i = 0; i < dim * (dim + 1) / 2; i++) CHECK_CLOSE((double)b.M[i][i], 1.0, 8.0 * (double)SPH_EPSILON);
+        for (i = 0; i < dim; i++) CHECK_CLOSE((double)b.kk[i][i], 1.0, 8.0 * (double)SPH_EPSILON);
+        for (i = 0; i < dim * (dim + 1) / 2; i++)
+            CHECK_CLOSE((double)b.mm[i][i], 1.0, 8.0 * (double)SPH_EPSILON);
         cloud_free(&c);
     }
 }

@@ -67,67 +67,57 @@ static sph_row_out setup_rows(const setup *s)
 
 enum { B, CB, S, M, SCHEMES };
 
-static sph_index any_msph(int dim, sph_index first, sph_index last, const setup *s, sph_scalars h, sph_scalars V, sph_scalars m, sph_elliptic_options o,
-                          sph_scalars u, sph_scalars source, sph_real *out)
+static sph_cloud setup_cloud(const setup *s)
 {
-    return sph_elliptic_msph(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, cloud_list(&s->c), h, V), first, last), m, o, u, source, out, s->status);
+    return sph_cloud_of(s->x, cloud_list(&s->c), setup_h(s), cloud_V(&s->c));
 }
-static sph_index any_rows(int dim, sph_index first, sph_index last, const setup *s, sph_scalars h, sph_scalars V, sph_scalars m, sph_elliptic_options o,
-                          sph_row_out out)
-{
-    return sph_elliptic_rows_msph(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, cloud_list(&s->c), h, V), first, last), m, o, out);
-}
+static sph_cloud setup_one(const setup *s, sph_index i) { return sph_cloud_range(setup_cloud(s), i, i + 1); }
+
 static sph_index apply(int scheme, const setup *s, sph_elliptic_options o, const sph_real *u)
 {
-    const sph_index n = s->c.n;
-    const sph_list list = cloud_list(&s->c);
-    const sph_scalars V = cloud_V(&s->c), m = sph_scalars_array(s->m), f = sph_scalars_array(u), none = sph_scalars_array(0);
-    const int dim = s->c.dim;
+    const sph_cloud all = setup_cloud(s);
+    const sph_scalars m = sph_scalars_array(s->m), f = sph_scalars_array(u);
+    const sph_scalar_out out = sph_scalar_out_array(s->out, s->status);
     switch (scheme) {
     case B:
-        return sph_elliptic_brookshaw(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, list, setup_h(s), V), 0, n), m, o, f, none, s->out, s->status);
+        return sph_elliptic_brookshaw(KERNEL, s->c.dim, all, m, o, f, out);
     case CB:
-        return sph_elliptic_brookshaw_corrected(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, list, setup_h(s), V), 0, n), m, o, f, none, s->out, s->status);
+        return sph_elliptic_brookshaw_corrected(KERNEL, s->c.dim, all, m, o, f, out);
     case S:
-        return sph_elliptic_schwaiger(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, list, setup_h(s), V), 0, n), m, o, f, none, s->out, s->status);
+        return sph_elliptic_schwaiger(KERNEL, s->c.dim, all, m, o, f, out);
     default:
-        return any_msph(dim, 0, n, s, setup_h(s), V, m, o, f, none, s->out);
+        return sph_elliptic_msph(KERNEL, s->c.dim, all, m, o, f, out);
     }
 }
 static sph_index rows(int scheme, const setup *s, sph_elliptic_options o)
 {
-    const sph_index n = s->c.n;
-    const sph_list list = cloud_list(&s->c);
-    const sph_scalars V = cloud_V(&s->c), m = sph_scalars_array(s->m);
-    const int dim = s->c.dim;
+    const sph_cloud all = setup_cloud(s);
+    const sph_scalars m = sph_scalars_array(s->m);
+    const sph_row_out out = setup_rows(s);
     switch (scheme) {
     case B:
-        return sph_elliptic_rows_brookshaw(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, list, setup_h(s), V), 0, n), m, o, setup_rows(s));
+        return sph_elliptic_rows_brookshaw(KERNEL, s->c.dim, all, m, o, out);
     case CB:
-        return sph_elliptic_rows_brookshaw_corrected(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, list, setup_h(s), V), 0, n), m, o, setup_rows(s));
+        return sph_elliptic_rows_brookshaw_corrected(KERNEL, s->c.dim, all, m, o, out);
     case S:
-        return sph_elliptic_rows_schwaiger(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, list, setup_h(s), V), 0, n), m, o, setup_rows(s));
+        return sph_elliptic_rows_schwaiger(KERNEL, s->c.dim, all, m, o, out);
     default:
-        return any_rows(dim, 0, n, s, setup_h(s), V, m, o, setup_rows(s));
+        return sph_elliptic_rows_msph(KERNEL, s->c.dim, all, m, o, out);
     }
 }
-/* one instance of each of the others */
-static sph_index rows_diagonal(int dim, sph_index first, sph_index last, const setup *s, sph_diagonal D, sph_elliptic_options o, sph_row_out out)
+/* the rows of a cloud applied to its field */
+static sph_index apply_rows(const setup *s, sph_cloud targets, const sph_real *diagonal, sph_real *out)
 {
-    return sph_elliptic_rows_msph_diagonal(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, cloud_list(&s->c), setup_h(s), cloud_V(&s->c)), first, last), D, o, out);
+    return sph_rows_apply(targets, s->row, diagonal, cloud_f(&s->c), out);
 }
-static sph_index rows_anisotropic(int dim, sph_index first, sph_index last, const setup *s, sph_diagonal D, sph_row_out out)
+/* one instance of each */
+static sph_index rows_anisotropic(const setup *s, sph_cloud targets, sph_diagonal D)
 {
-    return sph_elliptic_rows_anisotropic(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, cloud_list(&s->c), setup_h(s), cloud_V(&s->c)), first, last), D, out);
+    return sph_elliptic_rows_anisotropic(KERNEL, s->c.dim, targets, D, setup_rows(s));
 }
-static sph_index rows_boundary(int dim, sph_index first, sph_index last, const setup *s, sph_scalars h, sph_scalars V, sph_scalars m, sph_elliptic_options o,
-                               sph_diagonal normal, sph_scalars alpha, sph_scalars beta, sph_row_out out)
+static sph_index diagnose(const setup *s, sph_cloud targets, sph_elliptic_options o, sph_elliptic_report r)
 {
-    return sph_elliptic_rows_boundary(KERNEL, dim, sph_cloud_range(sph_cloud_of(s->x, cloud_list(&s->c), h, V), first, last), m, o, normal, alpha, beta, out);
-}
-static sph_index diagnose(sph_index first, sph_index last, const setup *s, sph_elliptic_options o, sph_elliptic_report r)
-{
-    return sph_elliptic_diagnose(KERNEL, s->c.dim, sph_cloud_range(sph_cloud_of(s->x, cloud_list(&s->c), setup_h(s), cloud_V(&s->c)), first, last), o, r);
+    return sph_elliptic_diagnose(KERNEL, s->c.dim, targets, o, r);
 }
 static sph_elliptic_options with(int gradient)
 {
@@ -318,6 +308,17 @@ static void test_exactness(void)
     }
 }
 
+/* Schwaiger's partial transmissibility (68) of M-SPH's paper, divided by its row's tr Gamma^-1 / dim: what of
+   his scheme multiplies u_j - u_i when the gradients of m u and m are kept apart, as the paper does. Not a
+   whole operator: that is sph_elliptic_rows_schwaiger. g* for the g that is printed there. */
+static sph_real partial_schwaiger(int dim, int gradient, sph_vec e,
+                                  sph_kernel_gradient g, sph_vec xi, sph_real V_j,
+                                  sph_real m_i, sph_real m_j)
+{
+    return V_j * (sph_elliptic_projection(dim, gradient, e, g) * (m_i + m_j) -
+                  m_i * sph_dot(dim, xi, sph_elliptic_gradient_vector(dim, gradient, e, g)));
+}
+
 /* ---- (52) as it is printed, in three gradients, on a field; and what rows, other means and sources add ---- */
 
 static void test_schwaiger_is_msph(void)
@@ -406,7 +407,7 @@ static void test_schwaiger_is_msph(void)
                             kg.radial = -sph_kernel_f(KERNEL, dim, sph_length(dim, e_ij), own ? SPH_R(0.5) * (s.h[i] + s.h[j]) : s.c.h);
                             kg.rest.x = kg.rest.y = kg.rest.z = SPH_R(0);
                             sum +=
-                                (double)sph_transmissibility_partial_schwaiger(dim, gradient, e_ij, kg, v_xi, s.c.V[j], s.m[i], s.m[j]) * ((double)u[j] - u_i);
+                                (double)partial_schwaiger(dim, gradient, e_ij, kg, v_xi, s.c.V[j], s.m[i], s.m[j]) * ((double)u[j] - u_i);
                         }
                         transmitted = worse(transmitted, trace / dim * (sum - (first - wrong)));
                     }
@@ -429,7 +430,7 @@ static void test_rows(void)
     for (dim = 1; dim <= 3; dim++)
         for (own = 0; own < 2; own++) {
             setup s = disordered(dim, own);
-            const sph_list list = cloud_list(&s.c);
+            const sph_cloud all = setup_cloud(&s);
             sph_real *const other = (sph_real *)cloud_memory((size_t)s.c.n, sizeof *other);
             sph_index i;
             cloud_set(&s.c, field_smooth);
@@ -443,22 +444,23 @@ static void test_rows(void)
                         o.potential = cloud_f(&s.c);
                         o.gamma_star = scheme == M && gradient % 2;
                         CHECK(apply(scheme, &s, o, s.c.f) == rows(scheme, &s, o));
-                        CHECK(sph_rows_apply(0, s.c.n, s.c.n, list, s.row, 0, cloud_f(&s.c), other) == 0);
+                        CHECK(apply_rows(&s, all, 0, other) == 0);
                         for (i = 0; i < s.c.n; i++) {
                             apart = worse(apart, (double)other[i] - (double)s.out[i]);
                             size = fmax(size, fabs((double)s.out[i]));
                         }
                         CHECK_CLOSE(apart, 0.0, 1e3 * EPSILON * size);
                         CHECK(size > 1.0);
-                        CHECK(sph_rows_apply(0, s.c.n, s.c.n, list, s.row, s.diagonal, cloud_f(&s.c), other) == 0);
+                        CHECK(apply_rows(&s, all, s.diagonal, other) == 0);
                         for (i = 0, apart = 0.0; i < s.c.n; i++) apart = worse(apart, (double)other[i] - (double)s.out[i]);
                         CHECK_CLOSE(apart, 0.0, 1e5 * EPSILON * size);
                     }
             { /* a source, and the status of all being well */
-                const sph_scalars source = sph_scalars_array(s.m);
-                CHECK(apply(M, &s, with(0), s.c.f) == 0);
+                sph_elliptic_options o = with(0);
+                CHECK(apply(M, &s, o, s.c.f) == 0);
                 memcpy(other, s.out, (size_t)s.c.n * sizeof *other);
-                CHECK(any_msph(dim, 0, s.c.n, &s, setup_h(&s), cloud_V(&s.c), sph_scalars_array(s.m), with(0), cloud_f(&s.c), source, s.out) == 0);
+                o.source = sph_scalars_array(s.m);
+                CHECK(apply(M, &s, o, s.c.f) == 0);
                 for (i = 0; i < s.c.n; i++) CHECK_CLOSE((double)s.out[i], (double)(other[i] + s.m[i]), 4.0 * EPSILON * (1.0 + fabs((double)other[i])));
             }
             free(other);
@@ -521,7 +523,7 @@ static void test_periodic(void)
     double worst = 0.0;
     s.x = sph_points_periodic(s.x, SPH_R(SIDE), SPH_R(SIDE), SPH_R(0));
     CHECK(sph_grid_build(2, s.x, reach, work, size, &g) == 0);
-    CHECK(sph_grid_lists(2, &g, s.x, SPH_GATHER, R, R, 0, s.c.start, 0, 0, &s.c.pairs) == 0);
+    CHECK(sph_grid_count(2, &g, s.x, SPH_GATHER, R, R, 0, s.c.start, &s.c.pairs) == 0);
     free(s.c.index);
     s.c.index = (sph_index *)cloud_memory((size_t)s.c.pairs, sizeof *s.c.index);
     CHECK(sph_grid_lists(2, &g, s.x, SPH_GATHER, R, R, 0, s.c.start, s.c.index, s.c.pairs, &s.c.pairs) == 0);
@@ -535,7 +537,7 @@ static void test_periodic(void)
     }
     CHECK(rows(M, &s, with(0)) == 0);
     CHECK(apply(M, &s, with(0), s.c.f) == 0);
-    CHECK(sph_rows_growth(2, 17, s.x, cloud_list(&s.c), s.row, SPH_R(1), wave, &re, &im) == 0);
+    CHECK(sph_rows_growth(2, setup_one(&s, 17), s.row, SPH_R(1), wave, &re, &im) == 0);
     CHECK_CLOSE((double)im, 0.0, 100.0 * EPSILON);
     for (i = 0; i < s.c.n; i++) worst = worse(worst, (double)s.out[i] - ((double)re - 1.0) * (double)s.c.f[i]);
     CHECK_CLOSE(worst, 0.0, 100.0 * EPSILON);
@@ -557,6 +559,7 @@ static void test_anisotropic(void)
     for (k = 0; k < 5; k++) {
         setup s = square(19, -0.45, 0.05, f[k]);
         const sph_index middle = s.c.n / 2;
+        const sph_cloud centre = setup_one(&s, middle);
         for (a = 0; a < 4; a++) {
             sph_index i;
             const double want = a == 0 ? 2.0 : 0.0, published = a == 0 ? xx[k] : a == 1 ? yy[k] : 0.0;
@@ -564,11 +567,11 @@ static void test_anisotropic(void)
                 const double x = (double)s.c.x[i], y = (double)s.c.y[i];
                 s.c.f[i] = SPH_R(a == 0 ? x * x : a == 1 ? y * y : a == 2 ? x * y : 2.0 * x - y);
             }
-            CHECK(rows_diagonal(2, middle, middle + 1, &s, D, with(0), setup_rows(&s)) == 0);
-            CHECK(sph_rows_apply(middle, middle + 1, s.c.n, cloud_list(&s.c), s.row, 0, cloud_f(&s.c), s.out) == 0);
+            CHECK(sph_elliptic_rows_msph_diagonal(KERNEL, 2, centre, D, with(0), setup_rows(&s)) == 0);
+            CHECK(apply_rows(&s, centre, 0, s.out) == 0);
             CHECK_CLOSE((double)s.out[middle], published, BY_PRECISION(1e-5, 1e-3) * (1.0 + 4.0 * (k == 2 || k == 3) + (k == 1)));
-            CHECK(rows_anisotropic(2, middle, middle + 1, &s, D, setup_rows(&s)) == 0);
-            CHECK(sph_rows_apply(middle, middle + 1, s.c.n, cloud_list(&s.c), s.row, 0, cloud_f(&s.c), s.out) == 0);
+            CHECK(rows_anisotropic(&s, centre, D) == 0);
+            CHECK(apply_rows(&s, centre, 0, s.out) == 0);
             CHECK_CLOSE((double)s.out[middle], want, BY_PRECISION(1e-9, 2e-3));
         }
         setup_free(&s);
@@ -582,8 +585,8 @@ static void test_anisotropic(void)
         D.y = sph_scalars_same(&M_y);
         D.z = sph_scalars_same(&M_z);
         cloud_set(&s.c, field_linear);
-        CHECK(rows_anisotropic(dim, 0, s.c.n, &s, D, setup_rows(&s)) == 0);
-        CHECK(sph_rows_apply(0, s.c.n, s.c.n, cloud_list(&s.c), s.row, 0, cloud_f(&s.c), s.out) == 0);
+        CHECK(rows_anisotropic(&s, setup_cloud(&s), D) == 0);
+        CHECK(apply_rows(&s, setup_cloud(&s), 0, s.out) == 0);
         for (i = 0; i < s.c.n; i++) worst = worse(worst, (double)s.out[i]);
         CHECK_CLOSE(worst, 0.0, 1e5 * EPSILON / s.c.dx);
         setup_free(&s);
@@ -602,8 +605,8 @@ static void test_anisotropic(void)
             D.x = sph_scalars_array(l.m);
             D.y = sph_scalars_array(My);
             D.z = sph_scalars_same(&M_z);
-            CHECK(rows_anisotropic(dim, 0, l.c.n, &l, D, setup_rows(&l)) == 0);
-            CHECK(sph_rows_apply(0, l.c.n, l.c.n, cloud_list(&l.c), l.row, 0, cloud_f(&l.c), l.out) == 0);
+            CHECK(rows_anisotropic(&l, setup_cloud(&l), D) == 0);
+            CHECK(apply_rows(&l, setup_cloud(&l), 0, l.out) == 0);
             for (i = 0; i < l.c.n; i++)
                 if (depth(&l, i) >= 2.0) {
                     want = 2.0 + 8.0 * (double)l.c.x[i] + (dim > 1 ? 1.0 + 2.0 * (double)l.c.y[i] : 0.0) + (dim > 2 ? 4.0 : 0.0);
@@ -631,7 +634,7 @@ static void test_boundary(void)
             sph_real *const nx = (sph_real *)cloud_memory((size_t)n, sizeof *nx), *const ny = (sph_real *)cloud_memory((size_t)n, sizeof *ny),
                             *const nz = (sph_real *)cloud_memory((size_t)n, sizeof *nz), *const alpha = (sph_real *)cloud_memory((size_t)n, sizeof *alpha),
                             *const beta = (sph_real *)cloud_memory((size_t)n, sizeof *beta);
-            sph_diagonal normal;
+            sph_boundary b;
             double worst = 0.0;
             int untouched = 1, walls = 0;
             sph_index i, p;
@@ -646,15 +649,15 @@ static void test_boundary(void)
                 alpha[i] = SPH_R(i % 3 == 0 ? 1.0 : i % 3 == 1 ? 0.0 : 0.4);
                 beta[i] = SPH_R(i % 3 == 0 ? 0.0 : i % 3 == 1 ? 1.0 : 0.7);
             }
-            normal.x = sph_scalars_array(nx);
-            normal.y = sph_scalars_array(ny);
-            normal.z = sph_scalars_array(nz);
+            b.normal = sph_vectors_separate(nx, ny, nz);
+            b.alpha = sph_scalars_array(alpha);
+            b.beta = sph_scalars_array(beta);
             for (p = 0; p < s.c.pairs; p++) s.row[p] = SPH_R(7);
             for (i = 0; i < n; i++) s.diagonal[i] = SPH_R(7);
             cloud_set(&s.c, field_linear);
-            CHECK(rows_boundary(dim, 0, n, &s, setup_h(&s), cloud_V(&s.c), sph_scalars_array(s.m), with(gradient), normal, sph_scalars_array(alpha),
-                                sph_scalars_array(beta), setup_rows(&s)) == 0);
-            CHECK(sph_rows_apply(0, n, n, cloud_list(&s.c), s.row, s.diagonal, cloud_f(&s.c), s.out) == 0);
+            CHECK(sph_elliptic_rows_boundary(KERNEL, dim, setup_cloud(&s), sph_scalars_array(s.m),
+                                             with(gradient), b, setup_rows(&s)) == 0);
+            CHECK(apply_rows(&s, setup_cloud(&s), s.diagonal, s.out) == 0);
             for (i = 0; i < n; i++) {
                 const double slope = (double)nx[i] * gradient_of_linear[0] + (double)ny[i] * gradient_of_linear[1] + (double)nz[i] * gradient_of_linear[2];
                 if (cloud_walls(&s.c, i)) worst = worse(worst, (double)s.out[i] - (double)(alpha[i] * s.c.f[i]) - (double)(beta[i] * s.m[i]) * slope);
@@ -843,7 +846,7 @@ static void test_diagnose(void)
     r.eigenvalue_least = a + 6 * n;
     r.condition = a + 7 * n;
     r.status = s.status;
-    CHECK(diagnose(0, n, &s, with(SPH_GRADIENT_SHEPARD_DIFFUSE), r) == 0);
+    CHECK(diagnose(&s, setup_cloud(&s), with(SPH_GRADIENT_SHEPARD_DIFFUSE), r) == 0);
     CHECK_CLOSE((double)r.xi[middle], 0.0, 1e-3 * BY_PRECISION(1e-9, 1.0));
     CHECK_CLOSE((double)r.sign_least[middle], 1.0, BY_PRECISION(1e-12, 1e-4));
     CHECK_CLOSE((double)r.sign_most[middle], 1.0, BY_PRECISION(1e-12, 1e-4));
@@ -862,9 +865,9 @@ static void test_diagnose(void)
         const double dx = (double)(s.c.x[s.c.index[p]] - s.c.x[middle]), dy = (double)(s.c.y[s.c.index[p]] - s.c.y[middle]), d2 = dx * dx + dy * dy;
         sum = fmax(sum, 0.5 * 0.01 * d2 * -(double)sph_kernel_f(KERNEL, 2, SPH_R(sqrt(d2)), s.c.h));
     }
-    CHECK(diagnose(middle, middle + 1, &s, with(0), r) == 0);
+    CHECK(diagnose(&s, setup_one(&s, middle), with(0), r) == 0);
     CHECK_RELATIVE((double)r.continuity[middle], sum, 1e-4);
-    CHECK(diagnose(0, n, &s, with(SPH_GRADIENT_FULL), r) == 0);
+    CHECK(diagnose(&s, setup_cloud(&s), with(SPH_GRADIENT_FULL), r) == 0);
     CHECK_CLOSE((double)r.n[corner], 0.0, BY_PRECISION(1e-12, 1e-3)); /* N = 0 for (16), everywhere */
     free(a);
     setup_free(&s);
@@ -914,20 +917,21 @@ static void test_promises(void)
         sph_real dt = SPH_R(0), re = SPH_R(0), im = SPH_R(0);
         sph_vec wave = {SPH_R(0), SPH_R(0), SPH_R(0)};
         sph_index i, others, middle = s.c.n / 2;
+        const sph_cloud all = setup_cloud(&s), centre = setup_one(&s, middle);
         for (i = 0; i < s.c.n; i++) {
             s.m[i] = SPH_R(1);
             s.c.V[i] = SPH_R(pow(dx, dim));
         }
         CHECK(rows(M, &s, with(0)) == 0);
-        CHECK(sph_rows_time_step(middle, middle + 1, s.c.n, cloud_list(&s.c), s.row, &dt) == 0);
+        CHECK(sph_rows_time_step(centre, s.row, &dt) == 0);
         CHECK_RELATIVE((double)dt, dx * dx / (2.0 * dim), 1e3 * EPSILON);
         wave.x = SPH_R(PI / dx);
         wave.y = dim > 1 ? wave.x : SPH_R(0);
         wave.z = dim > 2 ? wave.x : SPH_R(0);
-        CHECK(sph_rows_growth(dim, middle, s.x, cloud_list(&s.c), s.row, dt, wave, &re, &im) == 0);
+        CHECK(sph_rows_growth(dim, centre, s.row, dt, wave, &re, &im) == 0);
         CHECK_CLOSE((double)re, -1.0, 1e4 * EPSILON); /* the shortest wave, at the limit */
         CHECK_CLOSE((double)im, 0.0, 1e4 * EPSILON);
-        others = sph_rows_monotone(0, s.c.n, s.c.n, cloud_list(&s.c), s.row, s.diagonal, s.status);
+        others = sph_rows_monotone(all, s.row, s.diagonal, s.status);
         for (i = 0; i < s.c.n; i++) CHECK(s.status[i] == 1 || cloud_walls(&s.c, i) == dim); /* in the corners 1 - xi . e is 0 but for rounding: no row at all */
         CHECK(others <= 1 << dim);
         { /* one weight of the other sign; a diagonal that is too small; one that is larger */
@@ -936,37 +940,52 @@ static void test_promises(void)
             sph_index q = p;
             while (s.row[q] == SPH_R(0)) q++; /* entries beyond the support */
             s.row[q] = -s.row[q];
-            CHECK(sph_rows_monotone(0, s.c.n, s.c.n, cloud_list(&s.c), s.row, s.diagonal, s.status) == others + 1);
+            CHECK(sph_rows_monotone(all, s.row, s.diagonal, s.status) == others + 1);
             CHECK(s.status[middle] == 0);
             s.row[q] = -s.row[q];
             s.row[p] = kept;
             s.diagonal[middle] = SPH_R(0.9) * d;
-            CHECK(sph_rows_monotone(0, s.c.n, s.c.n, cloud_list(&s.c), s.row, s.diagonal, 0) == others + 1);
+            CHECK(sph_rows_monotone(all, s.row, s.diagonal, 0) == others + 1);
             s.diagonal[middle] = SPH_R(1.1) * d;
-            CHECK(sph_rows_monotone(0, s.c.n, s.c.n, cloud_list(&s.c), s.row, s.diagonal, 0) == others);
+            CHECK(sph_rows_monotone(all, s.row, s.diagonal, 0) == others);
         }
         setup_free(&s);
     }
+}
+
+/* n particles and the lists of their neighbours: all that rows need */
+static sph_cloud cloud_of_rows(sph_index n, const sph_index *start, const sph_index *index)
+{
+    const sph_scalars none = sph_scalars_none();
+    sph_list list;
+    list.start = start;
+    list.index = index;
+    return sph_cloud_of(sph_points_separate(n, 0, 0, 0), list, none, none);
 }
 
 static void test_assembly(void)
 {
     setup s = disordered(2, 0);
     const sph_index n = s.c.n;
-    const sph_list list = cloud_list(&s.c);
-    const int64_t size = sph_csr_size(0, n, list);
+    const sph_cloud all = setup_cloud(&s);
+    const int64_t size = sph_csr_size(all);
     sph_index *const start = (sph_index *)cloud_memory((size_t)n + 1, sizeof *start), *const column = (sph_index *)cloud_memory((size_t)size, sizeof *column);
     sph_real *const value = (sph_real *)cloud_memory((size_t)size, sizeof *value);
+    sph_csr matrix;
     int64_t entries = 0;
     sph_index i, p;
     int drop, ascending = 1, diagonal = 1;
     double apart;
+    matrix.start = start;
+    matrix.column = column;
+    matrix.value = value;
+    matrix.capacity = size;
     CHECK(size == s.c.pairs + n);
     CHECK(rows(M, &s, with(0)) == 0);
     cloud_set(&s.c, field_smooth);
-    CHECK(sph_rows_apply(0, n, n, list, s.row, s.diagonal, cloud_f(&s.c), s.out) == 0);
+    CHECK(apply_rows(&s, all, s.diagonal, s.out) == 0);
     for (drop = 0; drop < 2; drop++) {
-        CHECK(sph_csr_assemble(0, n, n, list, s.row, s.diagonal, drop, start, column, value, size, &entries) == 0);
+        CHECK(sph_csr_assemble(all, s.row, s.diagonal, drop, matrix, &entries) == 0);
         CHECK(start[0] == 0 && start[n] == entries);
         CHECK(drop ? entries < size : entries == size); /* the lists are a little longer than the support */
         for (i = 0, apart = 0.0; i < n; i++) {
@@ -985,21 +1004,21 @@ static void test_assembly(void)
         CHECK_CLOSE(apart, 0.0, 100.0 * EPSILON);
     }
     { /* some rows of the middle, then a capacity that does not do */
-        const sph_index first = 40, last = 55;
-        CHECK(sph_csr_assemble(first, last, n, list, s.row, s.diagonal, 0, start, column, value, sph_csr_size(first, last, list), &entries) == 0);
-        CHECK(start[0] == 0 && entries == sph_csr_size(first, last, list) && start[last - first] == entries);
+        const sph_cloud some = sph_cloud_range(all, 40, 55);
+        matrix.capacity = sph_csr_size(some);
+        CHECK(sph_csr_assemble(some, s.row, s.diagonal, 0, matrix, &entries) == 0);
+        CHECK(start[0] == 0 && entries == matrix.capacity && start[15] == entries);
         start[0] = 77;
-        CHECK(sph_csr_assemble(first, last, n, list, s.row, s.diagonal, 0, start, column, value, sph_csr_size(first, last, list) - 1, &entries) ==
-              SPH_ERROR_CAPACITY);
+        matrix.capacity--;
+        CHECK(sph_csr_assemble(some, s.row, s.diagonal, 0, matrix, &entries) == SPH_ERROR_CAPACITY);
         CHECK(start[0] == 77);
     }
     { /* a neighbour named twice */
         const sph_index twice_start[4] = {0, 3, 3, 3}, twice[3] = {2, 1, 2};
         const sph_real weight[3] = {SPH_R(1), SPH_R(10), SPH_R(100)}, own[3] = {SPH_R(-111), SPH_R(5), SPH_R(6)};
-        sph_list l;
-        l.start = twice_start;
-        l.index = twice;
-        CHECK(sph_csr_assemble(0, 3, 3, l, weight, own, 0, start, column, value, sph_csr_size(0, 3, l), &entries) == 0);
+        const sph_cloud c = cloud_of_rows(3, twice_start, twice);
+        matrix.capacity = sph_csr_size(c);
+        CHECK(sph_csr_assemble(c, weight, own, 0, matrix, &entries) == 0);
         CHECK(entries == 5 && start[1] == 3 && column[0] == 0 && column[1] == 1 && column[2] == 2 && value[1] == SPH_R(10) && value[2] == SPH_R(101) &&
               value[3] == SPH_R(5));
     }
@@ -1026,7 +1045,7 @@ static void test_diagnose_axes(void)
         s.x.z = turn == 0 ? x.z : turn == 1 ? x.x : x.y;
         r.eigenvalue_least = a + turn * n;
         r.condition = a + (3 + turn) * n;
-        CHECK(diagnose(0, n, &s, with(SPH_GRADIENT_FULL), r) == 0);
+        CHECK(diagnose(&s, setup_cloud(&s), with(SPH_GRADIENT_FULL), r) == 0);
     }
     for (turn = 1; turn < 3; turn++)
         for (i = 0; i < n; i++) {
@@ -1042,16 +1061,14 @@ static void test_monotone_rounding(void)
 {
     static const double size[3] = {1e-6, 1, 1e6};
     const sph_index start[2] = {0, 2}, index[2] = {1, 2};
-    sph_list list;
+    const sph_cloud first = sph_cloud_range(cloud_of_rows(3, start, index), 0, 1);
     int sign, k;
-    list.start = start;
-    list.index = index;
     for (sign = -1; sign <= 1; sign += 2)
         for (k = 0; k < 3; k++) {
             const sph_real row[2] = {SPH_R(0.5 * sign * size[k]), SPH_R(0.5 * sign * size[k])};
             const sph_real within = SPH_R(-sign * size[k] * (1.0 - 32.0 * EPSILON)), beyond = SPH_R(-sign * size[k] * (1.0 - 128.0 * EPSILON));
-            CHECK(sph_rows_monotone(0, 1, 3, list, row, &within, 0) == 0);
-            CHECK(sph_rows_monotone(0, 1, 3, list, row, &beyond, 0) == 1);
+            CHECK(sph_rows_monotone(first, row, &within, 0) == 0);
+            CHECK(sph_rows_monotone(first, row, &beyond, 0) == 1);
         }
 }
 
@@ -1069,7 +1086,7 @@ static void test_conditioning(void)
     sph_row_out r = setup_rows(&s);
     sph_index i;
     r.conditioning = s.out;
-    CHECK(sph_elliptic_rows_brookshaw(KERNEL, 2, sph_cloud_range(sph_cloud_of(s.x, cloud_list(&s.c), setup_h(&s), cloud_V(&s.c)), 0, s.c.n), sph_scalars_array(s.m), with(0), r) == 0);
+    CHECK(sph_elliptic_rows_brookshaw(KERNEL, 2, setup_cloud(&s), sph_scalars_array(s.m), with(0), r) == 0);
     for (i = 0; i < s.c.n; i++) CHECK(s.out[i] == SPH_R(1));
     setup_free(&s);
 }
@@ -1098,17 +1115,18 @@ static void test_growth_positions(void)
     const sph_index start[4] = {0, 1, 2, 3};
     sph_real xy[6] = {SPH_R(0), SPH_R(0), SPH_R(1), SPH_R(0), SPH_R(0), SPH_R(1)}, re, im;
     sph_index index[3] = {1, 0, 0};
+    sph_cloud all = cloud_of_rows(3, start, index), first, last;
     sph_vec wave;
-    sph_list list;
+    all.points = sph_points_interleaved(3, 2, xy);
+    first = sph_cloud_range(all, 0, 1);
+    last = sph_cloud_range(all, 2, 3);
     wave.x = wave.y = wave.z = SPH_R(1);
-    list.start = start;
-    list.index = index;
-    CHECK(sph_rows_growth(2, 2, sph_points_interleaved(3, 2, xy), list, row, SPH_R(0.1), wave, &re, &im) == 0);
+    CHECK(sph_rows_growth(2, last, row, SPH_R(0.1), wave, &re, &im) == 0);
     xy[5] = SPH_R(NAN);
-    CHECK(sph_rows_growth(2, 0, sph_points_interleaved(3, 2, xy), list, row, SPH_R(0.1), wave, &re, &im) == 0);
-    CHECK(sph_rows_growth(2, 2, sph_points_interleaved(3, 2, xy), list, row, SPH_R(0.1), wave, &re, &im) == SPH_ERROR_POSITION);
+    CHECK(sph_rows_growth(2, first, row, SPH_R(0.1), wave, &re, &im) == 0);
+    CHECK(sph_rows_growth(2, last, row, SPH_R(0.1), wave, &re, &im) == SPH_ERROR_POSITION);
     index[0] = 2;
-    CHECK(sph_rows_growth(2, 0, sph_points_interleaved(3, 2, xy), list, row, SPH_R(0.1), wave, &re, &im) == SPH_ERROR_POSITION);
+    CHECK(sph_rows_growth(2, first, row, SPH_R(0.1), wave, &re, &im) == SPH_ERROR_POSITION);
 }
 
 int main(void)

@@ -74,28 +74,32 @@ static sph_fluid fluid(const flow *f, int viscosity, double alpha, double beta)
     return s;
 }
 enum { MONAGHAN, COLAGROSSI, HU_ADAMS, FORMS };
+static sph_cloud flow_cloud(const flow *f, sph_scalars h)
+{
+    return sph_cloud_of(cloud_points(&f->c), cloud_list(&f->c), h, sph_scalars_none());
+}
 static sph_index rates(int form, const flow *f, sph_scalars h, sph_fluid s)
 {
-    const sph_points x = cloud_points(&f->c);
-    const sph_list list = cloud_list(&f->c);
-    return form == MONAGHAN     ? sph_fluid_rates_monaghan(KERNEL, f->c.dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), 0, f->c.n), s, flow_a(f), f->rate, f->heating)
-           : form == COLAGROSSI ? sph_fluid_rates_colagrossi(KERNEL, f->c.dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), 0, f->c.n), s, flow_a(f), f->rate, f->heating)
-                                : sph_fluid_rates_hu_adams(KERNEL, f->c.dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), 0, f->c.n), s, flow_a(f), f->rate, f->heating);
+    const sph_cloud all = flow_cloud(f, h);
+    const sph_vector_out a = flow_a(f);
+    const int dim = f->c.dim;
+    return form == MONAGHAN     ? sph_fluid_rates_monaghan(KERNEL, dim, all, s, a, f->rate, f->heating)
+           : form == COLAGROSSI ? sph_fluid_rates_colagrossi(KERNEL, dim, all, s, a, f->rate, f->heating)
+                                : sph_fluid_rates_hu_adams(KERNEL, dim, all, s, a, f->rate, f->heating);
 }
 static sph_index viscous(int form, const flow *f, sph_scalars h, sph_scalars mu)
 {
-    const sph_points x = cloud_points(&f->c);
-    const sph_list list = cloud_list(&f->c);
-    const sph_scalars m = sph_scalars_array(f->m), rho = sph_scalars_array(f->rho);
-    return form ? sph_viscous_mu_monaghan_cleary(KERNEL, f->c.dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), 0, f->c.n), m, rho, flow_v(f), mu, SPH_R(0.1), flow_a(f))
-                : sph_viscous_mu_morris(KERNEL, f->c.dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), 0, f->c.n), m, rho, flow_v(f), mu, SPH_R(0.1), flow_a(f));
+    const sph_cloud all = flow_cloud(f, h);
+    const sph_fluid s = fluid(f, SPH_VISCOSITY_NONE, 0.0, 0.0);
+    return form ? sph_viscous_mu_monaghan_cleary(KERNEL, f->c.dim, all, s, mu, flow_a(f))
+                : sph_viscous_mu_morris(KERNEL, f->c.dim, all, s, mu, flow_a(f));
 }
 static sph_conserved conserved(const flow *f, sph_real *const *v)
 {
     sph_conserved q;
     const sph_vectors s = sph_vectors_separate(v[0], v[1], v[2]);
     memset(&q, 0, sizeof q);
-    CHECK(sph_conserved_sums(f->c.dim, 0, f->c.n, cloud_points(&f->c), sph_scalars_array(f->m), s, &q) == 0);
+    CHECK(sph_conserved_sums(f->c.dim, cloud_view(&f->c), sph_scalars_array(f->m), s, &q) == 0);
     return q;
 }
 
@@ -106,18 +110,19 @@ static void test_equation_of_state(void)
     static const double gammas[] = {1.0, 1.4, 7.0};
     int k;
     for (k = 0; k < 3; k++) {
-        const sph_real gamma = SPH_R(gammas[k]), rho0 = SPH_R(1000), c = SPH_R(30), p0 = SPH_R(50), d = SPH_R(BY_PRECISION(1e-4, 1.0));
+        const sph_tait t = {.rho0 = SPH_R(1000), .c = SPH_R(30), .gamma = SPH_R(gammas[k]), .p0 = SPH_R(50)};
+        const sph_real d = SPH_R(BY_PRECISION(1e-4, 1.0));
         double rho;
-        CHECK_CLOSE((double)sph_pressure_tait(rho0, rho0, c, gamma, p0), 50.0, 0.0);
+        CHECK_CLOSE((double)sph_pressure_tait(t.rho0, t), 50.0, 0.0);
         for (rho = 950.0; rho < 1060.0; rho += 10.0) {
-            const sph_real r = SPH_R(rho), p = sph_pressure_tait(r, rho0, c, gamma, p0);
-            const double slope =
-                ((double)sph_pressure_tait(r + d, rho0, c, gamma, p0) - (double)sph_pressure_tait(r - d, rho0, c, gamma, p0)) / (2.0 * (double)d);
+            const sph_real r = SPH_R(rho), p = sph_pressure_tait(r, t);
+            const double slope = ((double)sph_pressure_tait(r + d, t) - (double)sph_pressure_tait(r - d, t)) /
+                                 (2.0 * (double)d);
             CHECK_RELATIVE((double)p, 50.0 + 1000.0 * 900.0 / gammas[k] * (pow(rho / 1000.0, gammas[k]) - 1.0), BY_PRECISION(1e-9, 1e-2) + (rho == 1000.0));
-            CHECK_RELATIVE((double)sph_density_tait(p, rho0, c, gamma, p0), rho, 100.0 * EPSILON);
-            CHECK_RELATIVE(pow((double)sph_sound_speed_tait(r, rho0, c, gamma), 2.0), slope, BY_PRECISION(1e-6, 2e-3));
+            CHECK_RELATIVE((double)sph_density_tait(p, t), rho, 100.0 * EPSILON);
+            CHECK_RELATIVE(pow((double)sph_sound_speed_tait(r, t), 2.0), slope, BY_PRECISION(1e-6, 2e-3));
         }
-        CHECK((double)sph_density_tait(SPH_R(-1e9), rho0, c, gamma, p0) == 0.0);
+        CHECK((double)sph_density_tait(SPH_R(-1e9), t) == 0.0);
     }
     CHECK_RELATIVE((double)sph_time_step_sound(SPH_R(0.1), SPH_R(9), SPH_R(1)), 0.0025, 4.0 * EPSILON);
     CHECK_RELATIVE((double)sph_time_step_force(SPH_R(0.1), SPH_R(10)), 0.025, 4.0 * EPSILON);
@@ -130,17 +135,25 @@ static void test_viscosity_pairs(void)
 {
     /* h = 1, c = 2, rho = 3, r = 1, vx = -0.5: mu = -.5 / 1.01 */
     const double mu = -0.5 / 1.01;
-    const sph_real one = SPH_R(1), half_vx = SPH_R(-0.5);
-    CHECK_RELATIVE((double)sph_viscosity_pair_monaghan(SPH_R(0.1), SPH_R(0.2), SPH_R(0.1), one, SPH_R(2), SPH_R(3), half_vx, one),
+    const sph_viscosity_terms monaghan = {.alpha = SPH_R(0.1), .beta = SPH_R(0.2), .eta = SPH_R(0.1)};
+    const sph_viscosity_terms signal = {.alpha = SPH_R(0.1), .beta = SPH_R(3)};
+    const sph_viscosity_terms bare = {.alpha = SPH_R(1), .beta = SPH_R(1)};
+    const sph_encounter approach = {
+        .vx = SPH_R(-0.5), .r = SPH_R(1), .h = SPH_R(1), .c = SPH_R(2), .rho = SPH_R(3)};
+    const sph_encounter one_place = {.h = SPH_R(1), .c = SPH_R(1), .rho = SPH_R(1)};
+    sph_encounter recede = approach, far = approach;
+    recede.vx = SPH_R(0.5);
+    CHECK_RELATIVE((double)sph_viscosity_pair_monaghan(monaghan, approach),
                    (-0.1 * 2.0 * mu + 0.2 * mu * mu) / 3.0, 8.0 * EPSILON);
-    CHECK((double)sph_viscosity_pair_monaghan(SPH_R(0.1), SPH_R(0.2), SPH_R(0.1), one, SPH_R(2), SPH_R(3), SPH_R(0.5), one) == 0.0);
-    CHECK_RELATIVE((double)sph_viscosity_pair_linear(SPH_R(0.1), SPH_R(0.1), one, SPH_R(2), SPH_R(3), SPH_R(0.5), one), -0.1 * 2.0 * 0.5 / 1.01 / 3.0,
+    CHECK((double)sph_viscosity_pair_monaghan(monaghan, recede) == 0.0);
+    CHECK_RELATIVE((double)sph_viscosity_pair_linear(monaghan, recede), -0.1 * 2.0 * 0.5 / 1.01 / 3.0,
                    8.0 * EPSILON);
     /* v_sig = 2 + 2 + 3 * .25 for w = -.25 */
-    CHECK_RELATIVE((double)sph_viscosity_pair_signal(SPH_R(0.1), SPH_R(3), SPH_R(2), SPH_R(3), half_vx, SPH_R(2)), 0.05 * 4.75 * 0.25 / 3.0, 8.0 * EPSILON);
-    CHECK((double)sph_viscosity_pair_signal(SPH_R(0.1), SPH_R(3), SPH_R(2), SPH_R(3), SPH_R(0.5), SPH_R(2)) == 0.0);
-    CHECK(sphi_finite(sph_viscosity_pair_monaghan(one, one, SPH_R(0), one, one, one, SPH_R(0), SPH_R(0))));
-    CHECK(sphi_finite(sph_viscosity_pair_signal(one, one, one, one, SPH_R(0), SPH_R(0))));
+    far.r = recede.r = SPH_R(2);
+    CHECK_RELATIVE((double)sph_viscosity_pair_signal(signal, far), 0.05 * 4.75 * 0.25 / 3.0, 8.0 * EPSILON);
+    CHECK((double)sph_viscosity_pair_signal(signal, recede) == 0.0);
+    CHECK(sphi_finite(sph_viscosity_pair_monaghan(bare, one_place)));
+    CHECK(sphi_finite(sph_viscosity_pair_signal(bare, one_place)));
 }
 
 /* ---- one particle by hand, with F of the toolkit and nothing else of it ---- */
@@ -372,11 +385,12 @@ static void test_jump(void)
 static void test_xsph(void)
 {
     flow f = flow_of(cloud_lattice(2, 15, 1.4, 0.2, 2), 4);
+    const sph_fluid s = fluid(&f, SPH_VISCOSITY_NONE, 0.0, 0.0);
     sph_conserved q;
     sph_index i;
     double drop = 0.0, size = 0.0, worst = 0.0;
     int k;
-    CHECK(sph_velocity_xsph(KERNEL, 2, cloud_view(&f.c), sph_scalars_array(f.m), sph_scalars_array(f.rho), flow_v(&f), SPH_R(0.5), flow_a(&f)) == 0);
+    CHECK(sph_velocity_xsph(KERNEL, 2, cloud_view(&f.c), s, SPH_R(0.5), flow_a(&f)) == 0);
     q = conserved(&f, f.a);
     for (i = 0; i < f.c.n; i++)
         for (k = 0; k < 2; k++) {
@@ -398,7 +412,7 @@ static void test_xsph(void)
         for (k = 0; k < 2; k++) CHECK_CLOSE((double)f.a[k][i], by_hand[k], BY_PRECISION(1e-13, 1e-5));
     }
     for (i = 0; i < f.c.n; i++) f.v[0][i] = SPH_R(3), f.v[1][i] = SPH_R(-2);
-    CHECK(sph_velocity_xsph(KERNEL, 2, cloud_view(&f.c), sph_scalars_array(f.m), sph_scalars_array(f.rho), flow_v(&f), SPH_R(0.5), flow_a(&f)) == 0);
+    CHECK(sph_velocity_xsph(KERNEL, 2, cloud_view(&f.c), s, SPH_R(0.5), flow_a(&f)) == 0);
     for (i = 0; i < f.c.n; i++) worst = worse(worst, (double)f.a[0][i]);
     CHECK(worst == 0.0);
     flow_free(&f);
@@ -415,16 +429,26 @@ static void test_wall(void)
     unsigned char *const status = (unsigned char *)cloud_memory((size_t)n, 1);
     const sph_real zero = SPH_R(0);
     const sph_vectors none = sph_vectors_separate(0, 0, 0);
+    const sph_wall_out out = {f.rate, flow_a(&f), status};
     sph_vectors at_rest, up;
-    sph_vec gravity = {SPH_R(0), SPH_R(0), SPH_R(0)};
+    sph_wall wall;
     double worst_p = 0.0, worst_v = 0.0, slip = -1e9, across = 0.0;
-    sph_index i, walls = 5 * 17;
+    const sph_index walls = 5 * 17;
+    const sph_cloud targets = sph_cloud_range(cloud_view(&f.c), 3 * 17, walls);
+    sph_index i;
     sph_real before[2][5 * 17];
     int slips;
-    gravity.y = SPH_R(g);
     at_rest.x = at_rest.y = at_rest.z = sph_scalars_same(&zero);
     up.x = up.z = at_rest.x;
     up.y = sph_scalars_array(normal);
+    wall.share = sph_scalars_array(share);
+    wall.rho = sph_scalars_array(f.rho);
+    wall.p = sph_scalars_array(f.p);
+    wall.v = flow_v(&f);
+    wall.velocity = at_rest;
+    wall.normal = none;
+    wall.gravity.x = wall.gravity.z = SPH_R(0);
+    wall.gravity.y = SPH_R(g);
     for (i = 0; i < n; i++) { /* the five lowest rows are wall: two of them are in reach of the fluid */
         const double y = (double)f.c.y[i] - 4.5 * f.c.dx;
         share[i] = SPH_R(i >= walls);
@@ -434,7 +458,7 @@ static void test_wall(void)
         f.v[0][i] = SPH_R(i >= walls ? 2.0 * y : -777.0);
         f.v[1][i] = SPH_R(i >= walls ? 0.3 : -777.0);
     }
-    CHECK(sph_wall_adami(KERNEL, 2, sph_cloud_range(cloud_view(&f.c), 3 * 17, walls), sph_scalars_array(share), sph_scalars_array(f.rho), sph_scalars_array(f.p), flow_v(&f), at_rest, gravity, none, f.rate, flow_a(&f), status) == 0);
+    CHECK(sph_wall_adami(KERNEL, 2, targets, wall, out) == 0);
     for (i = 3 * 17; i < walls; i++) {
         const double y = (double)f.c.y[i] - 4.5 * f.c.dx;
         if ((double)f.c.x[i] < 0.3 || (double)f.c.x[i] > 0.7) continue;
@@ -445,7 +469,8 @@ static void test_wall(void)
     CHECK_CLOSE(worst_p, 0.0, BY_PRECISION(1e-9, 1e-1));
     CHECK_CLOSE(across, 0.0, BY_PRECISION(1e-12, 1e-5));
     CHECK(worst_v < 0.15 && worst_v > 0.0); /* the mean over the support is farther from the wall than the mirror image */
-    CHECK(sph_wall_adami(KERNEL, 2, sph_cloud_range(cloud_view(&f.c), 3 * 17, walls), sph_scalars_array(share), sph_scalars_array(f.rho), sph_scalars_array(f.p), flow_v(&f), at_rest, gravity, up, f.rate, flow_a(&f), status) == 0);
+    wall.normal = up;
+    CHECK(sph_wall_adami(KERNEL, 2, targets, wall, out) == 0);
     for (i = 4 * 17; i < walls; i++) {
         slip = fmax(slip, -(double)f.a[0][i]); /* the same direction as the fluid's */
         across = worse(across, (double)f.a[1][i] + 0.3);
@@ -454,23 +479,26 @@ static void test_wall(void)
     CHECK_CLOSE(across, 0.0, BY_PRECISION(1e-12, 1e-5));
     for (slips = 0; slips < 2; slips++) { /* seen by one who moves, everything moves */
         const sph_real u[2] = {SPH_R(0.7), SPH_R(-0.4)};
-        sph_vectors moving = at_rest;
         double worst = 0.0;
         int k;
-        moving.x = sph_scalars_same(&u[0]);
-        moving.y = sph_scalars_same(&u[1]);
-        CHECK(sph_wall_adami(KERNEL, 2, sph_cloud_range(cloud_view(&f.c), 3 * 17, walls), sph_scalars_array(share), sph_scalars_array(f.rho), sph_scalars_array(f.p), flow_v(&f), at_rest, gravity, slips ? up : none, f.rate, flow_a(&f), status) == 0);
+        wall.normal = slips ? up : none;
+        wall.velocity = at_rest;
+        CHECK(sph_wall_adami(KERNEL, 2, targets, wall, out) == 0);
         for (i = 0; i < n; i++)
             for (k = 0; k < 2; k++) {
                 f.v[k][i] += u[k];
                 if (i >= 3 * 17 && i < walls) before[k][i] = f.a[k][i];
             }
-        CHECK(sph_wall_adami(KERNEL, 2, sph_cloud_range(cloud_view(&f.c), 3 * 17, walls), sph_scalars_array(share), sph_scalars_array(f.rho), sph_scalars_array(f.p), flow_v(&f), moving, gravity, slips ? up : none, f.rate, flow_a(&f), status) == 0);
+        wall.velocity.x = sph_scalars_same(&u[0]);
+        wall.velocity.y = sph_scalars_same(&u[1]);
+        CHECK(sph_wall_adami(KERNEL, 2, targets, wall, out) == 0);
         for (i = 3 * 17; i < walls; i++)
             for (k = 0; k < 2; k++) worst = worse(worst, (double)f.a[k][i] - (double)before[k][i] - (double)u[k]);
         CHECK_CLOSE(worst, 0.0, BY_PRECISION(1e-12, 1e-5));
     }
-    CHECK(sph_wall_adami(KERNEL, 2, sph_cloud_range(cloud_view(&f.c), 0, 17), sph_scalars_array(share), sph_scalars_array(f.rho), sph_scalars_array(f.p), flow_v(&f), at_rest, gravity, none, f.rate, flow_a(&f), status) == 17);
+    wall.normal = none;
+    wall.velocity = at_rest;
+    CHECK(sph_wall_adami(KERNEL, 2, sph_cloud_range(targets, 0, 17), wall, out) == 17);
     CHECK(status[3] == SPH_TOO_FEW && f.rate[3] == SPH_R(0) && f.a[0][3] == SPH_R(0));
     free(share);
     free(normal);
@@ -492,7 +520,9 @@ static void test_distribution(void)
     const sph_scalars R = sph_scalars_same(&reach);
     const size_t size = sph_grid_workspace(2, c.n);
     void *const work = cloud_memory(size, 1);
+    const sph_scalar_out each = sph_scalar_out_array(out, status);
     sph_grid grid;
+    sph_cloud all;
     sph_index i;
     double worst = 0.0, order = 1.0, pairs = 0.0;
     for (i = 0; i < c.n; i++) { /* hexagons in a periodic box */
@@ -501,16 +531,17 @@ static void test_distribution(void)
     }
     x = sph_points_periodic(cloud_points(&c), SPH_R(24 * dx), SPH_R(20 * dx * sqrt(0.75)), SPH_R(0));
     CHECK(sph_grid_build(2, x, reach, work, size, &grid) == 0);
-    CHECK(sph_grid_lists(2, &grid, x, SPH_GATHER, R, R, 0, c.start, 0, 0, &c.pairs) == 0);
+    CHECK(sph_grid_count(2, &grid, x, SPH_GATHER, R, R, 0, c.start, &c.pairs) == 0);
     c.index = (sph_index *)cloud_memory((size_t)c.pairs, sizeof *c.index);
     CHECK(sph_grid_lists(2, &grid, x, SPH_GATHER, R, R, 0, c.start, c.index, c.pairs, &c.pairs) == 0);
-    CHECK(sph_nearest_distance(2, 0, c.n, x, x, cloud_list(&c), out, status) == 0);
+    all = sph_cloud_of(x, cloud_list(&c), sph_scalars_none(), sph_scalars_none());
+    CHECK(sph_nearest_distance(2, all, x, each) == 0);
     for (i = 0; i < c.n; i++) worst = worse(worst, (double)out[i] / dx - 1.0);
     CHECK_CLOSE(worst, 0.0, BY_PRECISION(1e-12, 1e-4));
-    CHECK(sph_hexatic_order(sph_cloud_range(sph_cloud_of(x, cloud_list(&c), sph_scalars_none(), sph_scalars_none()), 0, c.n), out, status) == 0);
+    CHECK(sph_hexatic_order(all, each) == 0);
     for (i = 0; i < c.n; i++) order = fmin(order, (double)out[i]);
     CHECK_CLOSE(order, 1.0, BY_PRECISION(1e-9, 1e-3));
-    CHECK(sph_radial_distribution(2, sph_cloud_range(sph_cloud_of(x, cloud_list(&c), sph_scalars_none(), sph_scalars_none()), 0, c.n), reach, SPH_R(1.0 / (dx * dx * sqrt(0.75))), BINS, g) == 0);
+    CHECK(sph_radial_distribution(2, all, reach, SPH_R(1.0 / (dx * dx * sqrt(0.75))), BINS, g) == 0);
     for (i = 0; i < BINS; i++) pairs += (double)g[i] * PI * (2.0 * i + 1.0) * pow((double)reach / BINS, 2.0) / (dx * dx * sqrt(0.75));
     CHECK_RELATIVE(pairs, (double)c.pairs / (double)c.n, 1e-5); /* what is counted is what is there */
     CHECK((double)g[11] > 2.0 || (double)g[10] > 2.0 || (double)g[12] > 2.0);
@@ -520,13 +551,14 @@ static void test_distribution(void)
     c.x[30] = c.x[31];
     x = cloud_points(&c);
     cloud_neighbors(&c, (double)reach);
-    CHECK(sph_hexatic_order(sph_cloud_range(sph_cloud_of(x, cloud_list(&c), sph_scalars_none(), sph_scalars_none()), 0, c.n), out, status) == 0);
+    all = sph_cloud_of(x, cloud_list(&c), sph_scalars_none(), sph_scalars_none());
+    CHECK(sph_hexatic_order(all, each) == 0);
     CHECK((double)out[10 * 24 + 12] < 0.9);
-    CHECK(sph_count_coincident(2, sph_cloud_range(sph_cloud_of(x, cloud_list(&c), sph_scalars_none(), sph_scalars_none()), 0, c.n), SPH_R(1e-12)) == 2);
+    CHECK(sph_count_coincident(2, all, SPH_R(1e-12)) == 2);
     {
         sph_real *const moved = (sph_real *)cloud_memory(2 * (size_t)c.n, sizeof *moved);
         const sph_vector_out to = sph_vector_out_separate(moved, moved + c.n, 0);
-        CHECK(sph_separate_coincident(2, sph_cloud_range(sph_cloud_of(x, cloud_list(&c), sph_scalars_none(), sph_scalars_none()), 0, c.n), SPH_R(1e-12), SPH_R(0.1 * dx), to) == 2);
+        CHECK(sph_separate_coincident(2, all, SPH_R(1e-12), SPH_R(0.1 * dx), to) == 2);
         CHECK(hypot((double)(to.x[30] - to.x[31]), (double)(to.y[30] - to.y[31])) > 0.05 * dx);
         CHECK_CLOSE(hypot((double)(to.x[30] - c.x[30]), (double)(to.y[30] - c.y[30])), 0.1 * dx, 1e-6);
         for (i = 0; i < c.n; i++)
@@ -537,10 +569,10 @@ static void test_distribution(void)
     {
         const sph_real px[2] = {SPH_R(0.5 * 0.05), SPH_R(50)}, py[2] = {SPH_R(0.5 * 0.05), SPH_R(0)};
         const sph_index start[3] = {0, 3, 3}, index[3] = {0, 1, 24};
-        sph_list l;
-        l.start = start;
-        l.index = index;
-        CHECK(sph_nearest_distance(2, 0, 2, sph_points_separate(2, px, py, 0), x, l, out, status) == 1);
+        const sph_list l = {start, index};
+        const sph_cloud probes =
+            sph_cloud_of(sph_points_separate(2, px, py, 0), l, sph_scalars_none(), sph_scalars_none());
+        CHECK(sph_nearest_distance(2, probes, x, each) == 1);
         CHECK_RELATIVE((double)out[0], sqrt(0.5) * dx, 1e-5);
         CHECK(status[1] == SPH_TOO_FEW && out[1] == SPH_R(0));
     }
@@ -558,7 +590,7 @@ static void test_hexatic_and_separation(void)
     double worst = 0.0;
     sph_index i, p;
     int dim;
-    CHECK(sph_hexatic_order(cloud_view(&c), out, 0) == 0);
+    CHECK(sph_hexatic_order(cloud_view(&c), sph_scalar_out_array(out, 0)) == 0);
     for (i = 0; i < c.n; i++) {
         double r[6] = {9, 9, 9, 9, 9, 9}, theta[6] = {0}, re = 0.0, im = 0.0;
         int k;

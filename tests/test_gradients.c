@@ -22,60 +22,61 @@ static double worse(double m, double a) { return fabs(a) <= m ? m : fabs(a); }
 /* ---- the operators, one instance of each for a dimension ---- */
 
 typedef struct views {
-    sph_index first, last;
-    sph_points x;
-    sph_list list;
-    sph_scalars h, V, f;
+    sph_cloud cloud;
+    sph_scalars f;
 } views;
 
 static views views_of(const cloud *c)
 {
     views v;
-    v.first = 0;
-    v.last = c->n;
-    v.x = cloud_points(c);
-    v.list = cloud_list(c);
-    v.h = cloud_h(c);
-    v.V = cloud_V(c);
+    v.cloud = cloud_view(c);
     v.f = cloud_f(c);
     return v;
 }
 
 static sph_index difference(int dim, const views *v, sph_real *const *g)
 {
-    return dim == 1   ? sph_gradient_difference(KERNEL, 1, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, g[0], 0, 0)
-           : dim == 2 ? sph_gradient_difference(KERNEL, 2, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, g[0], g[1], 0)
-                      : sph_gradient_difference(KERNEL, 3, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, g[0], g[1], g[2]);
+    const sph_vector_out out = sph_vector_out_separate(g[0], dim > 1 ? g[1] : 0, dim > 2 ? g[2] : 0);
+    return dim == 1   ? sph_gradient_difference(KERNEL, 1, v->cloud, v->f, out)
+           : dim == 2 ? sph_gradient_difference(KERNEL, 2, v->cloud, v->f, out)
+                      : sph_gradient_difference(KERNEL, 3, v->cloud, v->f, out);
 }
-static sph_index corrected(int dim, const views *v, sph_real *const *g, sph_real *conditioning, unsigned char *status)
+static sph_index corrected(int dim, const views *v, sph_real *const *g, sph_real *conditioning,
+                           unsigned char *status)
 {
-    return dim == 1   ? sph_gradient_cspm(KERNEL, 1, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, g[0], 0, 0, conditioning, status)
-           : dim == 2 ? sph_gradient_cspm(KERNEL, 2, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, g[0], g[1], 0, conditioning, status)
-                      : sph_gradient_cspm(KERNEL, 3, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, g[0], g[1], g[2], conditioning, status);
+    const sph_derivative_out out = {.gx = g[0],
+                                    .gy = dim > 1 ? g[1] : 0,
+                                    .gz = dim > 2 ? g[2] : 0,
+                                    .conditioning = conditioning,
+                                    .status = status};
+    return dim == 1   ? sph_gradient_cspm(KERNEL, 1, v->cloud, v->f, out)
+           : dim == 2 ? sph_gradient_cspm(KERNEL, 2, v->cloud, v->f, out)
+                      : sph_gradient_cspm(KERNEL, 3, v->cloud, v->f, out);
 }
 static sph_index gamma_sum(int dim, const views *v, sph_real *out)
 {
-    return dim == 1   ? sph_shepard_sum(KERNEL, 1, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), out)
-           : dim == 2 ? sph_shepard_sum(KERNEL, 2, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), out)
-                      : sph_shepard_sum(KERNEL, 3, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), out);
+    return dim == 1   ? sph_shepard_sum(KERNEL, 1, v->cloud, out)
+           : dim == 2 ? sph_shepard_sum(KERNEL, 2, v->cloud, out)
+                      : sph_shepard_sum(KERNEL, 3, v->cloud, out);
 }
 static sph_index interpolate(int dim, const views *v, sph_real *out, unsigned char *status)
 {
-    return dim == 1   ? sph_interpolate_shepard(KERNEL, 1, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out, status)
-           : dim == 2 ? sph_interpolate_shepard(KERNEL, 2, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out, status)
-                      : sph_interpolate_shepard(KERNEL, 3, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out, status);
+    const sph_scalar_out to = sph_scalar_out_array(out, status);
+    return dim == 1   ? sph_interpolate_shepard(KERNEL, 1, v->cloud, v->f, to)
+           : dim == 2 ? sph_interpolate_shepard(KERNEL, 2, v->cloud, v->f, to)
+                      : sph_interpolate_shepard(KERNEL, 3, v->cloud, v->f, to);
 }
 static sph_index brookshaw(int dim, const views *v, sph_real *out)
 {
-    return dim == 1   ? sph_laplacian_brookshaw(KERNEL, 1, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out)
-           : dim == 2 ? sph_laplacian_brookshaw(KERNEL, 2, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out)
-                      : sph_laplacian_brookshaw(KERNEL, 3, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out);
+    return dim == 1   ? sph_laplacian_brookshaw(KERNEL, 1, v->cloud, v->f, out)
+           : dim == 2 ? sph_laplacian_brookshaw(KERNEL, 2, v->cloud, v->f, out)
+                      : sph_laplacian_brookshaw(KERNEL, 3, v->cloud, v->f, out);
 }
 static sph_index kernel_laplacian(int dim, const views *v, sph_real *out)
 {
-    return dim == 1   ? sph_laplacian_kernel(KERNEL, 1, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out)
-           : dim == 2 ? sph_laplacian_kernel(KERNEL, 2, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out)
-                      : sph_laplacian_kernel(KERNEL, 3, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, out);
+    return dim == 1   ? sph_laplacian_kernel(KERNEL, 1, v->cloud, v->f, out)
+           : dim == 2 ? sph_laplacian_kernel(KERNEL, 2, v->cloud, v->f, out)
+                      : sph_laplacian_kernel(KERNEL, 3, v->cloud, v->f, out);
 }
 
 /* three components, each of n numbers, that start as NaN */
@@ -130,7 +131,7 @@ static void test_shepard_sum(void)
         c.start[1] = c.start[0];
         {
             views one = v;
-            one.last = 1;
+            one.cloud.last = 1;
             CHECK(gamma_sum(dim, &one, out) == 0);
             CHECK_RELATIVE((double)out[0], (double)c.V[0] * (double)sph_kernel_w(KERNEL, dim, SPH_R(0), c.h), 8.0 * EPSILON);
         }
@@ -231,9 +232,9 @@ static void test_probes(void)
     CHECK(memcmp(plain, out, sizeof plain) == 0);
 
     /* probes alone, as a range */
-    v.first = N;
+    v.cloud.first = N;
     CHECK(interpolate(1, &v, out, 0) == 1);
-    v.last = N + 3;
+    v.cloud.last = N + 3;
     CHECK(interpolate(1, &v, out, 0) == 0);
     cloud_free(&c);
 }
@@ -425,10 +426,10 @@ static void test_sums(void)
     double off = 0.0;
     sph_index i, j;
     cloud_set(&c, field_smooth);
-    CHECK(sph_shepard_sum(OTHER, 2, sph_cloud_range(sph_cloud_of(v.x, v.list, v.h, v.V), 0, c.n), gamma) == 0);
-    CHECK(sph_gradient_difference(OTHER, 2, sph_cloud_range(sph_cloud_of(v.x, v.list, v.h, v.V), 0, c.n), v.f, g.p[0], g.p[1], 0) == 0);
-    CHECK(sph_laplacian_brookshaw(OTHER, 2, sph_cloud_range(sph_cloud_of(v.x, v.list, v.h, v.V), 0, c.n), v.f, b) == 0);
-    CHECK(sph_laplacian_kernel(OTHER, 2, sph_cloud_range(sph_cloud_of(v.x, v.list, v.h, v.V), 0, c.n), v.f, k) == 0);
+    CHECK(sph_shepard_sum(OTHER, 2, v.cloud, gamma) == 0);
+    CHECK(sph_gradient_difference(OTHER, 2, v.cloud, v.f, sph_vector_out_separate(g.p[0], g.p[1], 0)) == 0);
+    CHECK(sph_laplacian_brookshaw(OTHER, 2, v.cloud, v.f, b) == 0);
+    CHECK(sph_laplacian_kernel(OTHER, 2, v.cloud, v.f, k) == 0);
     for (i = 0; i < c.n; i++) { /* over all particles, without a list */
         const double h = (double)c.h;
         double sum = 0.0, gx = 0.0, gy = 0.0, lap = 0.0, old = 0.0;
@@ -468,11 +469,11 @@ enum { STRIDE = sizeof(particle) / sizeof(sph_real) };
 
 static sph_index derivatives_3d(const views *v, sph_derivative_out out)
 {
-    return sph_derivatives_wls(KERNEL, 3, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, SPH_R(0), out);
+    return sph_derivatives_wls(KERNEL, 3, v->cloud, v->f, SPH_R(0), out);
 }
 static sph_index derivatives_2d(const views *v, sph_derivative_out out)
 {
-    return sph_derivatives_wls(KERNEL, 2, sph_cloud_range(sph_cloud_of(v->x, v->list, v->h, v->V), v->first, v->last), v->f, SPH_R(0), out);
+    return sph_derivatives_wls(KERNEL, 2, v->cloud, v->f, SPH_R(0), out);
 }
 
 static sph_derivative_out arrays_out(sph_real *p, sph_index n)
@@ -511,14 +512,16 @@ static void test_views(void)
             s[i].laplacian = SPH_R(-2);
         }
         for (w = 0; w < 5; w++) way[w] = v;
-        way[0].x = sph_points_interleaved(c.n, dim, xyz);
-        way[1].x = sph_points_strided(c.n, &s[0].x[0], dim > 1 ? &s[0].x[1] : 0, dim > 2 ? &s[0].x[2] : 0, STRIDE);
-        way[1].V = sph_scalars_strided(&s[0].V, STRIDE);
-        way[1].h = sph_scalars_strided(&s[0].h, STRIDE);
+        way[0].cloud.points = sph_points_interleaved(c.n, dim, xyz);
+        way[1].cloud.points =
+            sph_points_strided(c.n, &s[0].x[0], dim > 1 ? &s[0].x[1] : 0, dim > 2 ? &s[0].x[2] : 0, STRIDE);
+        way[1].cloud.volume = sph_scalars_strided(&s[0].V, STRIDE);
+        way[1].cloud.h = sph_scalars_strided(&s[0].h, STRIDE);
         way[1].f = sph_scalars_strided(&s[0].f, STRIDE);
-        way[2].h = sph_scalars_array(hs);
-        way[3].x = sph_points_separate(c.n, c.x, dim > 1 ? c.y : 0, dim > 2 ? c.z : 0); /* what is not read may be missing */
-        way[4].x = sph_points_strided(c.n, c.x, c.y, c.z, 1);
+        way[2].cloud.h = sph_scalars_array(hs);
+        /* what is not read may be missing */
+        way[3].cloud.points = sph_points_separate(c.n, c.x, dim > 1 ? c.y : 0, dim > 2 ? c.z : 0);
+        way[4].cloud.points = sph_points_strided(c.n, c.x, c.y, c.z, 1);
         CHECK(corrected(dim, &v, g.p, 0, 0) == 0);
         for (w = 0; w < 5; w++) {
             CHECK(corrected(dim, &way[w], g2.p, 0, 0) == 0);
@@ -581,15 +584,14 @@ static void test_variable_h(void)
     sph_index i, differ = 0;
     cloud_set(&c, field_smooth);
     for (i = 0; i < c.n; i++) hs[i] = c.h * SPH_R(0.7 + 0.3 * (double)(i % 2));
-    v.h = sph_scalars_array(hs);
+    v.cloud.h = sph_scalars_array(hs);
     CHECK(brookshaw(1, &v, out) == 0);
     for (i = 0; i < c.n; i++) {
-        one.h = sph_scalars_same(&hs[i]);
-        one.first = i;
-        one.last = i + 1;
+        one.cloud = sph_cloud_range(v.cloud, i, i + 1);
+        one.cloud.h = sph_scalars_same(&hs[i]);
         CHECK(brookshaw(1, &one, single) == 0);
         CHECK(memcmp(out + i, single + i, sizeof *out) == 0);
-        one.h = sph_scalars_same(&hs[(i + 1) % c.n]);
+        one.cloud.h = sph_scalars_same(&hs[(i + 1) % c.n]);
         CHECK(brookshaw(1, &one, single) == 0);
         differ += memcmp(out + i, single + i, sizeof *out) != 0;
     }
@@ -679,9 +681,10 @@ static void test_far_positions(void)
     list.index = index;
     for (over = 0; over < 2; over++) {
         const sph_real x = half * SPH_R(over ? 1.001 : 0.999);
+        const sph_cloud alone = sph_cloud_of(sph_points_separate(1, &x, 0, 0), list, sph_scalars_same(&one),
+                                             sph_scalars_same(&one));
         sph_real out = SPH_R(7);
-        CHECK(sph_shepard_sum(SPH_CUBIC_SPLINE, 1, sph_cloud_of(sph_points_separate(1, &x, 0, 0), list, sph_scalars_same(&one), sph_scalars_same(&one)), &out) ==
-              (over ? SPH_ERROR_POSITION : 0));
+        CHECK(sph_shepard_sum(SPH_CUBIC_SPLINE, 1, alone, &out) == (over ? SPH_ERROR_POSITION : 0));
         CHECK((out == SPH_R(7)) == over);
     }
 }
@@ -693,10 +696,11 @@ static void test_row_before_list(void)
     const sph_index start[3] = {-1, 0, 1}, index[3] = {1, 0, 0};
     sph_real out[2] = {SPH_R(7), SPH_R(7)};
     sph_list list;
+    sph_cloud two;
     list.start = start;
     list.index = index + 1;
-    CHECK(sph_shepard_sum(SPH_CUBIC_SPLINE, 1, sph_cloud_of(sph_points_separate(2, x, 0, 0), list, sph_scalars_same(&one), sph_scalars_same(&one)), out) ==
-          SPH_ERROR_LIST);
+    two = sph_cloud_of(sph_points_separate(2, x, 0, 0), list, sph_scalars_same(&one), sph_scalars_same(&one));
+    CHECK(sph_shepard_sum(SPH_CUBIC_SPLINE, 1, two, out) == SPH_ERROR_LIST);
     CHECK((double)out[0] == 7.0 && (double)out[1] == 7.0);
 }
 
@@ -712,9 +716,12 @@ static void test_overflow(void)
     for (dim = 1; dim <= 3; dim++)
         for (axis = 0; axis < dim; axis++) {
             sph_real x[3][2] = {{0, 0}, {0, 0}, {0, 0}}, V = h * SPH_R(0.1), g[3][2] = {{7, 7}, {7, 7}, {7, 7}};
+            const sph_cloud two = sph_cloud_of(sph_points_separate(2, x[0], x[1], x[2]), list,
+                                               sph_scalars_same(&h), sph_scalars_same(&V));
             for (k = 1; k < dim; k++) V *= h;
             x[axis][1] = h;
-            CHECK(sph_gradient_difference(SPH_CUBIC_SPLINE, dim, sph_cloud_of(sph_points_separate(2, x[0], x[1], x[2]), list, sph_scalars_same(&h), sph_scalars_same(&V)), sph_scalars_array(f), g[0], g[1], g[2]) == 2);
+            CHECK(sph_gradient_difference(SPH_CUBIC_SPLINE, dim, two, sph_scalars_array(f),
+                                          sph_vector_out_separate(g[0], g[1], g[2])) == 2);
             for (k = 0; k < dim; k++) CHECK((double)g[k][0] == 0.0 && (double)g[k][1] == 0.0);
         }
 }

@@ -112,14 +112,22 @@ static void ball_free(ball *s)
     free(s->m);
 }
 static sph_vector_out out_of(sph_real *const *a) { return sph_vector_out_separate(a[0], a[1], a[2]); }
+static sph_cloud ball_cloud(const ball *s)
+{
+    return sph_cloud_of(cloud_points(&s->c), cloud_list(&s->c), sph_scalars_array(s->h), sph_scalars_none());
+}
 /* the potential energy; with an h that follows the density, if asked */
 static double energy(sph_kernel k, ball *s, double G, int follow)
 {
+    const sph_cloud all = ball_cloud(s);
+    const sph_scalars m = sph_scalars_array(s->m);
+    const sph_density_options options = {sph_scalars_array(s->reach), SPH_R(1.2),
+                                         SPH_R(BY_PRECISION(1e-13, 1e-5))};
+    const sph_density_out out = {.h = s->h, .rho = s->rho, .omega = s->omega};
     double e = 0.0;
     sph_index i;
-    if (follow)
-        CHECK(sph_density_adaptive(k, 3, cloud_view(&s->c), sph_scalars_array(s->reach), sph_scalars_array(s->m), SPH_R(1.2), SPH_R(BY_PRECISION(1e-13, 1e-5)), s->h, s->rho, s->omega, 0) == 0);
-    CHECK(sph_gravity_direct(k, 0, s->c.n, cloud_points(&s->c), sph_scalars_array(s->h), sph_scalars_array(s->m), SPH_R(G), out_of(s->a), s->phi) == 0);
+    if (follow) CHECK(sph_density_adaptive(k, 3, all, m, options, out) == 0);
+    CHECK(sph_gravity_direct(k, all, m, SPH_R(G), out_of(s->a), s->phi) == 0);
     for (i = 0; i < s->c.n; i++) e += 0.5 * (double)s->m[i] * (double)s->phi[i];
     return e;
 }
@@ -141,8 +149,9 @@ static void test_energy(void)
                 gas.m = sph_scalars_array(s.m);
                 gas.rho = sph_scalars_array(s.rho);
                 gas.omega = sph_scalars_array(s.omega);
-                CHECK(sph_gravity_zeta(k, sph_cloud_range(sph_cloud_of(cloud_points(&s.c), cloud_list(&s.c), sph_scalars_array(s.h), sph_scalars_none()), 0, s.c.n), gas.m, gas.rho, s.zeta) == 0);
-                CHECK(sph_gravity_correction(k, sph_cloud_range(sph_cloud_of(cloud_points(&s.c), cloud_list(&s.c), sph_scalars_array(s.h), sph_scalars_none()), 0, s.c.n), gas, sph_scalars_array(s.zeta), SPH_R(G), out_of(s.b)) == 0);
+                CHECK(sph_gravity_zeta(k, ball_cloud(&s), gas.m, gas.rho, s.zeta) == 0);
+                CHECK(sph_gravity_correction(k, ball_cloud(&s), gas, sph_scalars_array(s.zeta), SPH_R(G),
+                                             out_of(s.b)) == 0);
             }
             for (c = 0; c < 3; c++) {
                 sph_real *const plain = (sph_real *)cloud_memory((size_t)s.c.n, sizeof *plain), *const x = c == 0 ? s.c.x : c == 1 ? s.c.y : s.c.z;

@@ -110,51 +110,96 @@ static sph_gas gas(const world *w)
     g.omega = at(w, OMEGA);
     return g;
 }
+static sph_fluid fluid(const world *w)
+{
+    sph_fluid f;
+    f.m = at(w, M);
+    f.rho = at(w, RHO);
+    f.p = at(w, P);
+    f.c = at(w, CS);
+    f.v = vectors(w, VX);
+    f.viscosity = SPH_VISCOSITY_MONAGHAN;
+    f.alpha = SPH_R(0.7);
+    f.beta = SPH_R(1.1);
+    f.eta = SPH_R(0.1);
+    return f;
+}
+static sph_cleaning cleaned(const world *w)
+{
+    sph_cleaning c;
+    c.gas = gas(w);
+    c.field = vectors(w, BX);
+    c.psi = at(w, PSI);
+    c.div_v = sph_scalars_none();
+    c.ch = SPH_R(1.3);
+    c.sigma = w->sigma;
+    return c;
+}
+static sph_cleaning_out cleaning_into(const world *w)
+{
+    sph_cleaning_out o;
+    o.rate_B = into(w, 0);
+    o.rate_psi = w->out[3];
+    o.div_B = w->out[4];
+    return o;
+}
+static sph_cloud all(const world *w)
+{
+    return sph_cloud_of(cloud_points(&w->c), cloud_list(&w->c), at(w, H), at(w, V));
+}
 typedef sph_index operator_fn(world *w, sph_index first, sph_index last);
 /* the arguments that most begin with */
-#define FRAME sph_cloud_range(sph_cloud_of(cloud_points(&w->c), cloud_list(&w->c), at(w, H), at(w, V)), first, last)
+#define FRAME sph_cloud_range(all(w), first, last)
 #define SWEEP KERNEL, w->c.dim, FRAME
 #define OUT(k) w->out[k]
+#define SCALAR_OUT sph_scalar_out_array(OUT(0), w->status)
 #define OPERATOR(name, call) \
     static sph_index name(world *w, sph_index first, sph_index last) { return call; }
 
 OPERATOR(shepard_sum, sph_shepard_sum(SWEEP, OUT(0)))
-OPERATOR(interpolate, sph_interpolate_shepard(SWEEP, at(w, F), OUT(0), w->status))
+OPERATOR(interpolate, sph_interpolate_shepard(SWEEP, at(w, F), SCALAR_OUT))
 OPERATOR(density_summation, sph_density_summation(SWEEP, at(w, M), OUT(0)))
 OPERATOR(density_number, sph_density_number(SWEEP, at(w, M), OUT(0)))
-OPERATOR(gradient_difference, sph_gradient_difference(SWEEP, at(w, F), OUT(0), OUT(1), OUT(2)))
-OPERATOR(gradient_cspm, sph_gradient_cspm(SWEEP, at(w, F), OUT(0), OUT(1), OUT(2), OUT(3), w->status))
+OPERATOR(gradient_difference, sph_gradient_difference(SWEEP, at(w, F), into(w, 0)))
 OPERATOR(laplacian_brookshaw, sph_laplacian_brookshaw(SWEEP, at(w, F), OUT(0)))
 OPERATOR(laplacian_kernel, sph_laplacian_kernel(SWEEP, at(w, F), OUT(0)))
-OPERATOR(elliptic_brookshaw, sph_elliptic_brookshaw(SWEEP, at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
+OPERATOR(elliptic_brookshaw,
+         sph_elliptic_brookshaw(SWEEP, at(w, MU), sph_elliptic_defaults(), at(w, F), SCALAR_OUT))
 OPERATOR(elliptic_corrected,
-         sph_elliptic_brookshaw_corrected(SWEEP, at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
-OPERATOR(elliptic_schwaiger, sph_elliptic_schwaiger(SWEEP, at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
-OPERATOR(elliptic_msph, sph_elliptic_msph(SWEEP, at(w, MU), sph_elliptic_defaults(), at(w, F), sph_scalars_array(0), OUT(0), w->status))
-OPERATOR(viscous_morris, sph_viscous_mu_morris(SWEEP, at(w, M), at(w, RHO), vectors(w, VX), at(w, MU), SPH_R(0.1), into(w, 0)))
-OPERATOR(viscous_cleary, sph_viscous_mu_monaghan_cleary(SWEEP, at(w, M), at(w, RHO), vectors(w, VX), at(w, MU), SPH_R(0.1), into(w, 0)))
-OPERATOR(xsph, sph_velocity_xsph(SWEEP, at(w, M), at(w, RHO), vectors(w, VX), SPH_R(0.5), into(w, 0)))
+         sph_elliptic_brookshaw_corrected(SWEEP, at(w, MU), sph_elliptic_defaults(), at(w, F), SCALAR_OUT))
+OPERATOR(elliptic_schwaiger,
+         sph_elliptic_schwaiger(SWEEP, at(w, MU), sph_elliptic_defaults(), at(w, F), SCALAR_OUT))
+OPERATOR(elliptic_msph, sph_elliptic_msph(SWEEP, at(w, MU), sph_elliptic_defaults(), at(w, F), SCALAR_OUT))
+OPERATOR(viscous_morris, sph_viscous_mu_morris(SWEEP, fluid(w), at(w, MU), into(w, 0)))
+OPERATOR(viscous_cleary, sph_viscous_mu_monaghan_cleary(SWEEP, fluid(w), at(w, MU), into(w, 0)))
+OPERATOR(xsph, sph_velocity_xsph(SWEEP, fluid(w), SPH_R(0.5), into(w, 0)))
 OPERATOR(divergence_difference, sph_divergence_difference(SWEEP, gas(w), vectors(w, BX), OUT(0)))
 OPERATOR(divergence_symmetric, sph_divergence_symmetric(SWEEP, gas(w), vectors(w, BX), OUT(0)))
 OPERATOR(gradient_symmetric, sph_gradient_symmetric(SWEEP, gas(w), at(w, F), into(w, 0)))
 OPERATOR(curl_difference, sph_curl_difference(SWEEP, gas(w), vectors(w, BX), into(w, 0)))
-OPERATOR(cleaning, sph_cleaning_rates(SWEEP, gas(w), vectors(w, BX), at(w, PSI), sph_scalars_array(0), SPH_R(1.3), w->sigma, into(w, 0), OUT(3), OUT(4)))
-OPERATOR(cleaning_symmetric,
-         sph_cleaning_rates_symmetric(SWEEP, gas(w), vectors(w, BX), at(w, PSI), sph_scalars_array(0), SPH_R(1.3), w->sigma, into(w, 0), OUT(3), OUT(4)))
-OPERATOR(cleaning_nonconservative,
-         sph_cleaning_rates_nonconservative(SWEEP, gas(w), vectors(w, BX), at(w, PSI), sph_scalars_array(0), SPH_R(1.3), w->sigma, into(w, 0), OUT(3), OUT(4)))
-OPERATOR(gravity_direct, sph_gravity_direct(KERNEL, first, last, cloud_points(&w->c), at(w, H), at(w, M), SPH_R(1), into(w, 0), OUT(3)))
+OPERATOR(cleaning, sph_cleaning_rates(SWEEP, cleaned(w), cleaning_into(w)))
+OPERATOR(cleaning_symmetric, sph_cleaning_rates_symmetric(SWEEP, cleaned(w), cleaning_into(w)))
+OPERATOR(cleaning_nonconservative, sph_cleaning_rates_nonconservative(SWEEP, cleaned(w), cleaning_into(w)))
+OPERATOR(gravity_direct, sph_gravity_direct(KERNEL, FRAME, at(w, M), SPH_R(1), into(w, 0), OUT(3)))
 OPERATOR(gravity_zeta, sph_gravity_zeta(KERNEL, FRAME, at(w, M), at(w, RHO), OUT(0)))
-OPERATOR(gravity_correction,
-         sph_gravity_correction(KERNEL, FRAME, gas(w), at(w, ZETA), SPH_R(1), into(w, 0)))
-OPERATOR(nearest_distance, sph_nearest_distance(w->c.dim, first, last, cloud_points(&w->c), cloud_points(&w->c), cloud_list(&w->c), OUT(0), w->status))
-OPERATOR(hexatic_order, sph_hexatic_order(FRAME, OUT(0), w->status))
+OPERATOR(gravity_correction, sph_gravity_correction(KERNEL, FRAME, gas(w), at(w, ZETA), SPH_R(1), into(w, 0)))
+OPERATOR(nearest_distance, sph_nearest_distance(w->c.dim, FRAME, cloud_points(&w->c), SCALAR_OUT))
+OPERATOR(hexatic_order, sph_hexatic_order(FRAME, SCALAR_OUT))
 
 static sph_index density_adaptive(world *w, sph_index first, sph_index last)
 {
+    sph_density_options d;
+    sph_density_out o;
     sph_index i;
-    for (i = first; i < last; i++) OUT(0)[i] = w->a[H][i];
-    return sph_density_adaptive(SWEEP, at(w, REACH), at(w, M), SPH_R(1.2), BY_PRECISION(SPH_R(1e-13), SPH_R(1e-5)), OUT(0), OUT(1), OUT(2), w->status);
+    d.reach = at(w, REACH);
+    d.eta = SPH_R(1.2);
+    d.tolerance = BY_PRECISION(SPH_R(1e-13), SPH_R(1e-5));
+    o.h = OUT(0);
+    o.rho = OUT(1);
+    o.omega = OUT(2);
+    o.status = w->status;
+    for (i = first; i < last; i++) o.h[i] = w->a[H][i];
+    return sph_density_adaptive(SWEEP, at(w, M), d, o);
 }
 static sph_derivative_out derivatives_into(const world *w)
 {
@@ -173,6 +218,7 @@ static sph_derivative_out derivatives_into(const world *w)
     o.stride = 1;
     return o;
 }
+OPERATOR(gradient_cspm, sph_gradient_cspm(SWEEP, at(w, F), derivatives_into(w)))
 OPERATOR(derivatives_cspm, sph_derivatives_cspm(SWEEP, at(w, F), SPH_R(0), derivatives_into(w)))
 OPERATOR(derivatives_icspm, sph_derivatives_icspm(SWEEP, at(w, F), SPH_R(0), 0, derivatives_into(w)))
 OPERATOR(derivatives_wls, sph_derivatives_wls(SWEEP, at(w, F), SPH_R(0), derivatives_into(w)))
@@ -185,43 +231,41 @@ static sph_index msph_rows(world *w, sph_index first, sph_index last)
     o.row = row;
     o.diagonal = OUT(1);
     failed = sph_elliptic_rows_msph(SWEEP, at(w, MU), sph_elliptic_defaults(), o);
-    if (!failed) failed = sph_rows_apply(first, last, w->c.n, cloud_list(&w->c), row, OUT(1), at(w, F), OUT(0));
+    if (!failed) failed = sph_rows_apply(FRAME, row, OUT(1), at(w, F), OUT(0));
     free(row);
     return failed;
-}
-static sph_fluid fluid(const world *w)
-{
-    sph_fluid f;
-    f.m = at(w, M);
-    f.rho = at(w, RHO);
-    f.p = at(w, P);
-    f.c = at(w, CS);
-    f.v = vectors(w, VX);
-    f.viscosity = SPH_VISCOSITY_MONAGHAN;
-    f.alpha = SPH_R(0.7);
-    f.beta = SPH_R(1.1);
-    f.eta = SPH_R(0.1);
-    return f;
 }
 OPERATOR(fluid_monaghan, sph_fluid_rates_monaghan(SWEEP, fluid(w), into(w, 0), OUT(3), OUT(4)))
 OPERATOR(fluid_colagrossi, sph_fluid_rates_colagrossi(SWEEP, fluid(w), into(w, 0), OUT(3), OUT(4)))
 OPERATOR(fluid_hu_adams, sph_fluid_rates_hu_adams(SWEEP, fluid(w), into(w, 0), OUT(3), OUT(4)))
-static sph_index wall(world *w, sph_index first, sph_index last)
+static sph_index wall_of(world *w, sph_index first, sph_index last, sph_vectors velocity, sph_vectors normal)
 {
-    const sph_vectors none = sph_vectors_separate(0, 0, 0);
-    return sph_wall_adami(SWEEP, at(w, SHARE), at(w, RHO), at(w, P), vectors(w, VX), vectors(w, BX), w->gravity, none, OUT(3), into(w, 0), w->status);
+    sph_wall s;
+    sph_wall_out o;
+    s.share = at(w, SHARE);
+    s.rho = at(w, RHO);
+    s.p = at(w, P);
+    s.v = vectors(w, VX);
+    s.velocity = velocity;
+    s.normal = normal;
+    s.gravity = w->gravity;
+    o.p = OUT(3);
+    o.v = into(w, 0);
+    o.status = w->status;
+    return sph_wall_adami(SWEEP, s, o);
 }
-static sph_index wall_slips(world *w, sph_index first, sph_index last)
-{
-    return sph_wall_adami(SWEEP, at(w, SHARE), at(w, RHO), at(w, P), vectors(w, VX), vectors(w, VX), w->gravity, vectors(w, BX), OUT(3), into(w, 0), w->status);
-}
+OPERATOR(wall, wall_of(w, first, last, vectors(w, BX), sph_vectors_separate(0, 0, 0)))
+OPERATOR(wall_slips, wall_of(w, first, last, vectors(w, VX), vectors(w, BX)))
 static sph_index collisions(world *w, sph_index first, sph_index last)
 {
-    const sph_real range = SPH_R(1.05) * SPH_R(w->c.dx);
-    sph_index *const count = (sph_index *)cloud_memory((size_t)w->c.n, sizeof *count);
-    sph_index failed = sph_collision_count(w->c.dim, cloud_view(&w->c), range, at(w, M), vectors(w, VX), count);
+    sph_index *const count = (sph_index *)cloud_memory((size_t)w->c.n, sizeof *count), failed;
+    sph_collision c;
+    c.distance = SPH_R(1.05) * SPH_R(w->c.dx);
+    c.restitution = SPH_R(0.8);
+    c.inverse_mass = at(w, M);
+    failed = sph_collision_count(w->c.dim, all(w), c, vectors(w, VX), count);
     if (!failed)
-        failed = sph_collision_change_weighted(w->c.dim, FRAME, range, at(w, M), SPH_R(0.8), vectors(w, VX), count, into(w, 0));
+        failed = sph_collision_change_weighted(w->c.dim, FRAME, c, vectors(w, VX), count, into(w, 0));
     free(count);
     return failed;
 }
@@ -230,12 +274,12 @@ static sph_index mhd(world *w, sph_index first, sph_index last)
     sph_mhd s;
     sph_mhd_out o;
     s.gas = gas(w);
-    s.P = at(w, P);
+    s.p = at(w, P);
     s.u = at(w, U);
     s.cs = at(w, CS);
     s.alpha = s.alpha_B = at(w, ALPHA);
     s.v = vectors(w, VX);
-    s.B = vectors(w, BX);
+    s.field = vectors(w, BX);
     s.psi = at(w, PSI);
     s.ch = SPH_R(1.3);
     s.sigma = w->sigma;

@@ -62,16 +62,13 @@ static void tile_free(tile *t)
     free(t->start);
     free(t->index);
 }
-static sph_points tile_points(const tile *t)
+static sph_cloud tile_cloud(const tile *t)
 {
-    return sph_points_periodic(sph_points_separate(t->all, t->x[0], t->x[1], t->x[2]), SPH_R(t->box[0]), SPH_R(t->box[1]), SPH_R(t->box[2]));
-}
-static sph_list tile_list(const tile *t)
-{
-    sph_list l;
-    l.start = t->start;
-    l.index = t->index;
-    return l;
+    const sph_points x = sph_points_separate(t->all, t->x[0], t->x[1], t->x[2]);
+    const sph_points boxed = sph_points_periodic(x, SPH_R(t->box[0]), SPH_R(t->box[1]), SPH_R(t->box[2]));
+    const sph_list list = {t->start, t->index};
+    const sph_cloud all = sph_cloud_of(boxed, list, sph_scalars_same(&t->h), sph_scalars_array(t->V));
+    return sph_cloud_range(all, 0, t->n);
 }
 /* rows of the targets, in the box of the tile: the nearest image within the radius, by trying all */
 static void tile_lists(tile *t, double radius)
@@ -181,10 +178,12 @@ enum {
 static sph_index apply(int which, const tile *t, sph_real *const *out)
 {
     const sph_kernel k = SPH_WENDLAND_C2;
-    const sph_points x = tile_points(t);
-    const sph_list l = tile_list(t);
-    const sph_scalars h = sph_scalars_same(&t->h), V = sph_scalars_array(t->V), f = sph_scalars_array(t->f);
+    const sph_cloud targets = tile_cloud(t);
+    const sph_scalars f = sph_scalars_array(t->f);
+    const sph_vector_out vector = sph_vector_out_separate(out[0], out[1], out[2]);
     const sph_real reach = SPH_R(2) * t->h;
+    const sph_density_options options = {sph_scalars_same(&reach), SPH_R(1.2),
+                                         BY_PRECISION(SPH_R(1e-12), SPH_R(1e-5))};
     sph_derivative_out d;
     sph_row_out r;
     sph_index i;
@@ -195,43 +194,45 @@ static sph_index apply(int which, const tile *t, sph_real *const *out)
     r.row = out[0];
     switch (which) {
     case SHEPARD:
-        return sph_shepard_sum(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), out[0]);
+        return sph_shepard_sum(k, t->dim, targets, out[0]);
     case INTERPOLATE:
-        return sph_interpolate_shepard(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), f, out[0], 0);
+        return sph_interpolate_shepard(k, t->dim, targets, f, sph_scalar_out_array(out[0], 0));
     case DIFFERENCE:
-        return sph_gradient_difference(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), f, out[0], out[1], out[2]);
+        return sph_gradient_difference(k, t->dim, targets, f, vector);
     case GRADIENT:
-        return sph_gradient_cspm(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), f, out[0], out[1], out[2], 0, 0);
+        return sph_gradient_cspm(k, t->dim, targets, f, d);
     case BROOKSHAW:
-        return sph_laplacian_brookshaw(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), f, out[0]);
+        return sph_laplacian_brookshaw(k, t->dim, targets, f, out[0]);
     case KERNEL_LAPLACIAN:
-        return sph_laplacian_kernel(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), f, out[0]);
+        return sph_laplacian_kernel(k, t->dim, targets, f, out[0]);
     case CSPM:
-        return sph_derivatives_cspm(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), f, SPH_R(0), d);
+        return sph_derivatives_cspm(k, t->dim, targets, f, SPH_R(0), d);
     case ICSPM:
-        return sph_derivatives_icspm(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), f, SPH_R(0), 0, d);
+        return sph_derivatives_icspm(k, t->dim, targets, f, SPH_R(0), 0, d);
     case WLS:
-        return sph_derivatives_wls(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), f, SPH_R(0), d);
+        return sph_derivatives_wls(k, t->dim, targets, f, SPH_R(0), d);
     case DENSITY:
-        return sph_density_summation(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, sph_scalars_none()), 0, t->n), V, out[0]);
+        return sph_density_summation(k, t->dim, targets, targets.volume, out[0]);
     case ADAPTIVE: /* eta a little less than the h of the cloud: most have a solution; what is suggested to the others depends on the box, and is not compared */
         for (i = 0; i < t->n; i++) out[1][i] = SPH_R(0.8) * t->h;
-        (void)sph_density_adaptive(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, sph_scalars_none(), sph_scalars_none()), 0, t->n), sph_scalars_same(&reach), V, SPH_R(1.2), BY_PRECISION(SPH_R(1e-12), SPH_R(1e-5)), out[1], out[0], out[2], 0);
+        (void)sph_density_adaptive(k, t->dim, targets, targets.volume, options,
+                                   (sph_density_out){.h = out[1], .rho = out[0], .omega = out[2]});
         for (i = 0; i < t->n; i++)
             if (out[1][i] > t->h) out[1][i] = t->h;
         return 0;
     case GRADIENT_ROWS:
-        return sph_gradient_rows_cspm(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), out[0], out[1], out[2], 0, 0);
+        return sph_gradient_rows_cspm(k, t->dim, targets,
+                                      (sph_gradient_row_out){.x = out[0], .y = out[1], .z = out[2]});
     case BROOKSHAW_ROWS:
-        return sph_laplacian_rows_brookshaw(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), out[0]);
+        return sph_laplacian_rows_brookshaw(k, t->dim, targets, out[0]);
     case KERNEL_ROWS:
-        return sph_laplacian_rows_kernel(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), out[0]);
+        return sph_laplacian_rows_kernel(k, t->dim, targets, out[0]);
     case CSPM_ROWS:
-        return sph_derivative_rows_cspm(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), sph_jet_laplacian(t->dim), r);
+        return sph_derivative_rows_cspm(k, t->dim, targets, sph_jet_laplacian(t->dim), r);
     case ICSPM_ROWS:
-        return sph_derivative_rows_icspm(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), sph_jet_laplacian(t->dim), r);
+        return sph_derivative_rows_icspm(k, t->dim, targets, sph_jet_laplacian(t->dim), r);
     default:
-        return sph_derivative_rows_wls(k, t->dim, sph_cloud_range(sph_cloud_of(x, l, h, V), 0, t->n), sph_jet_laplacian(t->dim), r);
+        return sph_derivative_rows_wls(k, t->dim, targets, sph_jet_laplacian(t->dim), r);
     }
 }
 
@@ -373,7 +374,8 @@ static void test_fields(int dim)
         sph_index i;
         int a;
         for (i = 0; i < t.n; i++) t.f[i] = SPH_R(0.3) + SPH_R(1.7) * t.x[open][i];
-        CHECK(sph_gradient_cspm(SPH_WENDLAND_C2, dim, sph_cloud_range(sph_cloud_of(tile_points(&t), tile_list(&t), sph_scalars_same(&t.h), sph_scalars_array(t.V)), 0, t.n), sph_scalars_array(t.f), g[0], g[1], g[2], 0, 0) == 0);
+        CHECK(sph_gradient_cspm(SPH_WENDLAND_C2, dim, tile_cloud(&t), sph_scalars_array(t.f),
+                                (sph_derivative_out){.gx = g[0], .gy = g[1], .gz = g[2]}) == 0);
         for (i = 0; i < t.n; i++)
             for (a = 0; a < dim; a++) CHECK_CLOSE((double)g[a][i], a == open ? 1.7 : 0.0, BY_PRECISION(1e-12, 5e-5));
         for (a = 0; a < 3; a++) free(g[a]);
@@ -400,7 +402,8 @@ static void test_wave(int dim, int axis)
             t.V[i] = SPH_R(1);
             t.f[i] = SPH_R(sin(a * (double)t.x[axis][i]));
         }
-        CHECK(sph_derivatives_icspm(SPH_WENDLAND_C2, dim, sph_cloud_range(sph_cloud_of(tile_points(&t), tile_list(&t), sph_scalars_same(&t.h), sph_scalars_array(t.V)), 0, t.n), sph_scalars_array(t.f), SPH_R(0), 0, d) == 0);
+        CHECK(sph_derivatives_icspm(SPH_WENDLAND_C2, dim, tile_cloud(&t), sph_scalars_array(t.f), SPH_R(0), 0,
+                                    d) == 0);
         for (i = 0; i < t.n; i++) error[finer] = fmax(error[finer], fabs((double)out[i] / (a * a) + sin(a * (double)t.x[axis][i])));
         free(out);
         tile_free(&t);
@@ -441,13 +444,15 @@ static void test_bim(void)
 {
     tile t = tile_lattice(1, 16, 1, 0.1, 1.5, 5);
     sph_real out[16], row[256];
-    const sph_scalars h = sph_scalars_same(&t.h), V = sph_scalars_array(t.V), f = sph_scalars_array(t.f);
+    const sph_scalars f = sph_scalars_array(t.f);
+    const sph_scalar_out to = sph_scalar_out_array(out, 0);
     CHECK(t.start[t.n] <= 256);
-    CHECK(sph_second_derivative_bim(SPH_WENDLAND_C4_1D, sph_cloud_range(sph_cloud_of(tile_points(&t), tile_list(&t), h, V), 0, t.n), f, 0, 15, out, 0) == SPH_ERROR_BOX);
-    CHECK(sph_second_derivative_rows_bim(SPH_WENDLAND_C4_1D, sph_cloud_range(sph_cloud_of(tile_points(&t), tile_list(&t), h, V), 0, t.n), 0, 15, row, 0) == SPH_ERROR_BOX);
+    CHECK(sph_second_derivative_bim(SPH_WENDLAND_C4_1D, tile_cloud(&t), f, 0, 15, to) == SPH_ERROR_BOX);
+    CHECK(sph_second_derivative_rows_bim(SPH_WENDLAND_C4_1D, tile_cloud(&t), 0, 15, row, 0) == SPH_ERROR_BOX);
     t.box[0] = 0.0;
     tile_lists(&t, 2.02 * (double)t.h);
-    CHECK(sph_second_derivative_bim(SPH_WENDLAND_C4_1D, sph_cloud_range(sph_cloud_of(tile_points(&t), tile_list(&t), h, V), 0, t.n), f, 0, 15, out, 0) == 2); /* the ends themselves */
+    /* the ends themselves */
+    CHECK(sph_second_derivative_bim(SPH_WENDLAND_C4_1D, tile_cloud(&t), f, 0, 15, to) == 2);
     tile_free(&t);
 }
 

@@ -29,10 +29,10 @@ static inline int case_make(gpu_case *c, const char *known)
     const double dx = 1.0 / CASE_SIDE;
     const size_t size = sph_grid_workspace(CASE_DIM, CASE_N);
     const sph_points x = sph_points_separate(CASE_N, c->x, c->y, c->z);
-    const sph_scalars V = sph_scalars_array(c->V);
+    const sph_list list = {c->start, c->index};
+    const sph_cloud cloud = sph_cloud_of(x, list, sph_scalars_same(&c->h), sph_scalars_array(c->V));
     sph_real radius;
-    sph_scalars R, h;
-    sph_list list;
+    sph_scalars R;
     sph_grid grid;
     int64_t pairs;
     int i, error;
@@ -50,15 +50,14 @@ static inline int case_make(gpu_case *c, const char *known)
     }
     radius = c->h * sph_kernel_support(CASE_KERNEL);
     R = sph_scalars_same(&radius);
-    h = sph_scalars_same(&c->h);
     error = (int)sph_grid_build(CASE_DIM, x, radius, work, size, &grid);
     if (!error) error = (int)sph_grid_lists(CASE_DIM, &grid, x, SPH_GATHER, R, R, 0, c->start, c->index, CASE_PER_PARTICLE * CASE_N, &pairs);
     free(work);
     if (error) return error;
-    list.start = c->start;
-    list.index = c->index;
-    if (sph_density_summation(CASE_KERNEL, CASE_DIM, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), 0, CASE_N), sph_scalars_array(c->m), c->rho) != 0) return 1;
-    if (sph_elliptic_msph(CASE_KERNEL, CASE_DIM, sph_cloud_range(sph_cloud_of(x, list, h, V), 0, CASE_N), sph_scalars_array(c->mobility), sph_elliptic_defaults(), sph_scalars_array(c->u), sph_scalars_array(0), c->laplacian, 0) != 0)
+    if (sph_density_summation(CASE_KERNEL, CASE_DIM, cloud, sph_scalars_array(c->m), c->rho) != 0) return 1;
+    if (sph_elliptic_msph(CASE_KERNEL, CASE_DIM, cloud, sph_scalars_array(c->mobility),
+                          sph_elliptic_defaults(), sph_scalars_array(c->u),
+                          sph_scalar_out_array(c->laplacian, 0)) != 0)
         return 1;
     c->rows = known_read(known, c->known);
     return c->rows == 0;

@@ -79,8 +79,13 @@ int main(int argc, char **argv)
         return std::puts("no neighbour lists"), 1;
     const sph_list list = {start.data(), index.data()};
 
+    const sph_cloud cloud = sph_cloud_of(points, list, H, V);
+
     std::vector<double> gx(n), gy(n);
-    const sph_index not_ok = sph_gradient_cspm(kernel, dim, sph_cloud_range(sph_cloud_of(points, list, H, V), 0, n), temperature, gx.data(), gy.data(), nullptr, nullptr, nullptr);
+    sph_derivative_out gradient = {};
+    gradient.gx = gx.data();
+    gradient.gy = gy.data();
+    const sph_index not_ok = sph_gradient_cspm(kernel, dim, cloud, temperature, gradient);
     if (not_ok != 0) return std::puts(sph_status_text(not_ok)), 1;
     expect("gradient at a corner, x", gx[0], 1.3, 1e-12);
     expect("gradient at a corner, y", gy[0], -0.8, 1e-12);
@@ -94,7 +99,8 @@ int main(int argc, char **argv)
     sph_row_out out = {};
     out.row = row.data();
     out.diagonal = diagonal.data();
-    if (sph_elliptic_rows_msph(kernel, dim, sph_cloud_range(sph_cloud_of(points, list, H, V), middle, middle + 1), m, options, out) != 0) return std::puts("no row"), 1;
+    const sph_cloud one = sph_cloud_range(cloud, middle, middle + 1);
+    if (sph_elliptic_rows_msph(kernel, dim, one, m, options, out) != 0) return std::puts("no row"), 1;
     double linear = 0, square = 0, sum = diagonal[middle];
     const Particle &a = particle[middle];
     for (sph_index p = start[middle]; p < start[middle + 1]; p++) {

@@ -12,17 +12,19 @@
 #include <cstdio>
 #include <cstdlib>
 
-// A thread is the range [i, i + 1) of targets; the views go to the device by value, with the device's addresses.
-__global__ void density(sph_points x, sph_list list, sph_scalars h, sph_scalars m, sph_real *rho)
+// A thread is the range [i, i + 1) of targets; the cloud goes to the device by value, with addresses there.
+__global__ void density(sph_cloud cloud, sph_scalars m, sph_real *rho)
 {
     const sph_index i = sph_index(blockIdx.x * blockDim.x + threadIdx.x);
-    if (i < x.n) sph_density_summation(CASE_KERNEL, CASE_DIM, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), i, i + 1), m, rho);
+    if (i < cloud.points.n)
+        sph_density_summation(CASE_KERNEL, CASE_DIM, sph_cloud_range(cloud, i, i + 1), m, rho);
 }
-__global__ void msph(sph_points x, sph_list list, sph_scalars h, sph_scalars V, sph_scalars mobility, sph_scalars u, sph_real *laplacian)
+__global__ void msph(sph_cloud cloud, sph_scalars mobility, sph_scalars u, sph_real *laplacian)
 {
     const sph_index i = sph_index(blockIdx.x * blockDim.x + threadIdx.x);
-    if (i < x.n)
-        sph_elliptic_msph(CASE_KERNEL, CASE_DIM, sph_cloud_range(sph_cloud_of(x, list, h, V), i, i + 1), mobility, sph_elliptic_defaults(), u, sph_scalars_array(nullptr), laplacian, nullptr);
+    if (i < cloud.points.n)
+        sph_elliptic_msph(CASE_KERNEL, CASE_DIM, sph_cloud_range(cloud, i, i + 1), mobility,
+                          sph_elliptic_defaults(), u, sph_scalar_out_array(laplacian, nullptr));
 }
 // W and F of kernels that are chosen at run time
 __global__ void known(int rows, const known_row *row, sph_real *w, sph_real *f)
@@ -58,9 +60,10 @@ int main()
 
     const sph_points x = sph_points_separate(CASE_N, d->x, d->y, d->z);
     const sph_list list = {d->start, d->index};
-    const sph_scalars h = sph_scalars_same(&d->h);
-    density<<<blocks, threads>>>(x, list, h, sph_scalars_array(d->m), d->rho_device);
-    msph<<<blocks, threads>>>(x, list, h, sph_scalars_array(d->V), sph_scalars_array(d->mobility), sph_scalars_array(d->u), d->laplacian_device);
+    const sph_cloud cloud = sph_cloud_of(x, list, sph_scalars_same(&d->h), sph_scalars_array(d->V));
+    const sph_scalars mobility = sph_scalars_array(d->mobility), u = sph_scalars_array(d->u);
+    density<<<blocks, threads>>>(cloud, sph_scalars_array(d->m), d->rho_device);
+    msph<<<blocks, threads>>>(cloud, mobility, u, d->laplacian_device);
     known<<<(c.rows + threads - 1) / threads, threads>>>(c.rows, d->known, d->w, d->f);
     stop_on(cudaGetLastError(), "launch");
     stop_on(cudaMemcpy(&c, d, sizeof c, cudaMemcpyDeviceToHost), "cudaMemcpy");

@@ -54,15 +54,14 @@ int sph_shim_kernel_wf(int kernel, int dim, sph_index n, const sph_real *r, sph_
 size_t sph_shim_cloud_size(void) { return sizeof(sph_shim_cloud); }
 int sph_shim_cloud_init(sph_shim_cloud *c, int kernel, int dim, sph_index n, const sph_real *x, const sph_real *y, const sph_real *z, size_t stride)
 {
+    const sph_points points = sph_points_strided(n, x, y, z, stride);
+    const sph_list none = {0, 0};
     if (!c || !x || (dim > 1 && !y) || (dim > 2 && !z)) return SPH_ERROR_NULL;
     if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
     if (kernel < 0 || kernel >= (int)SPH_KERNEL_COUNT) return SPH_ERROR_KERNEL;
     c->kernel = kernel;
     c->dim = dim;
-    c->cloud.points = sph_points_strided(n, x, y, z, stride);
-    sph_shim_cloud_range(c, 0, n);
-    sph_shim_cloud_volumes(c, 0, 0, 0, 0);
-    sph_shim_cloud_lists(c, 0, 0);
+    c->cloud = sph_cloud_of(points, none, sph_scalars_none(), sph_scalars_none());
     return 0;
 }
 void sph_shim_cloud_volumes(sph_shim_cloud *c, const sph_real *h, size_t h_stride, const sph_real *V, size_t V_stride)
@@ -92,7 +91,11 @@ sph_index sph_shim_grid_lists(const sph_shim_cloud *c, int criterion, const sph_
     if (!radius) return SPH_ERROR_NULL;
     for (i = 0; i < (radius_stride ? c->cloud.points.n : 1); i++) reach = radius[(size_t)i * radius_stride] > reach ? radius[(size_t)i * radius_stride] : reach;
     error = sph_grid_build(c->dim, c->cloud.points, reach, work, work_size, &grid);
-    return error ? error : sph_grid_lists(c->dim, &grid, c->cloud.points, criterion, R, R, 0, start, index, (int64_t)capacity, pairs);
+    if (!error && !index && capacity == 0)
+        return sph_grid_count(c->dim, &grid, c->cloud.points, criterion, R, R, 0, start, pairs);
+    return error ? error
+                 : sph_grid_lists(c->dim, &grid, c->cloud.points, criterion, R, R, 0, start, index,
+                                  (int64_t)capacity, pairs);
 }
 
 /* ---------------------------------------------------------------- sweeps */
@@ -107,8 +110,9 @@ sph_index sph_shim_density_summation(const sph_shim_cloud *c, const sph_real *m,
 }
 sph_index sph_shim_gradient_cspm(const sph_shim_cloud *c, const sph_real *f, size_t f_stride, sph_real *gx, sph_real *gy, sph_real *gz, unsigned char *status)
 {
+    const sph_derivative_out out = {.gx = gx, .gy = gy, .gz = gz, .status = status};
     sph_index answer = SPH_ERROR_KERNEL;
-#define SWEEP(K, D) sph_gradient_cspm(K, D, c->cloud, sph_scalars_strided(f, f_stride), gx, gy, gz, 0, status)
+#define SWEEP(K, D) sph_gradient_cspm(K, D, c->cloud, sph_scalars_strided(f, f_stride), out)
     SHIM_SWITCH_KERNEL(c->kernel, EVERY_DIM)
 #undef SWEEP
     return answer;
@@ -157,10 +161,12 @@ sph_index sph_shim_elliptic_rows_msph(const sph_shim_cloud *c, const sph_real *m
 
 sph_index sph_shim_rows_apply(const sph_shim_cloud *c, const sph_real *row, const sph_real *diagonal, const sph_real *u, size_t u_stride, sph_real *out)
 {
-    return sph_rows_apply(c->cloud.first, c->cloud.last, c->cloud.points.n, c->cloud.list, row, diagonal, sph_scalars_strided(u, u_stride), out);
+    return sph_rows_apply(c->cloud, row, diagonal, sph_scalars_strided(u, u_stride), out);
 }
 sph_index sph_shim_collide_sequential(const sph_shim_cloud *c, sph_real distance, const sph_real *inverse_mass, size_t inverse_mass_stride,
                                       sph_real restitution, sph_real *vx, sph_real *vy, sph_real *vz, size_t stride)
 {
-    return sph_collide_sequential(c->dim, c->cloud, distance, sph_scalars_strided(inverse_mass, inverse_mass_stride), restitution, vx, vy, vz, stride, 0);
+    const sph_scalars inverse = sph_scalars_strided(inverse_mass, inverse_mass_stride);
+    const sph_collision collision = {distance, restitution, inverse};
+    return sph_collide_sequential(c->dim, c->cloud, collision, sph_vector_out_strided(vx, vy, vz, stride), 0);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* sweeps.cl - the sweeps of sph_ops.h in OpenCL C: a work item is the range [i, i + 1) of targets. Pointers cannot be passed inside structs in OpenCL: the views are made here. */
+/* sweeps.cl - the sweeps of sph_ops.h in OpenCL C: a work item is the range [i, i + 1) of targets. Pointers
+   cannot be passed inside structs in OpenCL: the cloud is made here. */
 #if defined(cl_khr_fp64) && !SPH_SINGLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #endif
@@ -11,7 +12,11 @@ __kernel void density(sph_index n, __global const sph_real *x, __global const sp
 {
     const sph_index i = (sph_index)get_global_id(0);
     const sph_list list = {start, index};
-    if (i < n) sph_density_summation(SPH_WENDLAND_C2, 3, sph_cloud_range(sph_cloud_of(sph_points_separate(n, x, y, z), list, sph_scalars_same(h), sph_scalars_none()), i, i + 1), sph_scalars_array(m), rho);
+    const sph_points points = sph_points_separate(n, x, y, z);
+    const sph_cloud cloud = sph_cloud_of(points, list, sph_scalars_same(h), sph_scalars_none());
+    if (i < n)
+        sph_density_summation(SPH_WENDLAND_C2, 3, sph_cloud_range(cloud, i, i + 1), sph_scalars_array(m),
+                              rho);
 }
 
 __kernel void msph(sph_index n, __global const sph_real *x, __global const sph_real *y, __global const sph_real *z, __global const sph_index *start, __global const sph_index *index,
@@ -19,8 +24,11 @@ __kernel void msph(sph_index n, __global const sph_real *x, __global const sph_r
 {
     const sph_index i = (sph_index)get_global_id(0);
     const sph_list list = {start, index};
+    const sph_points points = sph_points_separate(n, x, y, z);
+    const sph_cloud cloud = sph_cloud_of(points, list, sph_scalars_same(h), sph_scalars_array(V));
     if (i < n)
-        sph_elliptic_msph(SPH_WENDLAND_C2, 3, sph_cloud_range(sph_cloud_of(sph_points_separate(n, x, y, z), list, sph_scalars_same(h), sph_scalars_array(V)), i, i + 1), sph_scalars_array(mobility), sph_elliptic_defaults(), sph_scalars_array(u), sph_scalars_array(0), laplacian, 0);
+        sph_elliptic_msph(SPH_WENDLAND_C2, 3, sph_cloud_range(cloud, i, i + 1), sph_scalars_array(mobility),
+                          sph_elliptic_defaults(), sph_scalars_array(u), sph_scalar_out_array(laplacian, 0));
 }
 
 /* W and F of kernels that are chosen at run time */

@@ -10,7 +10,28 @@
  */
 #include "cleaning.h"
 
-enum { X, Y, Z, M, RHO, OMEGA, H, BX, BY, BZ, PSI, RBX, RBY, RBZ, RPSI, DIVB, DIVV, SAVED, MEAN = SAVED + 4, ARRAYS = MEAN + 4 };
+enum {
+    X,
+    Y,
+    Z,
+    M,
+    RHO,
+    OMEGA,
+    H,
+    BX,
+    BY,
+    BZ,
+    PSI,
+    RBX,
+    RBY,
+    RBZ,
+    RPSI,
+    DIVB,
+    DIVV,
+    SAVED,
+    MEAN = SAVED + 4,
+    ARRAYS = MEAN + 4
+};
 enum { FIELDS = 4 /* BX ... PSI, which evolve; RBX ... RPSI are their rates */ };
 
 enum { CONJUGATE, DIFFERENCES, OTHER };
@@ -47,11 +68,20 @@ static void state_close(state *s)
     free(s->a[0]);
     cleaning_lists_close(&s->lists);
 }
-static sph_points points(const state *s) { return sph_points_periodic(sph_points_separate(s->n, s->a[X], s->a[Y], s->a[Z]), s->box, s->box, s->box); }
+static sph_points points(const state *s)
+{
+    return sph_points_periodic(sph_points_separate(s->n, s->a[X], s->a[Y], s->a[Z]), s->box, s->box, s->box);
+}
 static sph_scalars field(const state *s, int which) { return sph_scalars_array(s->a[which]); }
 /* the third component of a plane field is not cleaned */
-static sph_vectors vectors(const state *s, int first) { return sph_vectors_separate(s->a[first], s->a[first + 1], s->dim > 2 ? s->a[first + 2] : NULL); }
-static sph_vector_out vectors_out(const state *s, int first) { return sph_vector_out_separate(s->a[first], s->a[first + 1], s->a[first + 2]); }
+static sph_vectors vectors(const state *s, int first)
+{
+    return sph_vectors_separate(s->a[first], s->a[first + 1], s->dim > 2 ? s->a[first + 2] : NULL);
+}
+static sph_vector_out vectors_out(const state *s, int first)
+{
+    return sph_vector_out_separate(s->a[first], s->a[first + 1], s->a[first + 2]);
+}
 static sph_gas gas(const state *s)
 {
     sph_gas g;
@@ -93,9 +123,23 @@ static void settle_adaptive(state *s, double widest)
     cleaning_neighbours(&s->lists, s->dim, points(s), sph_scalars_same(&reach), reach);
     for (i = 0; i < s->n; i++) s->a[H][i] = CLEANING_ETA * widest;
     if (s->dim == 2)
-        cleaning_expect(sph_density_adaptive(SPH_CUBIC_SPLINE, 2, sph_cloud_range(sph_cloud_of(points(s), cleaning_list(&s->lists), sph_scalars_none(), sph_scalars_none()), 0, s->n), sph_scalars_same(&reach), field(s, M), CLEANING_ETA, 1e-12, s->a[H], s->a[RHO], s->a[OMEGA], NULL));
+        cleaning_expect(sph_density_adaptive(
+            SPH_CUBIC_SPLINE, 2,
+            sph_cloud_range(
+                sph_cloud_of(points(s), cleaning_list(&s->lists), sph_scalars_none(), sph_scalars_none()), 0,
+                s->n),
+            field(s, M),
+            (sph_density_options){.reach = sph_scalars_same(&reach), .eta = CLEANING_ETA, .tolerance = 1e-12},
+            (sph_density_out){.h = s->a[H], .rho = s->a[RHO], .omega = s->a[OMEGA]}));
     else
-        cleaning_expect(sph_density_adaptive(SPH_CUBIC_SPLINE, 3, sph_cloud_range(sph_cloud_of(points(s), cleaning_list(&s->lists), sph_scalars_none(), sph_scalars_none()), 0, s->n), sph_scalars_same(&reach), field(s, M), CLEANING_ETA, 1e-12, s->a[H], s->a[RHO], s->a[OMEGA], NULL));
+        cleaning_expect(sph_density_adaptive(
+            SPH_CUBIC_SPLINE, 3,
+            sph_cloud_range(
+                sph_cloud_of(points(s), cleaning_list(&s->lists), sph_scalars_none(), sph_scalars_none()), 0,
+                s->n),
+            field(s, M),
+            (sph_density_options){.reach = sph_scalars_same(&reach), .eta = CLEANING_ETA, .tolerance = 1e-12},
+            (sph_density_out){.h = s->a[H], .rho = s->a[RHO], .omega = s->a[OMEGA]}));
     neighbours(s);
 }
 /* (40) about (x, y), and the uniform Bz of the disc */
@@ -103,7 +147,8 @@ static void perturb(state *s, double x, double y)
 {
     int i;
     for (i = 0; i < s->n; i++) {
-        const double r2 = pow(s->a[X][i] - x, 2) + pow(s->a[Y][i] - y, 2) + pow(s->a[Z][i], 2), s4 = 64 * r2 * r2; /* (r/r0)^4, r0 = 1/sqrt(8) */
+        const double r2 = pow(s->a[X][i] - x, 2) + pow(s->a[Y][i] - y, 2) + pow(s->a[Z][i], 2),
+                     s4 = 64 * r2 * r2; /* (r/r0)^4, r0 = 1/sqrt(8) */
         s->a[BX][i] = s4 < 1 ? (s4 - 1) * (s4 - 1) / sqrt(4 * MATH_PI) : 0;
         s->a[BY][i] = s->a[PSI][i] = 0;
         s->a[BZ][i] = s->dim == 2 ? 1 / sqrt(4 * MATH_PI) : 0; /* no part of anything in the plane */
@@ -159,15 +204,19 @@ static state jump(double dx, int ratio)
 
 SPH_FN sph_index rates_in(sph_kernel k, int dim, state *s)
 {
-    const sph_points x = points(s);
-    const sph_list l = cleaning_list(&s->lists);
-    const sph_scalars h = field(s, H), psi = field(s, PSI), div_v = sph_scalars_array(s->moving ? s->a[DIVV] : NULL);
-    const sph_vectors B = vectors(s, BX);
-    const sph_vector_out rate = vectors_out(s, RBX);
-    if (s->form == DIFFERENCES)
-        return sph_cleaning_rates_nonconservative(k, dim, sph_cloud_range(sph_cloud_of(x, l, h, sph_scalars_none()), 0, s->n), gas(s), B, psi, div_v, s->ch, s->sigma, rate, s->a[RPSI], s->a[DIVB]);
-    if (s->form == OTHER) return sph_cleaning_rates_symmetric(k, dim, sph_cloud_range(sph_cloud_of(x, l, h, sph_scalars_none()), 0, s->n), gas(s), B, psi, div_v, s->ch, s->sigma, rate, s->a[RPSI], s->a[DIVB]);
-    return sph_cleaning_rates(k, dim, sph_cloud_range(sph_cloud_of(x, l, h, sph_scalars_none()), 0, s->n), gas(s), B, psi, div_v, s->ch, s->sigma, rate, s->a[RPSI], s->a[DIVB]);
+    const sph_cloud cloud =
+        sph_cloud_of(points(s), cleaning_list(&s->lists), field(s, H), sph_scalars_none());
+    const sph_cleaning now = {.gas = gas(s),
+                              .field = vectors(s, BX),
+                              .psi = field(s, PSI),
+                              .div_v = sph_scalars_array(s->moving ? s->a[DIVV] : NULL),
+                              .ch = s->ch,
+                              .sigma = s->sigma};
+    const sph_cleaning_out out = {
+        .rate_B = vectors_out(s, RBX), .rate_psi = s->a[RPSI], .div_B = s->a[DIVB]};
+    if (s->form == DIFFERENCES) return sph_cleaning_rates_nonconservative(k, dim, cloud, now, out);
+    if (s->form == OTHER) return sph_cleaning_rates_symmetric(k, dim, cloud, now, out);
+    return sph_cleaning_rates(k, dim, cloud, now, out);
 }
 /* The sweeps fold for a constant kernel and dimension, so there is one copy for each. They find a state that is no number. */
 static void rates(state *s)
@@ -245,7 +294,8 @@ static void runge_kutta(state *s, double dt)
             for (i = 0; i < s->n; i++) {
                 if (stage == 0) s->a[SAVED + k][i] = s->a[MEAN + k][i] = s->a[BX + k][i];
                 s->a[MEAN + k][i] += dt * share[stage] * s->a[RBX + k][i];
-                s->a[BX + k][i] = stage < 3 ? s->a[SAVED + k][i] + dt * ahead[stage] * s->a[RBX + k][i] : s->a[MEAN + k][i];
+                s->a[BX + k][i] =
+                    stage < 3 ? s->a[SAVED + k][i] + dt * ahead[stage] * s->a[RBX + k][i] : s->a[MEAN + k][i];
             }
     }
 }
@@ -261,15 +311,18 @@ typedef struct outcome {
     double low[TIMES], high[TIMES]; /* its range within 0.05 of these times */
     double largest;                 /* of all times */
     double turn;                    /* time of the least max |div B| */
-    double thousand, end;           /* times when 1000 times the first was passed, and of the end; NaN: never */
-    double drift, rise;             /* of the energy: largest change; largest rise in a step. These and the next in units of the first energy */
+    double thousand, end; /* times when 1000 times the first was passed, and of the end; NaN: never */
+    double drift,
+        rise; /* of the energy: largest change; largest rise in a step. These and the next in units of the first energy */
     double magnetic, magnetic_most; /* at the end; largest */
     double imbalance;               /* of rates, worst */
-    double growth, straight;        /* rate of the exponential between 10 and the ceiling, and how straight its logarithm is: r^2 */
+    double growth,
+        straight; /* rate of the exponential between 10 and the ceiling, and how straight its logarithm is: r^2 */
 } outcome;
 
 /* Steps of courant h / ch, a whole number in half a unit of time, until t_end or the ceiling. The state is kept. */
-static outcome integrate(state *s, int scheme, double courant, double t_end, const char *label, FILE *curve, int quiet)
+static outcome integrate(state *s, int scheme, double courant, double t_end, const char *label, FILE *curve,
+                         int quiet)
 {
     double h = HUGE_VAL, least = HUGE_VAL, dt, unit, before = 0;
     double *when, *height;
@@ -306,8 +359,8 @@ static outcome integrate(state *s, int scheme, double courant, double t_end, con
         E = (energy_of_B(s) + energy_of_psi(s)) / unit;
         if (step == 0) before = E;
         if (curve)
-            fprintf(curve, "%s,%s,%g,%.6g,%.9g,%.9g,%.9g\n", form_name[s->form], scheme_name[scheme], s->sigma, t, divergence, energy_of_B(s),
-                    energy_of_psi(s));
+            fprintf(curve, "%s,%s,%g,%.6g,%.9g,%.9g,%.9g\n", form_name[s->form], scheme_name[scheme],
+                    s->sigma, t, divergence, energy_of_B(s), energy_of_psi(s));
         for (k = 0; k < TIMES; k++) {
             if (fabs(t - at_time[k]) < 0.25 * dt) o.at[k] = divergence;
             if (fabs(t - at_time[k]) < 0.05 + 0.25 * dt) {
@@ -369,12 +422,15 @@ static const char *text_of(const char *format, double a, double b, double c)
 static const char *max_div(double t) { return text_of("max |div B| at t = %g", t, 0, 0); }
 
 /* The trial noted its values every few steps, up to 0.05 before the time they stand under: its value should be in our range about that time, but for a factor. */
-static void trial_at(report *r, const char *item, const char *at, int k, double trial, const outcome *o, double factor)
+static void trial_at(report *r, const char *item, const char *at, int k, double trial, const outcome *o,
+                     double factor)
 {
     char criterion[REPORT_CRITERION];
-    snprintf(criterion, sizeof criterion, "independent trial: %g, that of t -+ 0.05 within a factor of %g", trial, factor);
+    snprintf(criterion, sizeof criterion, "independent trial: %g, that of t -+ 0.05 within a factor of %g",
+             trial, factor);
     report_number_row(r, item, at, max_div(at_time[k]), (double)NAN, o->at[k], criterion, NULL,
-                      trial >= o->low[k] / factor && trial <= o->high[k] * factor ? REPORT_MATCH : REPORT_DIFFERS);
+                      trial >= o->low[k] / factor && trial <= o->high[k] * factor ? REPORT_MATCH
+                                                                                  : REPORT_DIFFERS);
 }
 
 static void setting(report *r)
@@ -383,11 +439,14 @@ static void setting(report *r)
     double bz = 0;
     int i;
     report_section(r, "Section IV-A: the disc");
-    report_absolute(r, "IV-A", "square lattice, dx = 0.04, cell-centred", "particles in the disc", 1976, s.n, 0);
+    report_absolute(r, "IV-A", "square lattice, dx = 0.04, cell-centred", "particles in the disc", 1976, s.n,
+                    0);
     rates(&s);
     /* d Bx / dx = 8 s^3 (s^4 - 1) cos / (r0 sqrt(4 pi)), largest where s^4 = 3/7 */
-    report_info(r, "IV-A", "(40)", "max |div B|, of the formula", 32.0 / 7 * pow(3.0 / 7, 0.75) * sqrt(8.0) / sqrt(4 * MATH_PI));
-    cleaning_trial(r, "IV-A", "cubic spline, h = 1.2 dx", "max |div B|, of (20)", 1.6876, largest_divergence(&s), 1.0001);
+    report_info(r, "IV-A", "(40)", "max |div B|, of the formula",
+                32.0 / 7 * pow(3.0 / 7, 0.75) * sqrt(8.0) / sqrt(4 * MATH_PI));
+    cleaning_trial(r, "IV-A", "cubic spline, h = 1.2 dx", "max |div B|, of (20)", 1.6876,
+                   largest_divergence(&s), 1.0001);
     cleaning_trial(r, "IV-A", "t = 0", "energy of the perturbation", 6.349e-3, energy_of_B(&s), 1.0001);
     for (i = 0; i < s.n; i++) bz += 0.5 * s.a[M][i] / s.a[RHO][i] * s.a[BZ][i] * s.a[BZ][i];
     cleaning_trial(r, "IV-A", "t = 0", "energy with that of Bz", 0.132145, energy_of_B(&s) + bz, 1.0001);
@@ -421,30 +480,40 @@ static void identities(report *r)
             }
         }
         if (s.form == DIFFERENCES) {
-            report_range(r, "(21)", form_name[s.form], "rate of the energy / sum of its absolute terms", (double)NAN, balance, 1e-6, 1);
-            report_range(r, "(23)", form_name[s.form], "rate of sum m B / rho, relative", (double)NAN, hypot(flux[0], flux[1]) / flux_size, 1e-6, 1);
+            report_range(r, "(21)", form_name[s.form], "rate of the energy / sum of its absolute terms",
+                         (double)NAN, balance, 1e-6, 1);
+            report_range(r, "(23)", form_name[s.form], "rate of sum m B / rho, relative", (double)NAN,
+                         hypot(flux[0], flux[1]) / flux_size, 1e-6, 1);
             continue;
         }
-        report_absolute(r, "(22), (23)", form_name[s.form], "sum V psi div B + sum V B . grad psi, relative", 0, (left - right) / size, 1e-13);
-        report_absolute(r, "(21)", form_name[s.form], "rate of the energy / sum of its absolute terms", 0, balance, 1e-13);
+        report_absolute(r, "(22), (23)", form_name[s.form], "sum V psi div B + sum V B . grad psi, relative",
+                        0, (left - right) / size, 1e-13);
+        report_absolute(r, "(21)", form_name[s.form], "rate of the energy / sum of its absolute terms", 0,
+                        balance, 1e-13);
         s.sigma = 0.3;
         rates(&s);
-        report_absolute(r, "(24)", form_name[s.form], "rate of the energy less that of damping, relative", 0, imbalance(&s), 1e-13);
+        report_absolute(r, "(24)", form_name[s.form], "rate of the energy less that of damping, relative", 0,
+                        imbalance(&s), 1e-13);
         if (s.form == CONJUGATE)
-            report_absolute(r, "(23)", form_name[s.form], "rate of sum m B / rho, relative", 0, hypot(flux[0], flux[1]) / flux_size, 1e-13);
+            report_absolute(r, "(23)", form_name[s.form], "rate of sum m B / rho, relative", 0,
+                            hypot(flux[0], flux[1]) / flux_size, 1e-13);
     }
     /* (25): a cloud that shrinks, v = -(x, y). d/dt sum m (B^2 + psi^2/ch^2) / (2 rho) without what is B's and rho's own: rho changes at -rho div v. */
     s.form = CONJUGATE;
     s.sigma = 0;
     for (i = 0; i < s.n; i++)
         for (k = 0; k < 2; k++) s.a[SAVED + k][i] = -s.a[X + k][i];
-    cleaning_expect(
-        sph_divergence_difference(SPH_CUBIC_SPLINE, 2, sph_cloud_range(sph_cloud_of(points(&s), cleaning_list(&s.lists), field(&s, H), sph_scalars_none()), 0, s.n), gas(&s), vectors(&s, SAVED), s.a[DIVV]));
+    cleaning_expect(sph_divergence_difference(
+        SPH_CUBIC_SPLINE, 2,
+        sph_cloud_range(sph_cloud_of(points(&s), cleaning_list(&s.lists), field(&s, H), sph_scalars_none()),
+                        0, s.n),
+        gas(&s), vectors(&s, SAVED), s.a[DIVV]));
     for (s.moving = 0; s.moving < 2; s.moving++) {
         double rate = 0, size = 0;
         rates(&s);
         for (i = 0; i < s.n; i++) {
-            const double V = s.a[M][i] / s.a[RHO][i], own = 0.5 * V * pow(s.a[PSI][i] / s.ch, 2) * s.a[DIVV][i],
+            const double V = s.a[M][i] / s.a[RHO][i],
+                         own = 0.5 * V * pow(s.a[PSI][i] / s.ch, 2) * s.a[DIVV][i],
                          psi = V * s.a[PSI][i] / (s.ch * s.ch) * s.a[RPSI][i];
             rate += own + psi;
             size += fabs(own) + fabs(psi);
@@ -453,9 +522,12 @@ static void identities(report *r)
                 size += V * fabs(s.a[BX + k][i] * s.a[RBX + k][i]);
             }
         }
-        if (s.moving) report_absolute(r, "(19), (25)", "v = -(x, y)", "rate of the energy of B and psi, relative", 0, rate / size, 1e-13);
+        if (s.moving)
+            report_absolute(r, "(19), (25)", "v = -(x, y)", "rate of the energy of B and psi, relative", 0,
+                            rate / size, 1e-13);
         else
-            report_range(r, "(18)", "v = -(x, y), without -psi div v / 2", "|rate of the energy of B and psi|, relative", (double)NAN, fabs(rate) / size, 1e-6,
+            report_range(r, "(18)", "v = -(x, y), without -psi div v / 2",
+                         "|rate of the energy of B and psi|, relative", (double)NAN, fabs(rate) / size, 1e-6,
                          1);
     }
     state_close(&s);
@@ -476,13 +548,18 @@ static outcome disc(int form, double sigma, int scheme, double courant, double t
 }
 
 /* Max |div B| of the trial at at_time; 0: none. Growing values and late undamped ones (dispersed waves) may differ by 2 and 1.5, the others by a tenth. */
-static const double trial_values[2][2][TIMES] = {{{1.6876, 0.737, 0.649, 0.488, 0.978, 0.913, 0.735, 0.607, 0.561, 0.666}, /* constrained: undamped, damped */
-                                                  {1.6876, 0.187, 0.0302, 6.2e-3, 1.38e-3, 4.0e-4, 3.2e-4, 2.7e-4, 2.0e-4, 1.5e-4}},
-                                                 {{1.6876, 0.735, 0.375, 16.4, 3.6e3, 7.7e7, 0, 0, 0, 0}, /* non-conservative */
-                                                  {1.6876, 0.188, 0.047, 0.475, 24, 3.6e4, 1.5e8, 5.4e11, 0, 0}}};
+static const double trial_values[2][2][TIMES] = {
+    {{1.6876, 0.737, 0.649, 0.488, 0.978, 0.913, 0.735, 0.607, 0.561,
+      0.666}, /* constrained: undamped, damped */
+     {1.6876, 0.187, 0.0302, 6.2e-3, 1.38e-3, 4.0e-4, 3.2e-4, 2.7e-4, 2.0e-4, 1.5e-4}},
+    {{1.6876, 0.735, 0.375, 16.4, 3.6e3, 7.7e7, 0, 0, 0, 0}, /* non-conservative */
+     {1.6876, 0.188, 0.047, 0.475, 24, 3.6e4, 1.5e8, 5.4e11, 0, 0}}};
 
 /* What the figure and the text need: Verlet where energy is kept, RK4 where it grows, and RK4 undamped for the steps. -full: both everywhere */
-static int wanted(int form, int damped, int scheme, int full) { return full || (form == CONJUGATE ? scheme == VERLET || !damped : scheme == RUNGE_KUTTA); }
+static int wanted(int form, int damped, int scheme, int full)
+{
+    return full || (form == CONJUGATE ? scheme == VERLET || !damped : scheme == RUNGE_KUTTA);
+}
 /* o: of each form, undamped or damped, scheme */
 static void figure_1(report *r, outcome o[2][2][2], const char *figures, int full, int quiet)
 {
@@ -490,18 +567,23 @@ static void figure_1(report *r, outcome o[2][2][2], const char *figures, int ful
     char at[96], text[128];
     int form, damped, scheme, k;
     fprintf(curve, "form,scheme,sigma,t,max_div_B,energy_B,energy_psi\n");
-    report_section(r, "Figure 1: max |div B|, ch = 1, sigma = 0.3 where damped (the trial: Verlet, and RK4 where energy grows)");
+    report_section(r, "Figure 1: max |div B|, ch = 1, sigma = 0.3 where damped (the trial: Verlet, and RK4 "
+                      "where energy grows)");
     for (form = CONJUGATE; form <= DIFFERENCES; form++)
         for (damped = 0; damped < 2; damped++)
             for (scheme = VERLET; scheme <= RUNGE_KUTTA; scheme++) {
                 const outcome *const run = &o[form][damped][scheme];
                 if (!wanted(form, damped, scheme, full)) continue;
                 o[form][damped][scheme] = disc(form, damped ? 0.3 : 0, scheme, 0.3, 10, curve, quiet);
-                snprintf(at, sizeof at, "%s, %s, %s", form_name[form], damped ? "damped" : "undamped", scheme_name[scheme]);
+                snprintf(at, sizeof at, "%s, %s, %s", form_name[form], damped ? "damped" : "undamped",
+                         scheme_name[scheme]);
                 for (k = 0; k < TIMES; k++) {
                     const double trial = trial_values[form][damped][k], t = at_time[k];
                     if (!(trial > 0)) continue;
-                    trial_at(r, "Figure 1", at, k, trial, run, form == DIFFERENCES && t > 1 ? 2 : form == CONJUGATE && !damped && t > 1.5 ? 1.5 : 1.1);
+                    trial_at(r, "Figure 1", at, k, trial, run,
+                             form == DIFFERENCES && t > 1              ? 2
+                             : form == CONJUGATE && !damped && t > 1.5 ? 1.5
+                                                                       : 1.1);
                 }
             }
     figure_close(curve);
@@ -510,25 +592,37 @@ static void figure_1(report *r, outcome o[2][2][2], const char *figures, int ful
     for (damped = 0; damped < 2; damped++) {
         const outcome *const grows = &o[DIFFERENCES][damped][RUNGE_KUTTA];
         const char *const how = damped ? "non-conservative, damped, RK4" : "non-conservative, undamped, RK4";
-        snprintf(text, sizeof text, "least at t = %.2f, then exp(%.1f t), r^2 = %.4f", grows->turn, grows->growth, grows->straight);
-        report_claim(r, "IV-A", how, "max |div B|", "increases exponentially once the waves reach the edge", text, "turns in [0.6, 1.4], r^2 > 0.99",
+        snprintf(text, sizeof text, "least at t = %.2f, then exp(%.1f t), r^2 = %.4f", grows->turn,
+                 grows->growth, grows->straight);
+        report_claim(r, "IV-A", how, "max |div B|", "increases exponentially once the waves reach the edge",
+                     text, "turns in [0.6, 1.4], r^2 > 0.99",
                      grows->turn > 0.6 && grows->turn < 1.4 && grows->straight > 0.99);
         snprintf(text, sizeof text, "%.3g times that of the start", grows->magnetic_most);
-        report_claim(r, "IV-A", how, "magnetic energy", "increases, too", text, "> 1000", grows->magnetic_most > 1000);
-        report_range(r, "IV-A", how, "time when max |div B| is 1000 times the first", (double)NAN, grows->thousand, 1, 5);
+        report_claim(r, "IV-A", how, "magnetic energy", "increases, too", text, "> 1000",
+                     grows->magnetic_most > 1000);
+        report_range(r, "IV-A", how, "time when max |div B| is 1000 times the first", (double)NAN,
+                     grows->thousand, 1, 5);
     }
-    cleaning_trial(r, "IV-A", "non-conservative, undamped, RK4", "time when max |div B| > 1e12", 3.86, o[DIFFERENCES][0][RUNGE_KUTTA].end, 1.02);
+    cleaning_trial(r, "IV-A", "non-conservative, undamped, RK4", "time when max |div B| > 1e12", 3.86,
+                   o[DIFFERENCES][0][RUNGE_KUTTA].end, 1.02);
     for (scheme = VERLET; scheme <= RUNGE_KUTTA; scheme++) {
-        const outcome *const free_run = &o[CONJUGATE][0][scheme], *const damped_run = &o[CONJUGATE][1][scheme];
+        const outcome *const free_run = &o[CONJUGATE][0][scheme], *const damped_run =
+                                                                      &o[CONJUGATE][1][scheme];
         snprintf(at, sizeof at, "constrained, undamped, %s", scheme_name[scheme]);
-        report_range(r, "IV-A", at, "largest max |div B| / first, t <= 10 (remains stable)", (double)NAN, free_run->largest / free_run->at[0], 0, 1);
-        report_absolute(r, "IV-A", at, "rate of the energy, relative, worst of all steps", 0, free_run->imbalance, 1e-13);
+        report_range(r, "IV-A", at, "largest max |div B| / first, t <= 10 (remains stable)", (double)NAN,
+                     free_run->largest / free_run->at[0], 0, 1);
+        report_absolute(r, "IV-A", at, "rate of the energy, relative, worst of all steps", 0,
+                        free_run->imbalance, 1e-13);
         if (!wanted(CONJUGATE, 1, scheme, full)) continue;
         snprintf(at, sizeof at, "constrained, damped, %s", scheme_name[scheme]);
-        report_range(r, "IV-A", at, "first max |div B| / that at t = 10", (double)NAN, damped_run->at[0] / damped_run->at[9], 1e3, HUGE_VAL);
-        report_range(r, "IV-A", at, "largest rise of the energy in a step", (double)NAN, damped_run->rise, -HUGE_VAL, 1e-12);
-        report_absolute(r, "IV-A", at, "rate of the energy less that of damping, relative, worst", 0, damped_run->imbalance, 1e-13);
-        report_info(r, "IV-A", at, "energy of B left at t = 10 (what had no divergence)", damped_run->magnetic);
+        report_range(r, "IV-A", at, "first max |div B| / that at t = 10", (double)NAN,
+                     damped_run->at[0] / damped_run->at[9], 1e3, HUGE_VAL);
+        report_range(r, "IV-A", at, "largest rise of the energy in a step", (double)NAN, damped_run->rise,
+                     -HUGE_VAL, 1e-12);
+        report_absolute(r, "IV-A", at, "rate of the energy less that of damping, relative, worst", 0,
+                        damped_run->imbalance, 1e-13);
+        report_info(r, "IV-A", at, "energy of B left at t = 10 (what had no divergence)",
+                    damped_run->magnetic);
     }
 }
 
@@ -544,16 +638,23 @@ static void integrators(report *r, outcome o[2][2][2], int full, int quiet)
     for (scheme = VERLET; scheme <= RUNGE_KUTTA; scheme++) {
         const int runs = full ? 3 : scheme == VERLET ? 2 : 1;
         for (k = 0; k < runs; k++) {
-            drift[k] = k == 0 ? o[CONJUGATE][0][scheme].drift : disc(CONJUGATE, 0, scheme, courant[k], 10, NULL, quiet).drift;
-            cleaning_trial(r, "steps", text_of(scheme == VERLET ? "Verlet, dt = %g h / ch" : "RK4, dt = %g h / ch", courant[k], 0, 0),
+            drift[k] = k == 0 ? o[CONJUGATE][0][scheme].drift
+                              : disc(CONJUGATE, 0, scheme, courant[k], 10, NULL, quiet).drift;
+            cleaning_trial(r, "steps",
+                           text_of(scheme == VERLET ? "Verlet, dt = %g h / ch" : "RK4, dt = %g h / ch",
+                                   courant[k], 0, 0),
                            "largest change of the energy", trial[scheme][k], drift[k], 1.25);
         }
-        if (scheme == VERLET) report_range(r, "steps", "Verlet, dt = 0.3 h / ch", "largest change of the energy", (double)NAN, drift[0], 0, 2e-3);
+        if (scheme == VERLET)
+            report_range(r, "steps", "Verlet, dt = 0.3 h / ch", "largest change of the energy", (double)NAN,
+                         drift[0], 0, 2e-3);
         for (k = 0; k + 1 < runs; k++) /* dt^2; what RK4 loses, dt^5 */
-            report_range(r, "steps", scheme == VERLET ? "Verlet, half of the step" : "RK4, half of the step", "ratio of the changes", (double)NAN,
-                         drift[k] / drift[k + 1], scheme == VERLET ? 3.5 : 28, scheme == VERLET ? 4.5 : 36);
+            report_range(r, "steps", scheme == VERLET ? "Verlet, half of the step" : "RK4, half of the step",
+                         "ratio of the changes", (double)NAN, drift[k] / drift[k + 1],
+                         scheme == VERLET ? 3.5 : 28, scheme == VERLET ? 4.5 : 36);
     }
-    cleaning_trial(r, "steps", text_of("non-conservative, undamped, RK4, dt / %g", finer, 0, 0), "time when max |div B| > 1e12", 3.85,
+    cleaning_trial(r, "steps", text_of("non-conservative, undamped, RK4, dt / %g", finer, 0, 0),
+                   "time when max |div B| > 1e12", 3.85,
                    disc(DIFFERENCES, 0, RUNGE_KUTTA, 0.3 / finer, 10, NULL, quiet).end, 1.02);
 }
 
@@ -561,8 +662,9 @@ static void integrators(report *r, outcome o[2][2][2], int full, int quiet)
 static void variations(report *r, outcome of_figure[2][2][2], int full, int quiet)
 {
     static const double sigma[6] = {0.1, 0.2, 0.3, 0.5, 0.8, 1.0};
-    static const double trial[6][3] = {{0.145, 3.4e-3, 4.7e-5},  {2.0e-2, 1.8e-4, 1.0e-4}, {1.4e-3, 2.7e-4, 1.5e-4},
-                                       {1.1e-2, 4.1e-4, 2.3e-4}, {3.8e-2, 2.7e-3, 3.4e-4}, {5.6e-2, 6.7e-3, 4.4e-4}};
+    static const double trial[6][3] = {{0.145, 3.4e-3, 4.7e-5},  {2.0e-2, 1.8e-4, 1.0e-4},
+                                       {1.4e-3, 2.7e-4, 1.5e-4}, {1.1e-2, 4.1e-4, 2.3e-4},
+                                       {3.8e-2, 2.7e-3, 3.4e-4}, {5.6e-2, 6.7e-3, 4.4e-4}};
     static const int place[3] = {4, 7, 9}; /* t = 2, 5, 10 */
     double at_2[6];
     outcome o;
@@ -570,12 +672,16 @@ static void variations(report *r, outcome of_figure[2][2][2], int full, int quie
     int k, j, best = 0;
     report_section(r, "Damping, kernel and h");
     for (k = 0; k < 6; k++) {
-        o = k == 2 ? of_figure[CONJUGATE][1][VERLET] : disc(CONJUGATE, sigma[k], VERLET, 0.3, full ? 10 : 2, NULL, quiet);
+        o = k == 2 ? of_figure[CONJUGATE][1][VERLET]
+                   : disc(CONJUGATE, sigma[k], VERLET, 0.3, full ? 10 : 2, NULL, quiet);
         at_2[k] = o.at[4];
         if (at_2[k] < at_2[best]) best = k;
-        for (j = 0; j < (full ? 3 : 1); j++) trial_at(r, "sigma", text_of("constrained, sigma = %g", sigma[k], 0, 0), place[j], trial[k][j], &o, 1.25);
+        for (j = 0; j < (full ? 3 : 1); j++)
+            trial_at(r, "sigma", text_of("constrained, sigma = %g", sigma[k], 0, 0), place[j], trial[k][j],
+                     &o, 1.25);
     }
-    report_range(r, "sigma", "least max |div B| at t = 2", "sigma (J. Comput. Phys. 231, 7214: 0.2 to 0.3 in 2D)", (double)NAN, sigma[best], 0.2, 0.3);
+    report_range(r, "sigma", "least max |div B| at t = 2",
+                 "sigma (J. Comput. Phys. 231, 7214: 0.2 to 0.3 in 2D)", (double)NAN, sigma[best], 0.2, 0.3);
 
     s = ball(2, CLEANING_SPACING);
     s.k = SPH_QUINTIC_SPLINE;
@@ -593,8 +699,10 @@ static void variations(report *r, outcome of_figure[2][2][2], int full, int quie
         s.sigma = k == 1 ? 0.3 : 0;
         o = integrate(&s, k == 2 ? RUNGE_KUTTA : VERLET, 0.3, 10, "own h", NULL, quiet);
         if (k == 0) {
-            report_range(r, "own h, Omega", "constrained, undamped", "largest max |div B| / first, t <= 10", (double)NAN, o.largest / o.at[0], 0, 1);
-            report_absolute(r, "own h, Omega", "constrained, undamped", "rate of the energy, relative, worst", 0, o.imbalance, 1e-13);
+            report_range(r, "own h, Omega", "constrained, undamped", "largest max |div B| / first, t <= 10",
+                         (double)NAN, o.largest / o.at[0], 0, 1);
+            report_absolute(r, "own h, Omega", "constrained, undamped", "rate of the energy, relative, worst",
+                            0, o.imbalance, 1e-13);
         } else if (k == 1) trial_at(r, "own h, Omega", "constrained, damped", 9, 1.75e-4, &o, 1.25);
         else trial_at(r, "own h, Omega", "non-conservative, undamped", 4, 1.7e8, &o, 2);
         state_close(&s);
@@ -616,16 +724,23 @@ static void jumps(report *r, double dx, int quiet)
                 const char *at;
                 s.form = form;
                 s.sigma = damped ? 0.3 : 0;
-                o = integrate(&s, form == CONJUGATE ? VERLET : RUNGE_KUTTA, 0.3, t_end, "jump in density", NULL, quiet);
-                at = text_of(form == CONJUGATE ? (damped ? "rho 1 | %g, constrained, damped" : "rho 1 | %g, constrained, undamped")
-                                               : (damped ? "rho 1 | %g, non-conservative, damped" : "rho 1 | %g, non-conservative, undamped"),
+                o = integrate(&s, form == CONJUGATE ? VERLET : RUNGE_KUTTA, 0.3, t_end, "jump in density",
+                              NULL, quiet);
+                at = text_of(form == CONJUGATE ? (damped ? "rho 1 | %g, constrained, damped"
+                                                         : "rho 1 | %g, constrained, undamped")
+                                               : (damped ? "rho 1 | %g, non-conservative, damped"
+                                                         : "rho 1 | %g, non-conservative, undamped"),
                              ratio * ratio, 0, 0);
                 if (ratio == 2 && form == DIFFERENCES) {
-                    snprintf(text, sizeof text, "1000 times the first at t = %.2f, exp(%.2f t)", o.thousand, o.growth);
-                    report_claim(r, "IV-A", at, "max |div B|", "exponential growth", text, "1000 times the first before t = 10", o.thousand <= t_end);
+                    snprintf(text, sizeof text, "1000 times the first at t = %.2f, exp(%.2f t)", o.thousand,
+                             o.growth);
+                    report_claim(r, "IV-A", at, "max |div B|", "exponential growth", text,
+                                 "1000 times the first before t = 10", o.thousand <= t_end);
                 } else {
-                    report_range(r, "IV-A", at, "largest max |div B| / first, t <= 10", (double)NAN, o.largest / o.at[0], 0, 1);
-                    report_range(r, "IV-A", at, "largest energy of B / first, t <= 10", (double)NAN, o.magnetic_most, 0, 1);
+                    report_range(r, "IV-A", at, "largest max |div B| / first, t <= 10", (double)NAN,
+                                 o.largest / o.at[0], 0, 1);
+                    report_range(r, "IV-A", at, "largest energy of B / first, t <= 10", (double)NAN,
+                                 o.magnetic_most, 0, 1);
                 }
                 state_close(&s);
             }
@@ -647,12 +762,16 @@ static void other_pair(report *r, outcome of_figure[2][2][2], int quiet)
         s.sigma = 0.3;
         left[which] = integrate(&s, VERLET, 0.3, 5, "uniform field", NULL, quiet).magnetic;
         state_close(&s);
-        kept[which] = form == CONJUGATE ? of_figure[CONJUGATE][1][VERLET].magnetic : disc(form, 0.3, VERLET, 0.3, 10, NULL, quiet).magnetic;
+        kept[which] = form == CONJUGATE ? of_figure[CONJUGATE][1][VERLET].magnetic
+                                        : disc(form, 0.3, VERLET, 0.3, 10, NULL, quiet).magnetic;
     }
-    report_absolute(r, "II-C", "uniform B, disordered particles, (20)", "energy of B left at t = 5", 1, left[0], 1e-12);
-    snprintf(text, sizeof text, "%.1f %% of the energy of a uniform field is gone at t = 5", 100 * (1 - left[1]));
-    report_claim(r, "II-C", "uniform B, disordered particles, (9)'s", "energy of B", "excessive magnetic energy dissipation", text,
-                 "> 5 % lost (nothing had to be)", left[1] < 0.95);
+    report_absolute(r, "II-C", "uniform B, disordered particles, (20)", "energy of B left at t = 5", 1,
+                    left[0], 1e-12);
+    snprintf(text, sizeof text, "%.1f %% of the energy of a uniform field is gone at t = 5",
+             100 * (1 - left[1]));
+    report_claim(r, "II-C", "uniform B, disordered particles, (9)'s", "energy of B",
+                 "excessive magnetic energy dissipation", text, "> 5 % lost (nothing had to be)",
+                 left[1] < 0.95);
     report_info(r, "II-C", "the disc, (20), damped", "energy of B left at t = 10", kept[0]);
     report_info(r, "II-C", "the disc, (9)'s, damped", "energy of B left at t = 10", kept[1]);
 }
@@ -661,13 +780,16 @@ static void other_pair(report *r, outcome of_figure[2][2][2], int quiet)
 static void resistivity(report *r)
 {
     enum { SIDE = 32, STEPS = 100, CELLS = 2000 };
-    static const char *const direction[2] = {"B along the wave (all divergence)", "B across the wave (no divergence)"};
+    static const char *const direction[2] = {"B along the wave (all divergence)",
+                                             "B across the wave (no divergence)"};
     const double one = 1, nought = 0, k = 2 * MATH_PI, rho = 2;
     double mean_r = 0, eta, lattice = 0, rate[2];
     char text[128];
     int along, step, i;
     sph_index p;
-    report_section(r, "Section II-A2: artificial resistivity, a sine wave at rest, alpha_B = 1, v_sig = cs = 1, rho = 2");
+    report_section(
+        r,
+        "Section II-A2: artificial resistivity, a sine wave at rest, alpha_B = 1, v_sig = cs = 1, rho = 2");
     /* <r> = int r W; one h */
     for (i = 0; i < CELLS; i++) {
         const double q = 2 * (i + 0.5) / CELLS;
@@ -675,13 +797,14 @@ static void resistivity(report *r)
     }
     for (along = 0; along < 2; along++) {
         state s = box(SIDE, rho, 0);
-        double *const B = s.a[along == 0 ? BX : BY], *const change = s.a[along == 0 ? RBX : RBY], amplitude = 0, dt;
+        double *const B = s.a[along == 0 ? BX : BY], *const change = s.a[along == 0 ? RBX : RBY],
+                      amplitude = 0, dt;
         sph_mhd m = {0};
-        sph_mhd_out out = {{NULL, NULL, NULL}, {NULL, NULL, NULL}, NULL, NULL, NULL, NULL, NULL};
+        sph_mhd_out out = {0};
         m.gas = gas(&s);
-        m.P = m.u = m.cs = sph_scalars_same(&one);
+        m.p = m.u = m.cs = sph_scalars_same(&one);
         m.alpha = m.v.x = m.v.y = sph_scalars_same(&nought);
-        m.B = vectors(&s, BX);
+        m.field = vectors(&s, BX);
         m.alpha_B = sph_scalars_same(&one);
         m.beta = 1;
         out.acceleration = vectors_out(&s, SAVED);
@@ -694,29 +817,47 @@ static void resistivity(report *r)
             x -= floor(x + 0.5);
             y -= floor(y + 0.5);
             d = hypot(x, y);
-            lattice -= s.a[M][j] / rho * (1 - cos(k * x)) * d * sph_kernel_f(SPH_CUBIC_SPLINE, 2, d, s.a[H][0]);
+            lattice -=
+                s.a[M][j] / rho * (1 - cos(k * x)) * d * sph_kernel_f(SPH_CUBIC_SPLINE, 2, d, s.a[H][0]);
         }
         dt = 1 / (lattice * STEPS);
         for (i = 0; i < s.n; i++) B[i] = 1e-4 * sin(k * s.a[X][i]);
         for (step = 0; step < STEPS; step++) { /* midpoint rule, to 1/e */
-            cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 2, sph_cloud_range(sph_cloud_of(points(&s), cleaning_list(&s.lists), sph_scalars_same(s.a[H]), sph_scalars_none()), 0, s.n), m, out));
+            cleaning_expect(
+                sph_mhd_rates(SPH_CUBIC_SPLINE, 2,
+                              sph_cloud_range(sph_cloud_of(points(&s), cleaning_list(&s.lists),
+                                                           sph_scalars_same(s.a[H]), sph_scalars_none()),
+                                              0, s.n),
+                              m, out));
             for (i = 0; i < s.n; i++) {
                 s.a[MEAN][i] = B[i];
                 B[i] += 0.5 * dt * change[i];
             }
-            cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 2, sph_cloud_range(sph_cloud_of(points(&s), cleaning_list(&s.lists), sph_scalars_same(s.a[H]), sph_scalars_none()), 0, s.n), m, out));
+            cleaning_expect(
+                sph_mhd_rates(SPH_CUBIC_SPLINE, 2,
+                              sph_cloud_range(sph_cloud_of(points(&s), cleaning_list(&s.lists),
+                                                           sph_scalars_same(s.a[H]), sph_scalars_none()),
+                                              0, s.n),
+                              m, out));
             for (i = 0; i < s.n; i++) B[i] = s.a[MEAN][i] + dt * change[i];
         }
         for (i = 0; i < s.n; i++) amplitude += 2e4 * B[i] * sin(k * s.a[X][i]) / s.n;
         rate[along] = -log(amplitude) / (dt * STEPS);
-        report_relative(r, "(10)", direction[along], "decay rate (the lattice's sum beside ours)", lattice, rate[along], 1e-4);
-        report_relative(r, "(11)", direction[along], "decay rate (eta k^2 beside ours; eta = 3/4 <r> alpha_B v_sig)", eta * k * k, rate[along], 0.05);
-        if (along == 1) report_info(r, "(11)", "cubic spline, 2D", "eta / (alpha_B v_sig h)", rate[along] / (k * k * s.a[H][0]));
+        report_relative(r, "(10)", direction[along], "decay rate (the lattice's sum beside ours)", lattice,
+                        rate[along], 1e-4);
+        report_relative(r, "(11)", direction[along],
+                        "decay rate (eta k^2 beside ours; eta = 3/4 <r> alpha_B v_sig)", eta * k * k,
+                        rate[along], 0.05);
+        if (along == 1)
+            report_info(r, "(11)", "cubic spline, 2D", "eta / (alpha_B v_sig h)",
+                        rate[along] / (k * k * s.a[H][0]));
         state_close(&s);
     }
-    report_relative(r, "(11)", "along against across", "ratio of the decay rates (diffuses both parts alike)", 1, rate[0] / rate[1], 1e-4);
+    report_relative(r, "(11)", "along against across", "ratio of the decay rates (diffuses both parts alike)",
+                    1, rate[0] / rate[1], 1e-4);
     snprintf(text, sizeof text, "the rate is eta k^2 with the square; without it %g times that", rho);
-    report_claim_fails(r, "(10)", "rho = 2", "rho_ab in the denominator", "not squared", text, "a diffusion has no unit of mass: mean density squared");
+    report_claim_fails(r, "(10)", "rho = 2", "rho_ab in the denominator", "not squared", text,
+                       "a diffusion has no unit of mass: mean density squared");
 }
 
 /* beyond the paper: a sphere */
@@ -735,14 +876,23 @@ static void sphere(report *r, int full, int quiet)
             outcome o;
             s.form = form;
             s.sigma = damped ? sph_cleaning_sigma(3) : 0;
-            if (form == CONJUGATE && !damped) report_info(r, "sphere", text_of("dx = %g", dx, 0, 0), "particles", s.n);
+            if (form == CONJUGATE && !damped)
+                report_info(r, "sphere", text_of("dx = %g", dx, 0, 0), "particles", s.n);
             snprintf(at, sizeof at, "%s, %s", form_name[form], damped ? "sigma = 1" : "undamped");
-            o = integrate(&s, form == CONJUGATE ? VERLET : RUNGE_KUTTA, 0.3, form == CONJUGATE ? at_time[last] : 10, "sphere", NULL, quiet);
-            if (form == DIFFERENCES) report_range(r, "sphere", at, "time when max |div B| is 1000 times the first", (double)NAN, o.thousand, 0, 10);
+            o = integrate(&s, form == CONJUGATE ? VERLET : RUNGE_KUTTA, 0.3,
+                          form == CONJUGATE ? at_time[last] : 10, "sphere", NULL, quiet);
+            if (form == DIFFERENCES)
+                report_range(r, "sphere", at, "time when max |div B| is 1000 times the first", (double)NAN,
+                             o.thousand, 0, 10);
             else {
-                report_range(r, "sphere", at, text_of("largest max |div B| / first, t <= %g", at_time[last], 0, 0), (double)NAN, o.largest / o.at[0], 0, 1);
-                report_absolute(r, "sphere", at, "rate of the energy (less that of damping), relative, worst", 0, o.imbalance, 1e-13);
-                report_info(r, "sphere", at, text_of("first max |div B| / that at t = %g", at_time[last], 0, 0), o.at[0] / o.at[last]);
+                report_range(r, "sphere", at,
+                             text_of("largest max |div B| / first, t <= %g", at_time[last], 0, 0),
+                             (double)NAN, o.largest / o.at[0], 0, 1);
+                report_absolute(r, "sphere", at, "rate of the energy (less that of damping), relative, worst",
+                                0, o.imbalance, 1e-13);
+                report_info(r, "sphere", at,
+                            text_of("first max |div B| / that at t = %g", at_time[last], 0, 0),
+                            o.at[0] / o.at[last]);
             }
             state_close(&s);
         }
@@ -754,16 +904,19 @@ static void sphere(report *r, int full, int quiet)
         report_info(r, "sphere", text_of("constrained, sigma = %g", sigma[k], 0, 0), max_div(3), at_3[k]);
         state_close(&s);
     }
-    report_range(r, "sphere", "least max |div B| at t = 3", "sigma (J. Comput. Phys. 231, 7214: 0.8 to 1.2 in 3D)", (double)NAN, sigma[best], 0.8, 1.2);
+    report_range(r, "sphere", "least max |div B| at t = 3",
+                 "sigma (J. Comput. Phys. 231, 7214: 0.8 to 1.2 in 3D)", (double)NAN, sigma[best], 0.8, 1.2);
     /* an h of each particle's own */
     {
         state s = ball(3, dx);
         outcome o;
         settle_adaptive(&s, dx);
         o = integrate(&s, VERLET, 0.3, at_time[last], "sphere, own h", NULL, quiet);
-        report_range(r, "sphere", "constrained, undamped, own h, Omega", text_of("largest max |div B| / first, t <= %g", at_time[last], 0, 0), (double)NAN,
+        report_range(r, "sphere", "constrained, undamped, own h, Omega",
+                     text_of("largest max |div B| / first, t <= %g", at_time[last], 0, 0), (double)NAN,
                      o.largest / o.at[0], 0, 1);
-        report_absolute(r, "sphere", "constrained, undamped, own h, Omega", "rate of the energy, relative, worst", 0, o.imbalance, 1e-13);
+        report_absolute(r, "sphere", "constrained, undamped, own h, Omega",
+                        "rate of the energy, relative, worst", 0, o.imbalance, 1e-13);
         state_close(&s);
     }
 }
@@ -775,12 +928,18 @@ int main(int argc, char **argv)
     const option_spec specs[] = {
         {"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
         {"figures", "folder of the figures' data", OPTION_TEXT, &figures, 0, 0},
-        {"full", "finer clouds at the jump and in the sphere, smaller steps, both integrators everywhere, longer scans", OPTION_FLAG, &full, 0, 0},
+        {"full",
+         "finer clouds at the jump and in the sphere, smaller steps, both integrators everywhere, longer "
+         "scans",
+         OPTION_FLAG, &full, 0, 0},
         {"quiet", "no line of progress", OPTION_FLAG, &quiet, 0, 0},
     };
     static report r;
     static outcome o[2][2][2];
-    options_parse(argc, argv, "The static test of the paper on divergence cleaning (figure 1): published against measured.", specs, 4);
+    options_parse(
+        argc, argv,
+        "The static test of the paper on divergence cleaning (figure 1): published against measured.", specs,
+        4);
     report_open(&r, "cleaning_disc", out);
     figure_folder(figures);
     setting(&r);

@@ -18,7 +18,8 @@ enum { X, Y, VX, VY, RHO, PSI, P, AX, AY, DIVV, LISTED_X, LISTED_Y, ARRAYS };
 
 static const double rho0 = 1000, w = 100, cs = 1000, sigma = 0.3;
 static const double h = CLEANING_ETA * CLEANING_SPACING;
-static const double skin = 0.3 * CLEANING_ETA * CLEANING_SPACING; /* lists hold more than a step needs, and last for some */
+static const double skin =
+    0.3 * CLEANING_ETA * CLEANING_SPACING; /* lists hold more than a step needs, and last for some */
 
 typedef struct drop {
     int n, cleans, viscosity;
@@ -46,7 +47,9 @@ static void neighbours(drop *d)
     const double radius = sph_kernel_support(SPH_CUBIC_SPLINE) * h + skin;
     int i;
     int due = 1;
-    if (d->lists.start) due = sph_rebuild_due(2, points(d), sph_points_separate(d->n, d->a[LISTED_X], d->a[LISTED_Y], NULL), skin);
+    if (d->lists.start)
+        due = sph_rebuild_due(2, points(d), sph_points_separate(d->n, d->a[LISTED_X], d->a[LISTED_Y], NULL),
+                              skin);
     if (due < 0) well(d, due);
     if (due == 0) return;
     cleaning_neighbours(&d->lists, 2, points(d), sph_scalars_same(&radius), radius);
@@ -67,9 +70,15 @@ SPH_FN sph_index accelerate_by(int viscosity, drop *d)
     f.v = velocities(d);
     f.viscosity = viscosity;
     f.alpha = d->alpha;
-    f.beta = viscosity == (int)SPH_VISCOSITY_MONAGHAN ? 2 * d->alpha : 2; /* of 1992: beside alpha; of 1997: within alpha v_sig */
+    f.beta = viscosity == (int)SPH_VISCOSITY_MONAGHAN
+                 ? 2 * d->alpha
+                 : 2; /* of 1992: beside alpha; of 1997: within alpha v_sig */
     f.eta = 0.1;
-    return sph_fluid_rates_monaghan(SPH_CUBIC_SPLINE, 2, sph_cloud_range(sph_cloud_of(points(d), cleaning_list(&d->lists), sph_scalars_same(&h), sph_scalars_none()), 0, d->n), f, sph_vector_out_separate(d->a[AX], d->a[AY], NULL), NULL, NULL);
+    return sph_fluid_rates_monaghan(SPH_CUBIC_SPLINE, 2,
+                                    sph_cloud_range(sph_cloud_of(points(d), cleaning_list(&d->lists),
+                                                                 sph_scalars_same(&h), sph_scalars_none()),
+                                                    0, d->n),
+                                    f, sph_vector_out_separate(d->a[AX], d->a[AY], NULL), NULL, NULL);
 }
 /* The sweep folds for a constant viscosity, too. */
 static void accelerate(drop *d, int viscosity)
@@ -82,7 +91,9 @@ static void forces(drop *d)
 {
     int i;
     neighbours(d);
-    for (i = 0; i < d->n; i++) d->a[P][i] = sph_pressure_tait(d->a[RHO][i], rho0, cs, 7, 0) + d->a[PSI][i];
+    for (i = 0; i < d->n; i++)
+        d->a[P][i] =
+            sph_pressure_tait(d->a[RHO][i], (sph_tait){.rho0 = rho0, .c = cs, .gamma = 7}) + d->a[PSI][i];
     accelerate(d, d->alpha > 0 ? d->viscosity : (int)SPH_VISCOSITY_NONE);
     for (i = 0; i < d->n; i++) {
         d->a[AX][i] -= w * w * d->a[X][i];
@@ -98,7 +109,11 @@ static void divergence(drop *d)
     g.rho = field(d, RHO);
     g.omega = sph_scalars_same(&one);
     neighbours(d);
-    well(d, sph_divergence_difference(SPH_CUBIC_SPLINE, 2, sph_cloud_range(sph_cloud_of(points(d), cleaning_list(&d->lists), sph_scalars_same(&h), sph_scalars_none()), 0, d->n), g, velocities(d), d->a[DIVV]));
+    well(d, sph_divergence_difference(SPH_CUBIC_SPLINE, 2,
+                                      sph_cloud_range(sph_cloud_of(points(d), cleaning_list(&d->lists),
+                                                                   sph_scalars_same(&h), sph_scalars_none()),
+                                                      0, d->n),
+                                      g, velocities(d), d->a[DIVV]));
 }
 
 static drop drop_new(double alpha, int viscosity, int cleans)
@@ -149,7 +164,11 @@ static void advance(drop *d, double dt)
     for (i = 0; i < d->n; i++) {
         const double rate = -d->a[RHO][i] * d->a[DIVV][i];
         d->a[RHO][i] += dt * rate;
-        if (d->cleans) d->a[PSI][i] = damping * (damping * d->a[PSI][i] + dt * sph_cleaning_rate_velocity(d->ch, 0, h, 0, rate));
+        if (d->cleans)
+            d->a[PSI][i] =
+                damping *
+                (damping * d->a[PSI][i] +
+                 dt * sph_cleaning_rate_velocity((sph_cleaning_wave){.ch = d->ch, .h = h}, 0, rate));
         d->a[X][i] += 0.5 * dt * d->a[VX][i];
         d->a[Y][i] += 0.5 * dt * d->a[VY][i];
     }
@@ -166,7 +185,8 @@ enum { SAMPLES = 200, SHORT = 50 };
 static const double sample_step = 0.0005; /* SAMPLES of them are 0.1, SHORT 0.025, half a period */
 
 typedef struct sample {
-    double div_v, density; /* mean |div v| over particles and the time since the last sample; max |rho / rho0 - 1| at the time */
+    double div_v,
+        density; /* mean |div v| over particles and the time since the last sample; max |rho / rho0 - 1| at the time */
     double kinetic, total; /* energies; total: with those of the force, of the equation of state and of psi */
     double axis[2];        /* from the second moments */
 } sample;
@@ -175,7 +195,8 @@ typedef struct history {
     sample at[SAMPLES + 1];
     int count;                   /* samples after the first */
     double div_v[2], density[2]; /* mean, largest: of all, of the second half */
-    double momentum, turning;    /* largest change of momentum and angular momentum, relative to sum m |v|, sum m |r| |v| of the start */
+    double momentum,
+        turning; /* largest change of momentum and angular momentum, relative to sum m |v|, sum m |r| |v| of the start */
     double fastest;
 } history;
 
@@ -203,7 +224,11 @@ static sample measure(const drop *d)
 static void sums(const drop *d, double of[3])
 {
     sph_conserved c;
-    cleaning_expect(sph_conserved_sums(2, 0, d->n, points(d), sph_scalars_same(&d->m), velocities(d), &c));
+    cleaning_expect(sph_conserved_sums(
+        2,
+        sph_cloud_range(sph_cloud_of(points(d), (sph_list){0}, sph_scalars_none(), sph_scalars_none()), 0,
+                        d->n),
+        sph_scalars_same(&d->m), velocities(d), &c));
     of[0] = c.momentum.x;
     of[1] = c.momentum.y;
     of[2] = c.angular_momentum.z;
@@ -259,14 +284,15 @@ static history integrate(drop *d, double courant, int count, FILE *curves, FILE 
         o.turning = fmax(o.turning, fabs(now[2] - first[2]) / turning);
         for (i = 0; i < d->n; i++) o.fastest = fmax(o.fastest, hypot(d->a[VX][i], d->a[VY][i]));
         if (curves)
-            fprintf(curves, "%g,%s,%.4f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", d->alpha, d->cleans ? "cleaned" : "control", t, o.at[k].div_v, o.at[k].density,
-                    o.at[k].kinetic, o.at[k].total, o.at[k].axis[0], o.at[k].axis[1]);
+            fprintf(curves, "%g,%s,%.4f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", d->alpha,
+                    d->cleans ? "cleaned" : "control", t, o.at[k].div_v, o.at[k].density, o.at[k].kinetic,
+                    o.at[k].total, o.at[k].axis[0], o.at[k].axis[1]);
         for (i = 0; shapes && i < SNAPSHOTS; i++)
             if (fabs(t - snapshot[i]) < 0.25 * sample_step) {
                 int j;
                 for (j = 0; j < d->n; j++)
-                    fprintf(shapes, "%g,%s,%g,%.6g,%.6g,%.6g\n", d->alpha, d->cleans ? "cleaned" : "control", t, d->a[X][j], d->a[Y][j],
-                            d->a[RHO][j] / rho0 - 1);
+                    fprintf(shapes, "%g,%s,%g,%.6g,%.6g,%.6g\n", d->alpha, d->cleans ? "cleaned" : "control",
+                            t, d->a[X][j], d->a[Y][j], d->a[RHO][j] / rho0 - 1);
             }
         progress_update(&p, (k + 1.0) / (count + 1));
     }
@@ -320,7 +346,10 @@ static double kinetic_difference(const sample *one, const sample *other, int las
     for (k = 0; k <= last; k++) most = fmax(most, fabs(one[k].kinetic - other[k].kinetic) / other[0].kinetic);
     return most;
 }
-static double energy_change(const history *o) { return (o->at[o->count].total - o->at[0].total) / o->at[0].total; }
+static double energy_change(const history *o)
+{
+    return (o->at[o->count].total - o->at[0].total) / o->at[0].total;
+}
 
 /* ---------------------------------------------------------------- what is reported */
 
@@ -333,13 +362,15 @@ static void identities(report *r, drop *d)
     double v_dv = 0, psi_dpsi = 0, size = 0, own = 0, p[2] = {0, 0}, L = 0, force = 0;
     char text[128];
     int i;
-    report_section(r, "Section III: the sums of velocity cleaning, in the drop at the end of the cleaned run");
+    report_section(r,
+                   "Section III: the sums of velocity cleaning, in the drop at the end of the cleaned run");
     neighbours(d);
     divergence(d);
     for (i = 0; i < d->n; i++) d->a[P][i] = d->a[PSI][i];
     accelerate(d, SPH_VISCOSITY_NONE);
     for (i = 0; i < d->n; i++) {
-        const double rho = d->a[RHO][i], rate = -rho * d->a[DIVV][i], dpsi = sph_cleaning_rate_velocity(d->ch, 0, h, 0, rate);
+        const double rho = d->a[RHO][i], rate = -rho * d->a[DIVV][i],
+                     dpsi = sph_cleaning_rate_velocity((sph_cleaning_wave){.ch = d->ch, .h = h}, 0, rate);
         const double per = d->m * d->a[PSI][i] / (d->ch * d->ch * rho * rho);
         v_dv += d->m * (d->a[VX][i] * d->a[AX][i] + d->a[VY][i] * d->a[AY][i]);
         psi_dpsi += per * dpsi;
@@ -350,12 +381,16 @@ static void identities(report *r, drop *d)
         L += d->m * (d->a[X][i] * d->a[AY][i] - d->a[Y][i] * d->a[AX][i]);
         force += d->m * hypot(d->a[AX][i], d->a[AY][i]);
     }
-    report_absolute(r, "(37), (39)", "rho frozen, undamped", "rate of sum m (v^2/2 + psi^2/(2 ch^2 rho^2)), relative", 0, (v_dv + psi_dpsi) / size, 1e-13);
+    report_absolute(r, "(37), (39)", "rho frozen, undamped",
+                    "rate of sum m (v^2/2 + psi^2/(2 ch^2 rho^2)), relative", 0, (v_dv + psi_dpsi) / size,
+                    1e-13);
     report_absolute(r, "(39)", "psi", "rate of momentum, relative", 0, hypot(p[0], p[1]) / force, 1e-13);
     report_absolute(r, "(39)", "psi", "rate of angular momentum, relative", 0, L / force, 1e-13);
     snprintf(text, sizeof text, "left side / printed right side = %.12f", v_dv / psi_dpsi);
-    report_claim_fails(r, "(38)", "the sums", "sign of the right side", "+", text, "-: the time derivative of (37) is 0, and (39) follows from that");
-    report_info(r, "(30) to (35)", "rho as it evolves", "rate of the energy that is left over / rate of that of psi", -own / psi_dpsi);
+    report_claim_fails(r, "(38)", "the sums", "sign of the right side", "+", text,
+                       "-: the time derivative of (37) is 0, and (39) follows from that");
+    report_info(r, "(30) to (35)", "rho as it evolves",
+                "rate of the energy that is left over / rate of that of psi", -own / psi_dpsi);
 
     /* (28): v = x, so that the drop grows */
     for (i = 0; i < d->n; i++) {
@@ -366,8 +401,10 @@ static void identities(report *r, drop *d)
     {
         double mean = 0;
         for (i = 0; i < d->n; i++) mean -= d->a[DIVV][i] / d->n;
-        snprintf(text, sizeof text, "mean of + sum m v_ij . grad W / rho = %.3f for v = x; as printed + %.3f", mean, -mean);
-        report_claim_fails(r, "(28)", "v = x", "sign", "-", text, "+: a drop that grows gets thinner (-2 in its middle), and (36) has that sign");
+        snprintf(text, sizeof text, "mean of + sum m v_ij . grad W / rho = %.3f for v = x; as printed + %.3f",
+                 mean, -mean);
+        report_claim_fails(r, "(28)", "v = x", "sign", "-", text,
+                           "+: a drop that grows gets thinner (-2 in its middle), and (36) has that sign");
     }
     {
         double inside = 0, volume = 0;
@@ -376,8 +413,11 @@ static void identities(report *r, drop *d)
             inside += d->m / d->a[RHO][i] * d->a[DIVV][i];
         }
         /* psi = 1: - int v . grad psi is 0; the surface integral is twice the area */
-        snprintf(text, sizeof text, "int psi div v = %.2f, surface %.2f: their difference should be 0, not their sum", inside, 2 * volume);
-        report_claim_fails(r, "(33)", "psi = 1, v = x", "sign of the surface integral", "+", text, "-: by parts; what is left of the difference is the rim's");
+        snprintf(text, sizeof text,
+                 "int psi div v = %.2f, surface %.2f: their difference should be 0, not their sum", inside,
+                 2 * volume);
+        report_claim_fails(r, "(33)", "psi = 1, v = x", "sign of the surface integral", "+", text,
+                           "-: by parts; what is left of the difference is the rim's");
     }
 }
 
@@ -395,9 +435,12 @@ static void steps(report *r, const history *control, int quiet)
         change[1] = fmax(change[1], fabs(half.at[k].total / half.at[0].total - 1));
     }
     report_section(r, "Steps: the energy of the control without viscosity, t <= 0.02");
-    cleaning_trial(r, "steps", "dt = 0.3 h / cs", "largest change of the energy, relative", 2.06e-5, change[0], 1.5);
-    cleaning_trial(r, "steps", "dt = 0.15 h / cs", "largest change of the energy, relative", 5.25e-6, change[1], 1.5);
-    report_range(r, "steps", "half of the step", "ratio of the changes", (double)NAN, change[0] / change[1], 3.5, 4.5);
+    cleaning_trial(r, "steps", "dt = 0.3 h / cs", "largest change of the energy, relative", 2.06e-5,
+                   change[0], 1.5);
+    cleaning_trial(r, "steps", "dt = 0.15 h / cs", "largest change of the energy, relative", 5.25e-6,
+                   change[1], 1.5);
+    report_range(r, "steps", "half of the step", "ratio of the changes", (double)NAN, change[0] / change[1],
+                 3.5, 4.5);
 }
 
 /* Values of the independent trial, to t = 0.1: control and cleaned */
@@ -424,16 +467,20 @@ static void one_run(report *r, const trial *t, int which, const history *o, cons
     const double end = o->count * sample_step;
     const int whole = o->count == SAMPLES;
     char at[96];
-    snprintf(at, sizeof at, "alpha = %g, %s, to t = %g%s", t->alpha, run_name[which], end, whole ? "" : " (-full: 0.1)");
+    snprintf(at, sizeof at, "alpha = %g, %s, to t = %g%s", t->alpha, run_name[which], end,
+             whole ? "" : " (-full: 0.1)");
     if (whole) {
         cleaning_trial(r, "Figure 8", at, "mean of mean |div v|", t->div_v[which], o->div_v[0], 1.5);
         cleaning_trial(r, "Figure 9", at, "max |rho / rho0 - 1|", t->density[which], o->density[0], 1.5);
-        cleaning_trial(r, "Figure 7", at, "largest difference of an axis from the ellipse's", t->axis[which], axis_error(o, ode, o->count), 1.5);
-        cleaning_trial(r, "Figure 10", at, "relative loss of energy", -t->energy[which], -energy_change(o), 1.5);
+        cleaning_trial(r, "Figure 7", at, "largest difference of an axis from the ellipse's", t->axis[which],
+                       axis_error(o, ode, o->count), 1.5);
+        cleaning_trial(r, "Figure 10", at, "relative loss of energy", -t->energy[which], -energy_change(o),
+                       1.5);
     } else {
         report_info(r, "Figure 8", at, "mean of mean |div v|", o->div_v[0]);
         report_info(r, "Figure 9", at, "max |rho / rho0 - 1|", o->density[0]);
-        report_info(r, "Figure 7", at, "largest difference of an axis from the ellipse's", axis_error(o, ode, o->count));
+        report_info(r, "Figure 7", at, "largest difference of an axis from the ellipse's",
+                    axis_error(o, ode, o->count));
         report_info(r, "Figure 10", at, "relative loss of energy", -energy_change(o));
     }
     report_info(r, "Figure 8", at, "mean of mean |div v|, second half", o->div_v[1]);
@@ -453,42 +500,52 @@ static void ellipse(report *r, const sample *ode)
         if (k > 20 && !(period > 0) && ode[k - 1].axis[1] < 1 && ode[k].axis[1] >= 1)
             period = sample_step * (k - (ode[k].axis[1] - 1) / (ode[k].axis[1] - ode[k - 1].axis[1]));
     }
-    report_absolute(r, "ellipse", "theta'' = -(theta'^2 + w^2) tanh 2 theta", "longest axis, sampled (exact: sqrt(2 + sqrt 3))", sqrt(2 + sqrt(3.0)), top,
-                    1e-3);
+    report_absolute(r, "ellipse", "theta'' = -(theta'^2 + w^2) tanh 2 theta",
+                    "longest axis, sampled (exact: sqrt(2 + sqrt 3))", sqrt(2 + sqrt(3.0)), top, 1e-3);
     report_range(r, "IV-D", "until t = 0.1", "periods ('approximately two')", 2, 0.1 / period, 1.9, 2.1);
-    report_absolute(r, "ellipse", "the same", "largest change of its energy, relative", 0, fabs(ode[SAMPLES].total / ode[0].total - 1), 1e-10);
+    report_absolute(r, "ellipse", "the same", "largest change of its energy, relative", 0,
+                    fabs(ode[SAMPLES].total / ode[0].total - 1), 1e-10);
 }
 
 /* The paper's statements beside the pair of runs that comes nearest to its figures, alpha = 0.01 */
 static void in_words(report *r, const history *o, const sample *ode)
 {
-    const double div_v = o[CONTROL].div_v[0] / o[CLEANED].div_v[0], density = o[CONTROL].density[0] / o[CLEANED].density[0];
+    const double div_v = o[CONTROL].div_v[0] / o[CLEANED].div_v[0],
+                 density = o[CONTROL].density[0] / o[CLEANED].density[0];
     double top[2] = {0, 0};
     char text[128];
     int k, half, which;
     for (half = 1; half < SAMPLES && !(ode[half].axis[1] < 1); half++) continue; /* T/2: the disc again */
     report_section(r, "Section IV-D in words, alpha = 0.01");
     snprintf(text, sizeof text, "%.1f times less", div_v);
-    report_claim(r, "Figure 8", "alpha = 0.01", "average div v", "reduced by nearly an order of magnitude", text, "within sqrt(10) of 10",
-                 fabs(log10(div_v) - 1) <= 0.5);
+    report_claim(r, "Figure 8", "alpha = 0.01", "average div v", "reduced by nearly an order of magnitude",
+                 text, "within sqrt(10) of 10", fabs(log10(div_v) - 1) <= 0.5);
     report_range(r, "Figure 8", "alpha = 0.01", "mean |div v|, control / cleaned", 10, div_v, 6, HUGE_VAL);
     snprintf(text, sizeof text, "%.2f times less", density);
-    report_claim(r, "Figure 9", "alpha = 0.01", "maximum density error", "reduced by a factor of two", text, "within sqrt(2) of 2",
-                 density >= sqrt(2.0) && density <= 2 * sqrt(2.0));
-    report_range(r, "Figure 9", "alpha = 0.01", "max |rho / rho0 - 1|, control / cleaned", 2, density, 1.4, HUGE_VAL);
-    snprintf(text, sizeof text, "%.2f %% of the first at most", 100 * kinetic_difference(o[CLEANED].at, o[CONTROL].at, SAMPLES));
-    report_claim(r, "Figure 10", "alpha = 0.01", "kinetic energy, control and cleaned", "no significant discrepancies", text, "< 5 % of the first",
+    report_claim(r, "Figure 9", "alpha = 0.01", "maximum density error", "reduced by a factor of two", text,
+                 "within sqrt(2) of 2", density >= sqrt(2.0) && density <= 2 * sqrt(2.0));
+    report_range(r, "Figure 9", "alpha = 0.01", "max |rho / rho0 - 1|, control / cleaned", 2, density, 1.4,
+                 HUGE_VAL);
+    snprintf(text, sizeof text, "%.2f %% of the first at most",
+             100 * kinetic_difference(o[CLEANED].at, o[CONTROL].at, SAMPLES));
+    report_claim(r, "Figure 10", "alpha = 0.01", "kinetic energy, control and cleaned",
+                 "no significant discrepancies", text, "< 5 % of the first",
                  kinetic_difference(o[CLEANED].at, o[CONTROL].at, SAMPLES) < 0.05);
     report_range(r, "Figure 10", "alpha = 0.01, t = 0.1", "|difference of the total energies| / first", 0,
                  fabs(energy_change(&o[CLEANED]) - energy_change(&o[CONTROL])), 0, 0.02);
     for (which = CONTROL; which <= CLEANED; which++) {
         for (k = 0; k <= half; k++) top[which] = fmax(top[which], o[which].at[k].axis[1]);
-        report_relative(r, "Figure 7", text_of(which ? "cleaned, alpha = %g" : "control, alpha = %g", 0.01), "first longest axis beside the ellipse's",
-                        sqrt(2 + sqrt(3.0)), top[which], 0.03);
-        report_range(r, "Figure 10", text_of(which ? "cleaned, to half a period, alpha = %g" : "control, to half a period, alpha = %g", 0.01),
-                     "kinetic energy - ellipse's, of the first", 0, kinetic_difference(o[which].at, ode, half), 0, 0.1);
+        report_relative(r, "Figure 7", text_of(which ? "cleaned, alpha = %g" : "control, alpha = %g", 0.01),
+                        "first longest axis beside the ellipse's", sqrt(2 + sqrt(3.0)), top[which], 0.03);
+        report_range(
+            r, "Figure 10",
+            text_of(which ? "cleaned, to half a period, alpha = %g" : "control, to half a period, alpha = %g",
+                    0.01),
+            "kinetic energy - ellipse's, of the first", 0, kinetic_difference(o[which].at, ode, half), 0,
+            0.1);
     }
-    report_info(r, "III-A", "control, alpha = 0.01", "cs / largest speed ('10 at least')", cs / o[CONTROL].fastest);
+    report_info(r, "III-A", "control, alpha = 0.01", "cs / largest speed ('10 at least')",
+                cs / o[CONTROL].fastest);
 }
 
 /* What depends on the viscosity, which the paper does not name */
@@ -498,14 +555,19 @@ static void depends(report *r, double alpha, const history *o)
     const double end = last * sample_step;
     char at[96], text[128];
     snprintf(at, sizeof at, "alpha = %g, to t = %g", alpha, end);
-    report_info(r, "Figure 8", at, "mean |div v|, control / cleaned", o[CONTROL].div_v[0] / o[CLEANED].div_v[0]);
-    report_info(r, "Figure 9", at, "max |rho / rho0 - 1|, control / cleaned", o[CONTROL].density[0] / o[CLEANED].density[0]);
-    report_info(r, "Figure 10", at, "largest difference of the kinetic energies, of the first", kinetic_difference(o[CLEANED].at, o[CONTROL].at, last));
+    report_info(r, "Figure 8", at, "mean |div v|, control / cleaned",
+                o[CONTROL].div_v[0] / o[CLEANED].div_v[0]);
+    report_info(r, "Figure 9", at, "max |rho / rho0 - 1|, control / cleaned",
+                o[CONTROL].density[0] / o[CLEANED].density[0]);
+    report_info(r, "Figure 10", at, "largest difference of the kinetic energies, of the first",
+                kinetic_difference(o[CLEANED].at, o[CONTROL].at, last));
     if (alpha > 0) return;
-    report_range(r, "Figure 10", at, "control: |change of the energy| / first", 0, fabs(energy_change(&o[CONTROL])), 0, 1e-3);
-    snprintf(text, sizeof text, "the control loses %.3f %% of its energy, the cleaned drop %.1f %%", -100 * energy_change(&o[CONTROL]),
-             -100 * energy_change(&o[CLEANED]));
-    report_claim_fails(r, "IV-D", at, "dissipation by cleaning", "'insignificant'", text, "so it is beside a control with viscosity only, which loses as much");
+    report_range(r, "Figure 10", at, "control: |change of the energy| / first", 0,
+                 fabs(energy_change(&o[CONTROL])), 0, 1e-3);
+    snprintf(text, sizeof text, "the control loses %.3f %% of its energy, the cleaned drop %.1f %%",
+             -100 * energy_change(&o[CONTROL]), -100 * energy_change(&o[CLEANED]));
+    report_claim_fails(r, "IV-D", at, "dissipation by cleaning", "'insignificant'", text,
+                       "so it is beside a control with viscosity only, which loses as much");
 }
 
 int main(int argc, char **argv)
@@ -523,7 +585,10 @@ int main(int argc, char **argv)
     static sample ode[SAMPLES + 1];
     FILE *curves, *shapes;
     int k, which;
-    options_parse(argc, argv, "The oscillating drop of the paper on divergence cleaning (figures 7 to 10): published against measured.", specs, 4);
+    options_parse(argc, argv,
+                  "The oscillating drop of the paper on divergence cleaning (figures 7 to 10): published "
+                  "against measured.",
+                  specs, 4);
     report_open(&r, "cleaning_drop", out);
     figure_folder(figures);
     curves = figure_open(figures, "cleaning_fig8");
@@ -532,13 +597,15 @@ int main(int argc, char **argv)
     fprintf(shapes, "alpha,run,t,x,y,density_error\n");
     exact(ode);
     for (k = 0; k <= SAMPLES; k++)
-        fprintf(curves, "0,ellipse,%.4f,0,0,%.9g,%.9g,%.9g,%.9g\n", k * sample_step, ode[k].kinetic, ode[k].total, ode[k].axis[0], ode[k].axis[1]);
+        fprintf(curves, "0,ellipse,%.4f,0,0,%.9g,%.9g,%.9g,%.9g\n", k * sample_step, ode[k].kinetic,
+                ode[k].total, ode[k].axis[0], ode[k].axis[1]);
     ellipse(&r, ode);
     for (k = 0; k < (int)(sizeof trials / sizeof *trials); k++) {
         const trial *const t = &trials[k];
         for (which = CONTROL; which <= CLEANED; which++) {
             drop d = drop_new(t->alpha, SPH_VISCOSITY_SIGNAL, which);
-            o[which] = integrate(&d, 0.3, full || k == 0 ? SAMPLES : SHORT, curves, k == 0 ? shapes : NULL, quiet);
+            o[which] =
+                integrate(&d, 0.3, full || k == 0 ? SAMPLES : SHORT, curves, k == 0 ? shapes : NULL, quiet);
             if (k == 0 && which == CLEANED) identities(&r, &d);
             drop_close(&d);
         }

@@ -13,7 +13,35 @@
  */
 #include "cleaning.h"
 
-enum { X, Y, Z, BX, BY, BZ, VX, VY, VZ, RBX, RBY, RBZ, AX, AY, AZ, ALPHA, BETA, GX, GY, GZ, QX, QY, QZ, KEPT_X, KEPT_Y, KEPT_Z, ARRAYS };
+enum {
+    X,
+    Y,
+    Z,
+    BX,
+    BY,
+    BZ,
+    VX,
+    VY,
+    VZ,
+    RBX,
+    RBY,
+    RBZ,
+    AX,
+    AY,
+    AZ,
+    ALPHA,
+    BETA,
+    GX,
+    GY,
+    GZ,
+    QX,
+    QY,
+    QZ,
+    KEPT_X,
+    KEPT_Y,
+    KEPT_Z,
+    ARRAYS
+};
 
 static const double radius = 0.35;
 
@@ -36,7 +64,8 @@ static cylinder cylinder_new(int layers)
     for (pass = 0; pass < 2; pass++) {
         int n = 0;
         for (i = 0; i < side * side * layers; i++) {
-            const double x = (i % side + 0.5 - side / 2) * c.dx, y = (i / side % side + 0.5 - side / 2) * c.dx;
+            const double x = (i % side + 0.5 - side / 2) * c.dx,
+                         y = (i / side % side + 0.5 - side / 2) * c.dx;
             if (hypot(x, y) > radius) continue;
             if (pass) {
                 c.a[ALPHA][n] = x;
@@ -59,9 +88,18 @@ static void cylinder_close(cylinder *c)
     free(c->a[0]);
     cleaning_lists_close(&c->lists);
 }
-static sph_points points(const cylinder *c) { return sph_points_periodic(sph_points_separate(c->n, c->a[X], c->a[Y], c->a[Z]), 0, 0, 1); }
-static sph_vectors vectors(const cylinder *c, int first) { return sph_vectors_separate(c->a[first], c->a[first + 1], c->a[first + 2]); }
-static sph_vector_out vectors_out(const cylinder *c, int first) { return sph_vector_out_separate(c->a[first], c->a[first + 1], c->a[first + 2]); }
+static sph_points points(const cylinder *c)
+{
+    return sph_points_periodic(sph_points_separate(c->n, c->a[X], c->a[Y], c->a[Z]), 0, 0, 1);
+}
+static sph_vectors vectors(const cylinder *c, int first)
+{
+    return sph_vectors_separate(c->a[first], c->a[first + 1], c->a[first + 2]);
+}
+static sph_vector_out vectors_out(const cylinder *c, int first)
+{
+    return sph_vector_out_separate(c->a[first], c->a[first + 1], c->a[first + 2]);
+}
 
 /* Places and velocities where the layers have turned by turn * sin 2 pi z, and the lists */
 static void turn_to(cylinder *c, double turn)
@@ -85,12 +123,16 @@ static void induction(cylinder *c)
     sph_mhd_out out = {0};
     s.gas.m = sph_scalars_same(&c->V);
     s.gas.rho = s.gas.omega = s.cs = sph_scalars_same(&one);
-    s.P = s.u = s.alpha = s.alpha_B = sph_scalars_same(&nought);
+    s.p = s.u = s.alpha = s.alpha_B = sph_scalars_same(&nought);
     s.v = vectors(c, VX);
-    s.B = vectors(c, BX);
+    s.field = vectors(c, BX);
     out.acceleration = vectors_out(c, AX);
     out.rate_B = vectors_out(c, RBX);
-    cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 3, sph_cloud_range(sph_cloud_of(points(c), cleaning_list(&c->lists), sph_scalars_same(&c->h), sph_scalars_none()), 0, c->n), s, out));
+    cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 3,
+                                  sph_cloud_range(sph_cloud_of(points(c), cleaning_list(&c->lists),
+                                                               sph_scalars_same(&c->h), sph_scalars_none()),
+                                                  0, c->n),
+                                  s, out));
 }
 static void step(cylinder *c, double turn, double change) /* midpoint rule */
 {
@@ -123,16 +165,26 @@ static match compare(cylinder *c, int way, double turn)
     int i;
     turn_to(c, turn);
     if (way == POTENTIALS) {
-        cleaning_expect(sph_gradient_cspm(SPH_CUBIC_SPLINE, 3, sph_cloud_range(sph_cloud_of(points(c), cleaning_list(&c->lists), h, V), 0, c->n), sph_scalars_array(c->a[ALPHA]), c->a[GX], c->a[GY], c->a[GZ], NULL, NULL));
-        cleaning_expect(sph_gradient_cspm(SPH_CUBIC_SPLINE, 3, sph_cloud_range(sph_cloud_of(points(c), cleaning_list(&c->lists), h, V), 0, c->n), sph_scalars_array(c->a[BETA]), c->a[QX], c->a[QY], c->a[QZ], NULL, NULL));
+        cleaning_expect(sph_gradient_cspm(
+            SPH_CUBIC_SPLINE, 3,
+            sph_cloud_range(sph_cloud_of(points(c), cleaning_list(&c->lists), h, V), 0, c->n),
+            sph_scalars_array(c->a[ALPHA]),
+            (sph_derivative_out){.gx = c->a[GX], .gy = c->a[GY], .gz = c->a[GZ]}));
+        cleaning_expect(sph_gradient_cspm(
+            SPH_CUBIC_SPLINE, 3,
+            sph_cloud_range(sph_cloud_of(points(c), cleaning_list(&c->lists), h, V), 0, c->n),
+            sph_scalars_array(c->a[BETA]),
+            (sph_derivative_out){.gx = c->a[QX], .gy = c->a[QY], .gz = c->a[QZ]}));
     }
     for (i = 0; i < c->n; i++) {
-        const double x = c->a[X][i], y = c->a[Y][i], r = hypot(x, y), bend = 2 * MATH_PI * turn * cos(2 * MATH_PI * c->a[Z][i]), exact = r * bend;
+        const double x = c->a[X][i], y = c->a[Y][i], r = hypot(x, y),
+                     bend = 2 * MATH_PI * turn * cos(2 * MATH_PI * c->a[Z][i]), exact = r * bend;
         sph_vec B;
         double own;
         if (r > radius - sph_kernel_support(SPH_CUBIC_SPLINE) * c->h) continue;
         if (way == POTENTIALS) {
-            const sph_vec p = {c->a[GX][i], c->a[GY][i], c->a[GZ][i]}, q = {c->a[QX][i], c->a[QY][i], c->a[QZ][i]};
+            const sph_vec p = {c->a[GX][i], c->a[GY][i], c->a[GZ][i]},
+                          q = {c->a[QX][i], c->a[QY][i], c->a[QZ][i]};
             B = sph_euler_potentials(p, q);
         } else {
             B.x = c->a[BX][i];
@@ -176,7 +228,8 @@ static double run(int layers, match o[WAYS][SAMPLES + 1], FILE *curves, int quie
     cylinder_close(&c);
     for (way = 0; way < WAYS; way++)
         for (k = 1; k <= SAMPLES; k++)
-            fprintf(curves, "%s,%d,%.4g,%.6g,%.6g\n", way_name[way], layers, (double)k * EVERY / PER_WINDING, o[way][k].kept, o[way][k].error);
+            fprintf(curves, "%s,%d,%.4g,%.6g,%.6g\n", way_name[way], layers, (double)k * EVERY / PER_WINDING,
+                    o[way][k].kept, o[way][k].error);
     return half;
 }
 
@@ -196,7 +249,8 @@ int main(int argc, char **argv)
     match o[WAYS][SAMPLES + 1];
     double half[SIZES];
     FILE *curves;
-    options_parse(argc, argv, "Euler potentials in three dimensions where the flow winds the field up.", specs, 4);
+    options_parse(argc, argv, "Euler potentials in three dimensions where the flow winds the field up.",
+                  specs, 4);
     report_open(&r, "cleaning_euler_potentials", out);
     figure_folder(figures);
     curves = figure_open(figures, "cleaning_euler_potentials_windings");
@@ -212,28 +266,38 @@ int main(int argc, char **argv)
             char what[64];
             worst = fmax(worst, o[INDUCTION][k].error);
             snprintf(what, sizeof what, "azimuthal field after %g windings", (double)k / per);
-            snprintf(text, sizeof text, "potentials: %.1f %% left, error %.1f %%; induction equation: %.1f %%, %.1f %%", 100 * o[POTENTIALS][k].kept,
-                     100 * o[POTENTIALS][k].error, 100 * o[INDUCTION][k].kept, 100 * o[INDUCTION][k].error);
+            snprintf(text, sizeof text,
+                     "potentials: %.1f %% left, error %.1f %%; induction equation: %.1f %%, %.1f %%",
+                     100 * o[POTENTIALS][k].kept, 100 * o[POTENTIALS][k].error, 100 * o[INDUCTION][k].kept,
+                     100 * o[INDUCTION][k].error);
             report_row(&r, "II-A1", at, what, NULL, text, NULL, NULL, REPORT_INFO);
         }
         if (a == 0) {
-            snprintf(text, sizeof text, "%.0f %% of the field are left after one, %.0f %% after two, %.0f %% after three", 100 * o[POTENTIALS][per].kept,
-                     100 * o[POTENTIALS][2 * per].kept, 100 * o[POTENTIALS][3 * per].kept);
-            report_claim(&r, "II-A1", at, "windings by Euler potentials", "cannot be modelled past one rotation", text, "< 25 % after two, < 5 % after three",
+            snprintf(text, sizeof text,
+                     "%.0f %% of the field are left after one, %.0f %% after two, %.0f %% after three",
+                     100 * o[POTENTIALS][per].kept, 100 * o[POTENTIALS][2 * per].kept,
+                     100 * o[POTENTIALS][3 * per].kept);
+            report_claim(&r, "II-A1", at, "windings by Euler potentials",
+                         "cannot be modelled past one rotation", text, "< 25 % after two, < 5 % after three",
                          o[POTENTIALS][2 * per].kept < 0.25 && o[POTENTIALS][3 * per].kept < 0.05);
         }
-        report_range(&r, "II-A1", at, "windings after which potentials have lost half of it", 1, half[a], 0.07 * layers[a], 0.08 * layers[a]);
-        report_range(&r, "(7)", at, "largest error of the induction equation, to three windings", 0, worst, 0, 0.05);
+        report_range(&r, "II-A1", at, "windings after which potentials have lost half of it", 1, half[a],
+                     0.07 * layers[a], 0.08 * layers[a]);
+        report_range(&r, "(7)", at, "largest error of the induction equation, to three windings", 0, worst, 0,
+                     0.05);
         /* its error is that of grad v, which has nothing to do with windings */
-        report_range(&r, "(7)", at, "its error after three windings / after a quarter", 1, o[INDUCTION][SAMPLES].error / o[INDUCTION][1].error, 0, 1.2);
+        report_range(&r, "(7)", at, "its error after three windings / after a quarter", 1,
+                     o[INDUCTION][SAMPLES].error / o[INDUCTION][1].error, 0, 1.2);
     }
     figure_close(curves);
     report_section(&r, "Resolution");
     for (a = 0; a + 1 < (full ? SIZES : SIZES - 1); a++) {
         char at[64];
         snprintf(at, sizeof at, "%d and %d layers", layers[a], layers[a + 1]);
-        report_relative(&r, "II-A1", at, "windings until half is lost, per layer: ratio (what is lost is a matter of layers per winding)", 1,
-                        half[a + 1] / half[a] * layers[a] / layers[a + 1], 0.03);
+        report_relative(
+            &r, "II-A1", at,
+            "windings until half is lost, per layer: ratio (what is lost is a matter of layers per winding)",
+            1, half[a + 1] / half[a] * layers[a] / layers[a + 1], 0.03);
     }
     return report_close(&r) ? 1 : 0;
 }

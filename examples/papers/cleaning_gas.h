@@ -14,17 +14,43 @@
 #include <string.h>
 
 /* what evolves, with a rate each; then what follows from it */
-enum { X, Y, Z, VX, VY, VZ, BX, BY, BZ, U, PSI, ALPHA, EVOLVED, H = EVOLVED, RHO, OMEGA, M, P, CS, SPEED, DIV_V, DIV_B, REACH, ARRAYS };
+enum {
+    X,
+    Y,
+    Z,
+    VX,
+    VY,
+    VZ,
+    BX,
+    BY,
+    BZ,
+    U,
+    PSI,
+    ALPHA,
+    EVOLVED,
+    H = EVOLVED,
+    RHO,
+    OMEGA,
+    M,
+    P,
+    CS,
+    SPEED,
+    DIV_V,
+    DIV_B,
+    REACH,
+    ARRAYS
+};
 
 typedef struct gas {
-    int dim, parts;                             /* components of v and B: dim, or 3 */
-    sph_index n, free;                          /* particles; the first `free` of them move, the others keep their state */
-    double gamma, box[3];                       /* periodic lengths, 0: open */
-    double alpha[2], alpha_u, alpha_B, tensile; /* range of the viscosity; the conductivity; the resistivity; what is subtracted of (9) */
-    double sigma, overclean, ch;                /* damping; ch is `overclean` times the largest fast speed */
-    int cleans, form;                           /* form: CONJUGATE or DIFFERENCES */
-    int still;                                  /* -psi div v / 2, (25), is left out */
-    double left;                                /* the rate of the energy that leaving it out makes */
+    int dim, parts;       /* components of v and B: dim, or 3 */
+    sph_index n, free;    /* particles; the first `free` of them move, the others keep their state */
+    double gamma, box[3]; /* periodic lengths, 0: open */
+    double alpha[2], alpha_u, alpha_B,
+        tensile; /* range of the viscosity; the conductivity; the resistivity; what is subtracted of (9) */
+    double sigma, overclean, ch; /* damping; ch is `overclean` times the largest fast speed */
+    int cleans, form;            /* form: CONJUGATE or DIFFERENCES */
+    int still;                   /* -psi div v / 2, (25), is left out */
+    double left;                 /* the rate of the energy that leaving it out makes */
     cleaning_lists lists;
     double *a[ARRAYS], *rate[EVOLVED], *before[EVOLVED];
     unsigned char *status;
@@ -67,14 +93,18 @@ static inline void gas_close(gas *g)
 }
 static inline sph_points gas_points(const gas *g)
 {
-    return sph_points_periodic(sph_points_separate(g->n, g->a[X], g->a[Y], g->a[Z]), g->box[0], g->box[1], g->box[2]);
+    return sph_points_periodic(sph_points_separate(g->n, g->a[X], g->a[Y], g->a[Z]), g->box[0], g->box[1],
+                               g->box[2]);
 }
 static inline sph_scalars gas_field(const gas *g, int which) { return sph_scalars_array(g->a[which]); }
 static inline sph_vectors gas_vectors(const gas *g, int first, int parts)
 {
     return sph_vectors_separate(g->a[first], g->a[first + 1], parts > 2 ? g->a[first + 2] : NULL);
 }
-static inline sph_vector_out gas_out(double *const *first) { return sph_vector_out_separate(first[0], first[1], first[2]); }
+static inline sph_vector_out gas_out(double *const *first)
+{
+    return sph_vector_out_separate(first[0], first[1], first[2]);
+}
 static inline sph_gas gas_densities(const gas *g)
 {
     sph_gas s;
@@ -86,12 +116,14 @@ static inline sph_gas gas_densities(const gas *g)
 /* of the vector whose first component is array number `first` */
 static inline double gas_square(const gas *g, int first, sph_index i)
 {
-    return g->a[first][i] * g->a[first][i] + g->a[first + 1][i] * g->a[first + 1][i] + g->a[first + 2][i] * g->a[first + 2][i];
+    return g->a[first][i] * g->a[first][i] + g->a[first + 1][i] * g->a[first + 1][i] +
+           g->a[first + 2][i] * g->a[first + 2][i];
 }
 /* The first particle whose state is no number is named. */
 static inline void gas_well(const gas *g, sph_index answer)
 {
-    static const char *const name[EVOLVED] = {"x", "y", "z", "vx", "vy", "vz", "Bx", "By", "Bz", "u", "psi", "alpha"};
+    static const char *const name[EVOLVED] = {"x",  "y",  "z",  "vx", "vy",  "vz",
+                                              "Bx", "By", "Bz", "u",  "psi", "alpha"};
     cleaning_well(answer, g->run, g->t, g->a, name, EVOLVED, gas_points(g));
 }
 
@@ -110,18 +142,27 @@ static inline void gas_lists(gas *g)
 }
 SPH_FN sph_index gas_density_in(int dim, gas *g, sph_index last)
 {
-    return sph_density_adaptive(SPH_CUBIC_SPLINE, dim, sph_cloud_range(sph_cloud_of(gas_points(g), cleaning_list(&g->lists), sph_scalars_none(), sph_scalars_none()), 0, last), gas_field(g, REACH), gas_field(g, M), CLEANING_ETA, 1e-4, g->a[H], g->a[RHO], g->a[OMEGA], g->status);
+    return sph_density_adaptive(
+        SPH_CUBIC_SPLINE, dim,
+        sph_cloud_range(
+            sph_cloud_of(gas_points(g), cleaning_list(&g->lists), sph_scalars_none(), sph_scalars_none()), 0,
+            last),
+        gas_field(g, M),
+        (sph_density_options){.reach = gas_field(g, REACH), .eta = CLEANING_ETA, .tolerance = 1e-4},
+        (sph_density_out){.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status});
 }
 /* (4), (5) for the particles before `last` */
 static inline void gas_density(gas *g, sph_index last)
 {
     sph_index i, failed;
     gas_lists(g);
-    while ((failed = g->dim == 2 ? gas_density_in(2, g, last) : gas_density_in(3, g, last)) > 0) { /* an h outgrew its list */
+    while ((failed = g->dim == 2 ? gas_density_in(2, g, last) : gas_density_in(3, g, last)) >
+           0) { /* an h outgrew its list */
         for (i = 0; i < last; i++)
             if (g->status[i] != SPH_OK && g->status[i] != SPH_LIST_TOO_SHORT) {
-                fprintf(stderr, "\n%s, t = %g: density of particle %ld at (%g, %g, %g): %s; the run stops\n", g->run, g->t, (long)i, g->a[X][i], g->a[Y][i],
-                        g->a[Z][i], sph_status_text(g->status[i]));
+                fprintf(stderr, "\n%s, t = %g: density of particle %ld at (%g, %g, %g): %s; the run stops\n",
+                        g->run, g->t, (long)i, g->a[X][i], g->a[Y][i], g->a[Z][i],
+                        sph_status_text(g->status[i]));
                 exit(1);
             }
         gas_lists(g);
@@ -138,12 +179,12 @@ SPH_FN sph_index gas_rates_in(int dim, gas *g)
     sph_index failed;
     memset(&out, 0, sizeof out);
     s.gas = gas_densities(g);
-    s.P = gas_field(g, P);
+    s.p = gas_field(g, P);
     s.u = gas_field(g, U);
     s.cs = gas_field(g, CS);
     s.alpha = gas_field(g, ALPHA);
     s.v = gas_vectors(g, VX, g->parts);
-    s.B = gas_vectors(g, BX, g->parts);
+    s.field = gas_vectors(g, BX, g->parts);
     s.psi = sph_scalars_array(g->cleans && !other ? g->a[PSI] : NULL);
     s.ch = g->ch;
     s.sigma = g->sigma;
@@ -158,11 +199,22 @@ SPH_FN sph_index gas_rates_in(int dim, gas *g)
     out.div_B = g->a[DIV_B];
     out.div_v = g->a[DIV_V];
     out.v_sig = g->a[SPEED];
-    failed = sph_mhd_rates(SPH_CUBIC_SPLINE, dim, sph_cloud_range(sph_cloud_of(x, l, gas_field(g, H), sph_scalars_none()), 0, g->free), s, out);
+    failed = sph_mhd_rates(
+        SPH_CUBIC_SPLINE, dim,
+        sph_cloud_range(sph_cloud_of(x, l, gas_field(g, H), sph_scalars_none()), 0, g->free), s, out);
     if (failed == 0 && other) { /* its rates of B in the place of those of x, which come last */
         sph_index i;
         int k;
-        failed = sph_cleaning_rates_nonconservative(SPH_CUBIC_SPLINE, dim, sph_cloud_range(sph_cloud_of(x, l, gas_field(g, H), sph_scalars_none()), 0, g->free), s.gas, gas_vectors(g, BX, dim), gas_field(g, PSI), gas_field(g, DIV_V), g->ch, g->sigma, gas_out(g->rate + X), g->rate[PSI], NULL);
+        failed = sph_cleaning_rates_nonconservative(
+            SPH_CUBIC_SPLINE, dim,
+            sph_cloud_range(sph_cloud_of(x, l, gas_field(g, H), sph_scalars_none()), 0, g->free),
+            (sph_cleaning){.gas = s.gas,
+                           .field = gas_vectors(g, BX, dim),
+                           .psi = gas_field(g, PSI),
+                           .div_v = gas_field(g, DIV_V),
+                           .ch = g->ch,
+                           .sigma = g->sigma},
+            (sph_cleaning_out){.rate_B = gas_out(g->rate + X), .rate_psi = g->rate[PSI]});
         for (k = 0; k < dim; k++)
             for (i = 0; i < g->free; i++) g->rate[BX + k][i] += g->rate[X + k][i];
     }
@@ -188,7 +240,9 @@ static inline void gas_rates(gas *g, int renew)
     g->left = 0;
     for (i = 0; i < g->free; i++) {
         for (k = 0; k < g->dim; k++) g->rate[X + k][i] = g->a[VX + k][i];
-        g->rate[ALPHA][i] = sph_viscosity_switch_rate(g->a[ALPHA][i], g->alpha[0], g->alpha[1], g->a[SPEED][i], g->a[H][i], g->a[DIV_V][i]);
+        g->rate[ALPHA][i] = sph_viscosity_switch_rate(
+            (sph_switch){.alpha = g->a[ALPHA][i], .least = g->alpha[0], .most = g->alpha[1]}, g->a[SPEED][i],
+            g->a[H][i], g->a[DIV_V][i]);
         if (g->cleans && g->still) {
             const double term = 0.5 * g->a[PSI][i] * g->a[DIV_V][i];
             g->rate[PSI][i] += term;
@@ -216,7 +270,8 @@ static inline double gas_longest_step(const gas *g, double courant)
     sph_index i;
     for (i = 0; i < g->free; i++) {
         const double speed = g->cleans ? fmax(g->a[SPEED][i], g->ch) : g->a[SPEED][i];
-        const double a = sqrt(g->rate[VX][i] * g->rate[VX][i] + g->rate[VY][i] * g->rate[VY][i] + g->rate[VZ][i] * g->rate[VZ][i]);
+        const double a = sqrt(g->rate[VX][i] * g->rate[VX][i] + g->rate[VY][i] * g->rate[VY][i] +
+                              g->rate[VZ][i] * g->rate[VZ][i]);
         dt = fmin(dt, fmin(g->a[H][i] / speed, 0.8 * sqrt(g->a[H][i] / a)));
     }
     return courant * dt;
@@ -230,7 +285,9 @@ static inline void gas_step(gas *g, double dt)
     memcpy(g->before[0], g->a[0], (size_t)EVOLVED * (size_t)g->n * sizeof(double));
     for (stage = 0; stage < 3; stage++) {
         for (k = 0; k < EVOLVED; k++)
-            for (i = 0; i < g->free; i++) g->a[k][i] = kept[stage] * g->before[k][i] + (1 - kept[stage]) * (g->a[k][i] + dt * g->rate[k][i]);
+            for (i = 0; i < g->free; i++)
+                g->a[k][i] =
+                    kept[stage] * g->before[k][i] + (1 - kept[stage]) * (g->a[k][i] + dt * g->rate[k][i]);
         if (stage == 2) g->t += dt;
         gas_rates(g, stage == 2);
     }
@@ -240,8 +297,8 @@ static inline void gas_step(gas *g, double dt)
 
 typedef struct gas_sums {
     double kinetic, thermal, magnetic, psi, total; /* energies; psi: sum m psi^2 / (2 rho ch^2) */
-    double error, largest, robust;                 /* h |div B| / |B|: mean, largest; and the ratio of means */
-    double div_B;                                  /* largest |div B| */
+    double error, largest, robust; /* h |div B| / |B|: mean, largest; and the ratio of means */
+    double div_B;                  /* largest |div B| */
 } gas_sums;
 
 /* Of the particles that move; div B in difference form as of the last rates */

@@ -35,7 +35,27 @@
 
 /* what evolves, with a rate each; then what follows from it */
 enum { VX, VY, BX, BY, U, PSI, ALPHA, POTENTIAL, EVOLVED };
-enum { X = EVOLVED, Y, H, RHO, OMEGA, P, CS, SPEED, DIV_V, DIV_B, VOLUME, X_THEN, Y_THEN, REACH, RADIUS, SCRATCH, SCRATCH_X, SCRATCH_Y, ARRAYS };
+enum {
+    X = EVOLVED,
+    Y,
+    H,
+    RHO,
+    OMEGA,
+    P,
+    CS,
+    SPEED,
+    DIV_V,
+    DIV_B,
+    VOLUME,
+    X_THEN,
+    Y_THEN,
+    REACH,
+    RADIUS,
+    SCRATCH,
+    SCRATCH_X,
+    SCRATCH_Y,
+    ARRAYS
+};
 static const char *const evolved_name[EVOLVED] = {"vx", "vy", "Bx", "By", "u", "psi", "alpha", "A"};
 
 typedef enum cleaning { NO_CLEANING, CONJUGATE, NONCONSERVATIVE } cleaning;
@@ -123,8 +143,14 @@ static void gas_free(gas *g)
     free(g->work);
 }
 static sph_scalars field(const gas *g, int which) { return sph_scalars_array(g->a[which]); }
-static sph_vectors vectors(const gas *g, int which) { return sph_vectors_separate(g->a[which], g->a[which + 1], NULL); }
-static sph_points points_at(const gas *g, int x) { return sph_points_periodic(sph_points_separate(g->n, g->a[x], g->a[x + 1], NULL), 1, 1, 0); }
+static sph_vectors vectors(const gas *g, int which)
+{
+    return sph_vectors_separate(g->a[which], g->a[which + 1], NULL);
+}
+static sph_points points_at(const gas *g, int x)
+{
+    return sph_points_periodic(sph_points_separate(g->n, g->a[x], g->a[x + 1], NULL), 1, 1, 0);
+}
 static sph_points points(const gas *g) { return points_at(g, X); }
 static sph_list list(const gas *g)
 {
@@ -133,6 +159,11 @@ static sph_list list(const gas *g)
     l.index = g->index;
     return l;
 }
+static sph_cloud cloud_of(const gas *g)
+{
+    return sph_cloud_of(points(g), list(g), field(g, H), field(g, VOLUME));
+}
+
 static sph_gas densities(const gas *g)
 {
     sph_gas s;
@@ -146,12 +177,12 @@ static sph_mhd magnetised(const gas *g, const plan *c, int cleans)
     static const double none = 0;
     sph_mhd s;
     s.gas = densities(g);
-    s.P = field(g, P);
+    s.p = field(g, P);
     s.u = field(g, U);
     s.cs = field(g, CS);
     s.alpha = field(g, ALPHA);
     s.v = vectors(g, VX);
-    s.B = vectors(g, BX);
+    s.field = vectors(g, BX);
     s.psi = sph_scalars_array(cleans ? g->a[PSI] : NULL);
     s.ch = g->ch;
     s.sigma = c->sigma;
@@ -171,7 +202,9 @@ static sph_index everywhere(sweep work, gas *g, const plan *c)
     enum { PIECES = 64 };
     sph_index k;
 #pragma omp parallel for schedule(dynamic) reduction(+ : failed)
-    for (k = 0; k < PIECES; k++) failed += work(g, c, (sph_index)((int64_t)g->n * k / PIECES), (sph_index)((int64_t)g->n * (k + 1) / PIECES));
+    for (k = 0; k < PIECES; k++)
+        failed += work(g, c, (sph_index)((int64_t)g->n * k / PIECES),
+                       (sph_index)((int64_t)g->n * (k + 1) / PIECES));
 #else
     failed = work(g, c, 0, g->n);
 #endif
@@ -198,8 +231,8 @@ static void gas_lists(gas *g)
         widest = fmax(widest, g->a[RADIUS][i]);
     }
     expect(sph_grid_build(2, points(g), widest, g->work, g->work_size, &grid), "sph_grid_build");
-    while ((answer = sph_grid_lists(2, &grid, points(g), SPH_LARGER, field(g, RADIUS), field(g, RADIUS), 0, g->start, g->index, g->capacity, &g->pairs)) ==
-               SPH_ERROR_CAPACITY ||
+    while ((answer = sph_grid_lists(2, &grid, points(g), SPH_LARGER, field(g, RADIUS), field(g, RADIUS), 0,
+                                    g->start, g->index, g->capacity, &g->pairs)) == SPH_ERROR_CAPACITY ||
            !g->index) {
         g->capacity = g->pairs + g->pairs / 8;
         g->index = (sph_index *)memory(g->index, (size_t)g->capacity * sizeof *g->index);
@@ -210,7 +243,10 @@ static void gas_lists(gas *g)
 static sph_index density_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
     (void)c;
-    return sph_density_adaptive(KERNEL, 2, sph_cloud_range(sph_cloud_of(points(g), list(g), sph_scalars_none(), sph_scalars_none()), first, last), field(g, REACH), sph_scalars_same(&g->m), 1.2, TOLERANCE, g->a[H], g->a[RHO], g->a[OMEGA], g->status);
+    return sph_density_adaptive(
+        KERNEL, 2, sph_cloud_range(cloud_of(g), first, last), sph_scalars_same(&g->m),
+        (sph_density_options){.reach = field(g, REACH), .eta = 1.2, .tolerance = TOLERANCE},
+        (sph_density_out){.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status});
 }
 static void gas_density(gas *g, double t)
 {
@@ -235,7 +271,8 @@ static void gas_density(gas *g, double t)
 static sph_index gradient_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
     (void)c;
-    return sph_gradient_cspm(KERNEL, 2, sph_cloud_range(sph_cloud_of(points(g), list(g), field(g, H), field(g, VOLUME)), first, last), field(g, POTENTIAL), g->a[SCRATCH_X], g->a[SCRATCH_Y], NULL, NULL, NULL);
+    return sph_gradient_cspm(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last), field(g, POTENTIAL),
+                             (sph_derivative_out){.gx = g->a[SCRATCH_X], .gy = g->a[SCRATCH_Y]});
 }
 /* B = grad A x e_z by the gradient that is exact for linear fields */
 static void euler_field(gas *g, const plan *c)
@@ -245,7 +282,8 @@ static void euler_field(gas *g, const plan *c)
     for (i = 0; i < g->n; i++) g->a[VOLUME][i] = g->m / g->a[RHO][i];
     expect(everywhere(gradient_sweep, g, c), "sph_gradient_cspm");
     for (i = 0; i < g->n; i++) {
-        const sph_vec gradient = {g->a[SCRATCH_X][i], g->a[SCRATCH_Y][i], 0}, B = sph_euler_potentials(gradient, along);
+        const sph_vec gradient = {g->a[SCRATCH_X][i], g->a[SCRATCH_Y][i], 0},
+                      B = sph_euler_potentials(gradient, along);
         g->a[BX][i] = B.x;
         g->a[BY][i] = B.y;
     }
@@ -260,12 +298,18 @@ static sph_index diffusion_sweep(gas *g, const plan *c, sph_index first, sph_ind
         for (p = g->start[i]; p < g->start[i + 1]; p++) {
             const sph_index j = g->index[p];
             const sph_vec B_j = {g->a[BX][j], g->a[BY][j], 0};
-            const double sx = g->a[X][i] - g->a[X][j], sy = g->a[Y][i] - g->a[Y][j], dx = sx - (sx > 0.5) + (sx < -0.5), dy = sy - (sy > 0.5) + (sy < -0.5),
-                         r = sqrt(dx * dx + dy * dy), w = ((g->a[VX][i] - g->a[VX][j]) * dx + (g->a[VY][i] - g->a[VY][j]) * dy) / r;
-            const double G = 0.5 * (sph_kernel_f(KERNEL, 2, r, g->a[H][i]) / g->a[OMEGA][i] + sph_kernel_f(KERNEL, 2, r, g->a[H][j]) / g->a[OMEGA][j]);
-            const double v_sig = sph_mhd_signal_speed(sph_mhd_fast_speed(g->a[CS][i], B_i, g->a[RHO][i], (B_i.x * dx + B_i.y * dy) / r),
-                                                      sph_mhd_fast_speed(g->a[CS][j], B_j, g->a[RHO][j], (B_j.x * dx + B_j.y * dy) / r), 2, w);
-            sum += v_sig / (0.5 * (g->a[RHO][i] + g->a[RHO][j])) * (g->a[POTENTIAL][i] - g->a[POTENTIAL][j]) * G * r;
+            const double sx = g->a[X][i] - g->a[X][j], sy = g->a[Y][i] - g->a[Y][j],
+                         dx = sx - (sx > 0.5) + (sx < -0.5), dy = sy - (sy > 0.5) + (sy < -0.5),
+                         r = sqrt(dx * dx + dy * dy),
+                         w = ((g->a[VX][i] - g->a[VX][j]) * dx + (g->a[VY][i] - g->a[VY][j]) * dy) / r;
+            const double G = 0.5 * (sph_kernel_f(KERNEL, 2, r, g->a[H][i]) / g->a[OMEGA][i] +
+                                    sph_kernel_f(KERNEL, 2, r, g->a[H][j]) / g->a[OMEGA][j]);
+            const double v_sig = sph_mhd_signal_speed(
+                sph_mhd_fast_speed(g->a[CS][i], B_i, g->a[RHO][i], (B_i.x * dx + B_i.y * dy) / r),
+                sph_mhd_fast_speed(g->a[CS][j], B_j, g->a[RHO][j], (B_j.x * dx + B_j.y * dy) / r),
+                2 * SPHI_ABS(w));
+            sum += v_sig / (0.5 * (g->a[RHO][i] + g->a[RHO][j])) * (g->a[POTENTIAL][i] - g->a[POTENTIAL][j]) *
+                   G * r;
         }
         g->rate[POTENTIAL][i] = c->alpha_B * g->m * sum;
     }
@@ -281,11 +325,21 @@ static sph_index rates_sweep(gas *g, const plan *c, sph_index first, sph_index l
     out.div_B = g->a[DIV_B];
     out.div_v = g->a[DIV_V];
     out.v_sig = g->a[SPEED];
-    return sph_mhd_rates(KERNEL, 2, sph_cloud_range(sph_cloud_of(points(g), list(g), field(g, H), sph_scalars_none()), first, last), magnetised(g, c, c->cleans == CONJUGATE), out);
+    return sph_mhd_rates(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last),
+                         magnetised(g, c, c->cleans == CONJUGATE), out);
 }
 static sph_index nonconservative_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
-    return sph_cleaning_rates_nonconservative(KERNEL, 2, sph_cloud_range(sph_cloud_of(points(g), list(g), field(g, H), sph_scalars_none()), first, last), densities(g), vectors(g, BX), field(g, PSI), field(g, DIV_V), g->ch, c->sigma, sph_vector_out_separate(g->a[SCRATCH_X], g->a[SCRATCH_Y], NULL), g->rate[PSI], NULL);
+    return sph_cleaning_rates_nonconservative(
+        KERNEL, 2, sph_cloud_range(cloud_of(g), first, last),
+        (sph_cleaning){.gas = densities(g),
+                       .field = vectors(g, BX),
+                       .psi = field(g, PSI),
+                       .div_v = field(g, DIV_V),
+                       .ch = g->ch,
+                       .sigma = c->sigma},
+        (sph_cleaning_out){.rate_B = sph_vector_out_separate(g->a[SCRATCH_X], g->a[SCRATCH_Y], NULL),
+                           .rate_psi = g->rate[PSI]});
 }
 
 /* what follows from u, rho and B */
@@ -294,7 +348,8 @@ static void gas_state(gas *g, const plan *c)
     sph_index i;
     double fastest = 0;
     for (i = 0; i < g->n; i++) {
-        const double B2 = g->a[BX][i] * g->a[BX][i] + g->a[BY][i] * g->a[BY][i], cs2 = GAMMA * (GAMMA - 1) * fmax(g->a[U][i], 0);
+        const double B2 = g->a[BX][i] * g->a[BX][i] + g->a[BY][i] * g->a[BY][i],
+                     cs2 = GAMMA * (GAMMA - 1) * fmax(g->a[U][i], 0);
         g->a[P][i] = (GAMMA - 1) * g->a[RHO][i] * g->a[U][i];
         g->a[CS][i] = sqrt(cs2);
         fastest = fmax(fastest, cs2 + B2 / g->a[RHO][i]);
@@ -318,7 +373,10 @@ static void gas_rates(gas *g, const plan *c, double t)
             g->rate[BY][i] += g->a[SCRATCH_Y][i];
         }
     }
-    for (i = 0; i < g->n; i++) g->rate[ALPHA][i] = sph_viscosity_switch_rate(g->a[ALPHA][i], 0.1, 2, g->a[SPEED][i], g->a[H][i], g->a[DIV_V][i]);
+    for (i = 0; i < g->n; i++)
+        g->rate[ALPHA][i] =
+            sph_viscosity_switch_rate((sph_switch){.alpha = g->a[ALPHA][i], .least = 0.1, .most = 2},
+                                      g->a[SPEED][i], g->a[H][i], g->a[DIV_V][i]);
     g->cpu[RATES] += (double)(clock() - mark) / CLOCKS_PER_SEC;
 }
 
@@ -330,7 +388,8 @@ static double gas_longest_step(const gas *g, const plan *c, double courant, sph_
     sph_index i;
     for (i = 0; i < g->n; i++) {
         const double speed = c->cleans ? fmax(g->a[SPEED][i], g->ch) : g->a[SPEED][i];
-        const double own = fmin(g->a[H][i] / speed, 0.8 * sqrt(g->a[H][i] / hypot(g->rate[VX][i], g->rate[VY][i])));
+        const double own =
+            fmin(g->a[H][i] / speed, 0.8 * sqrt(g->a[H][i] / hypot(g->rate[VX][i], g->rate[VY][i])));
         if (own < dt) {
             dt = own;
             *shortest = i;
@@ -366,8 +425,12 @@ static int gas_is_broken(const gas *g, double t, char reason[REASON])
     int f;
     for (i = 0; i < g->n; i++) {
         for (f = 0; f < EVOLVED && isfinite(g->a[f][i]); f++) {}
-        if (f < EVOLVED) snprintf(reason, REASON, "%s of particle %ld is not finite at t = %.6g", evolved_name[f], (long)i, t);
-        else if (g->a[U][i] <= 0) snprintf(reason, REASON, "the thermal energy of particle %ld is %g at t = %.6g", (long)i, g->a[U][i], t);
+        if (f < EVOLVED)
+            snprintf(reason, REASON, "%s of particle %ld is not finite at t = %.6g", evolved_name[f], (long)i,
+                     t);
+        else if (g->a[U][i] <= 0)
+            snprintf(reason, REASON, "the thermal energy of particle %ld is %g at t = %.6g", (long)i,
+                     g->a[U][i], t);
         else continue;
         return 1;
     }
@@ -392,7 +455,8 @@ static void vortex(gas *g, const plan *c, int side, double skin)
         g->a[VY][i] = sin(2 * MATH_PI * x);
         g->a[BX][i] = -B0 * sin(2 * MATH_PI * y);
         g->a[BY][i] = B0 * sin(4 * MATH_PI * x);
-        g->a[POTENTIAL][i] = B0 / (2 * MATH_PI) * (cos(2 * MATH_PI * y) + 0.5 * cos(4 * MATH_PI * x)); /* B = (dA/dy, -dA/dx) */
+        g->a[POTENTIAL][i] = B0 / (2 * MATH_PI) *
+                             (cos(2 * MATH_PI * y) + 0.5 * cos(4 * MATH_PI * x)); /* B = (dA/dy, -dA/dx) */
         g->a[U][i] = pressure / ((GAMMA - 1) * rho);
         g->a[ALPHA][i] = 0.1;
         g->a[H][i] = 1.2 * sqrt(g->m / rho);
@@ -405,7 +469,8 @@ static void vortex(gas *g, const plan *c, int side, double skin)
 enum { BINS = 32 };
 typedef struct measure {
     double error, robust, magnetic, kinetic, thermal, total, densest, momentum;
-    double density_bin[BINS * BINS], magnetic_bin[BINS * BINS]; /* means over the particles of a bin, 0 without any */
+    double density_bin[BINS * BINS],
+        magnetic_bin[BINS * BINS]; /* means over the particles of a bin, 0 without any */
 } measure;
 
 static void measure_gas(const gas *g, const plan *c, measure *m)
@@ -414,11 +479,12 @@ static void measure_gas(const gas *g, const plan *c, measure *m)
     sph_index i;
     int k;
     memset(m, 0, sizeof *m);
-    expect(sph_divergence_difference(KERNEL, 2, sph_cloud_range(sph_cloud_of(points(g), list(g), field(g, H), sph_scalars_none()), 0, g->n), densities(g), vectors(g, BX), g->a[SCRATCH]),
+    expect(sph_divergence_difference(KERNEL, 2, cloud_of(g), densities(g), vectors(g, BX), g->a[SCRATCH]),
            "sph_divergence_difference");
     for (i = 0; i < g->n; i++) {
-        const double vx = g->a[VX][i], vy = g->a[VY][i], rho = g->a[RHO][i], B = hypot(g->a[BX][i], g->a[BY][i]),
-                     divergence = g->a[H][i] * fabs(g->a[SCRATCH][i]), x = g->a[X][i] - floor(g->a[X][i]), y = g->a[Y][i] - floor(g->a[Y][i]);
+        const double vx = g->a[VX][i], vy = g->a[VY][i], rho = g->a[RHO][i],
+                     B = hypot(g->a[BX][i], g->a[BY][i]), divergence = g->a[H][i] * fabs(g->a[SCRATCH][i]),
+                     x = g->a[X][i] - floor(g->a[X][i]), y = g->a[Y][i] - floor(g->a[Y][i]);
         const int bin = (int)(x * BINS) % BINS + BINS * ((int)(y * BINS) % BINS);
         m->error += divergence / B / g->n;
         h_div_B += divergence;
@@ -483,8 +549,15 @@ static balance gas_balance(gas *g, const plan *c, double t)
         for (i = 0; i < g->n; i++) g->a[PSI][i] = 0.01 * g->ch * (2 * pcg32_uniform(&random) - 1);
     }
 #define CLEAN(damping) \
-    expect(sph_cleaning_rates(KERNEL, 2, sph_cloud_range(sph_cloud_of(points(g), list(g), field(g, H), sph_scalars_none()), 0, g->n), densities(g), vectors(g, BX), field(g, PSI), sph_scalars_array(NULL), \
-           g->ch, damping, sph_vector_out_separate(g->rate[BX], g->rate[BY], NULL), g->rate[PSI], NULL), \
+    expect(sph_cleaning_rates( \
+               KERNEL, 2, cloud_of(g), \
+               (sph_cleaning){.gas = densities(g), \
+                              .field = vectors(g, BX), \
+                              .psi = field(g, PSI), \
+                              .ch = g->ch, \
+                              .sigma = damping}, \
+               (sph_cleaning_out){.rate_B = sph_vector_out_separate(g->rate[BX], g->rate[BY], NULL), \
+                                  .rate_psi = g->rate[PSI]}), \
            "sph_cleaning_rates")
     CLEAN(0);
     for (i = 0, sum = size = 0; i < g->n; i++) {
@@ -513,10 +586,11 @@ static balance gas_balance(gas *g, const plan *c, double t)
         out.div_B = g->a[DIV_B];
         out.div_v = g->a[DIV_V];
         out.v_sig = NULL;
-        expect(sph_mhd_rates(KERNEL, 2, sph_cloud_range(sph_cloud_of(points(g), list(g), field(g, H), sph_scalars_none()), 0, g->n), s, out), "sph_mhd_rates");
+        expect(sph_mhd_rates(KERNEL, 2, cloud_of(g), s, out), "sph_mhd_rates");
     }
     for (i = 0, sum = size = 0; i < g->n; i++) {
-        const double V = g->m / g->a[RHO][i], psi = g->a[PSI][i], ch2 = g->ch * g->ch, B2 = g->a[BX][i] * g->a[BX][i] + g->a[BY][i] * g->a[BY][i];
+        const double V = g->m / g->a[RHO][i], psi = g->a[PSI][i], ch2 = g->ch * g->ch,
+                     B2 = g->a[BX][i] * g->a[BX][i] + g->a[BY][i] * g->a[BY][i];
         add(g->m * (g->a[VX][i] * g->rate[VX][i] + g->a[VY][i] * g->rate[VY][i]), &sum, &size);
         add(g->m * g->rate[U][i], &sum, &size);
         add(V * (g->a[BX][i] * g->rate[BX][i] + g->a[BY][i] * g->rate[BY][i]), &sum, &size);
@@ -538,7 +612,21 @@ static balance gas_balance(gas *g, const plan *c, double t)
 
 /* ---- runs ---- */
 
-enum { CONTROL, RESISTIVE, EULER, EULER_DISSIPATION, CLEANED, CLEANED_RESISTIVE, BEFORE, PUBLISHED = BEFORE, WEAK, WEAKER, WEAKEST, CLEANED_WEAK, CASES };
+enum {
+    CONTROL,
+    RESISTIVE,
+    EULER,
+    EULER_DISSIPATION,
+    CLEANED,
+    CLEANED_RESISTIVE,
+    BEFORE,
+    PUBLISHED = BEFORE,
+    WEAK,
+    WEAKER,
+    WEAKEST,
+    CLEANED_WEAK,
+    CASES
+};
 static const plan plans[CASES] = {
     {"control", NO_CLEANING, 0, 0, 0.3, 1},
     {"resistivity", NO_CLEANING, 0, 1, 0.3, 1},
@@ -574,21 +662,29 @@ typedef struct setting {
     double work, done; /* of all runs; units of particles times steps */
 } setting;
 
-static double work_of(int side, const plan *c, double end) { return pow(side, 3) * end * (c->cleans ? 1.3 : 1); }
+static double work_of(int side, const plan *c, double end)
+{
+    return pow(side, 3) * end * (c->cleans ? 1.3 : 1);
+}
 
 static void write_panel(FILE *to, const gas *g, const char *name)
 {
     sph_index i;
     for (i = 0; i < g->n; i++)
-        fprintf(to, "\"%s\",%.6g,%.6g,%.6g,%.6g,%.6g\n", name, g->a[X][i] - floor(g->a[X][i]), g->a[Y][i] - floor(g->a[Y][i]), g->a[RHO][i],
-                0.5 * (g->a[BX][i] * g->a[BX][i] + g->a[BY][i] * g->a[BY][i]), g->a[SCRATCH][i]); /* div B, by measure_gas */
+        fprintf(to, "\"%s\",%.6g,%.6g,%.6g,%.6g,%.6g\n", name, g->a[X][i] - floor(g->a[X][i]),
+                g->a[Y][i] - floor(g->a[Y][i]), g->a[RHO][i],
+                0.5 * (g->a[BX][i] * g->a[BX][i] + g->a[BY][i] * g->a[BY][i]),
+                g->a[SCRATCH][i]); /* div B, by measure_gas */
 }
 static void write_vtk(vtk_series *series, const gas *g, double t)
 {
-    const vtk_field fields[] = {{"velocity", g->a[VX], g->a[VY], NULL, NULL}, {"B", g->a[BX], g->a[BY], NULL, NULL}, {"density", g->a[RHO], NULL, NULL, NULL},
-                                {"pressure", g->a[P], NULL, NULL, NULL},      {"psi", g->a[PSI], NULL, NULL, NULL},  {"div B", g->a[DIV_B], NULL, NULL, NULL},
-                                {"alpha", g->a[ALPHA], NULL, NULL, NULL},     {"h", g->a[H], NULL, NULL, NULL}};
-    if (!vtk_series_add(series, t, g->n, g->a[X], g->a[Y], NULL, fields, 8)) stop("a VTK file cannot be written");
+    const vtk_field fields[] = {
+        {"velocity", g->a[VX], g->a[VY], NULL, NULL}, {"B", g->a[BX], g->a[BY], NULL, NULL},
+        {"density", g->a[RHO], NULL, NULL, NULL},     {"pressure", g->a[P], NULL, NULL, NULL},
+        {"psi", g->a[PSI], NULL, NULL, NULL},         {"div B", g->a[DIV_B], NULL, NULL, NULL},
+        {"alpha", g->a[ALPHA], NULL, NULL, NULL},     {"h", g->a[H], NULL, NULL, NULL}};
+    if (!vtk_series_add(series, t, g->n, g->a[X], g->a[Y], NULL, fields, 8))
+        stop("a VTK file cannot be written");
 }
 
 /* One case to t = end; panel: figure 2, or null */
@@ -619,14 +715,17 @@ static void run(setting *s, int side, const plan *c, double end, FILE *panel, ou
         double dt = gas_longest_step(&g, c, s->courant, &shortest);
         if (o->steps == 0) first_step = dt;
         if (dt < 1e-3 * first_step)
-            snprintf(o->broken, REASON, "particle %ld wants a time step of %.3g at t = %.6g, 1000 times less than the first", (long)shortest, dt, t);
+            snprintf(o->broken, REASON,
+                     "particle %ld wants a time step of %.3g at t = %.6g, 1000 times less than the first",
+                     (long)shortest, dt, t);
         if (o->broken[0]) {
             if (c->cleans != NONCONSERVATIVE) stop("%s: %s", label, o->broken); /* that one may */
             break;
         }
         if (t >= next_sample) {
             measure_gas(&g, c, &m);
-            fprintf(s->history, "%d,\"%s\",%.6g,%.6g,%.6g,%.6g,%.9g\n", side, c->name, t, m.error, m.robust, m.magnetic, m.total / o->energy - 1);
+            fprintf(s->history, "%d,\"%s\",%.6g,%.6g,%.6g,%.6g,%.9g\n", side, c->name, t, m.error, m.robust,
+                    m.magnetic, m.total / o->energy - 1);
             o->worst = fmax(o->worst, fabs(m.total / o->energy - 1));
             next_sample += 0.02;
         }
@@ -688,8 +787,10 @@ static void list_cases(report *r, const level *l)
                 const outcome *const o = &l->o[k];
                 const measure *const m = &o->at[t];
                 snprintf(what, sizeof what, "mean h|div B|/|B|, t = %s", t == HALF ? "0.5" : "1");
-                snprintf(text, sizeof text, "%.5f (ratio of means %.5f; magnetic energy %.5f, total %+.2e, densest %.4f, momentum %.1e)", m->error, m->robust,
-                         m->magnetic, m->total / o->energy - 1, m->densest, m->momentum);
+                snprintf(text, sizeof text,
+                         "%.5f (ratio of means %.5f; magnetic energy %.5f, total %+.2e, densest %.4f, "
+                         "momentum %.1e)",
+                         m->error, m->robust, m->magnetic, m->total / o->energy - 1, m->densest, m->momentum);
                 report_row(r, size_text(l->side), plans[k].name, what, NULL, text, NULL, NULL, REPORT_INFO);
             }
 }
@@ -701,15 +802,21 @@ static void list_costs(report *r, const level *l)
     for (k = 0; k < CASES; k++)
         if (l->cases >> k & 1u) {
             const outcome *const o = &l->o[k];
-            at = snprintf(text, sizeof text, "%.2f in %ld steps:", 1e6 * o->cpu / o->particle_steps, o->steps);
-            for (f = 0; f < PHASES; f++) at += snprintf(text + at, sizeof text - (size_t)at, " %s %.2f,", phase_name[f], 1e6 * o->phase[f] / o->particle_steps);
+            at =
+                snprintf(text, sizeof text, "%.2f in %ld steps:", 1e6 * o->cpu / o->particle_steps, o->steps);
+            for (f = 0; f < PHASES; f++)
+                at += snprintf(text + at, sizeof text - (size_t)at, " %s %.2f,", phase_name[f],
+                               1e6 * o->phase[f] / o->particle_steps);
             text[at - 1] = '\0';
-            report_row(r, size_text(l->side), plans[k].name, "CPU us per particle-step", NULL, text, NULL, NULL, REPORT_INFO);
+            report_row(r, size_text(l->side), plans[k].name, "CPU us per particle-step", NULL, text, NULL,
+                       NULL, REPORT_INFO);
         }
     if (l->o[CONTROL].steps && l->o[CLEANED].steps) {
         const outcome *const a = &l->o[CONTROL], *const b = &l->o[CLEANED];
-        report_info(r, size_text(l->side), "cleaning / control", "CPU time per particle-step", b->cpu / b->particle_steps / (a->cpu / a->particle_steps));
-        report_info(r, size_text(l->side), "cleaning / control", "steps", (double)b->steps / (double)a->steps);
+        report_info(r, size_text(l->side), "cleaning / control", "CPU time per particle-step",
+                    b->cpu / b->particle_steps / (a->cpu / a->particle_steps));
+        report_info(r, size_text(l->side), "cleaning / control", "steps",
+                    (double)b->steps / (double)a->steps);
     }
 }
 
@@ -725,10 +832,14 @@ static void judge_balances(report *r, const level *l)
             worst.energy = fmax(worst.energy, l->o[k].balances[t].energy);
             worst.momentum = fmax(worst.momentum, l->o[k].balances[t].momentum);
         }
-    report_range(r, size_text(l->side), "t = 0 and 0.5, every case", "(21): energy that cleaning makes", 0, worst.cleaning, 0, 1e-12);
-    report_range(r, size_text(l->side), "t = 0 and 0.5, every case", "(24): energy that damping takes, and not", 0, worst.damping, 0, 1e-12);
-    report_range(r, size_text(l->side), "t = 0 and 0.5, every case", "total energy that all rates make", 0, worst.energy, 0, 1e-12);
-    report_range(r, size_text(l->side), "t = 0 and 0.5, every case", "momentum that all rates make", 0, worst.momentum, 0, 1e-12);
+    report_range(r, size_text(l->side), "t = 0 and 0.5, every case", "(21): energy that cleaning makes", 0,
+                 worst.cleaning, 0, 1e-12);
+    report_range(r, size_text(l->side), "t = 0 and 0.5, every case",
+                 "(24): energy that damping takes, and not", 0, worst.damping, 0, 1e-12);
+    report_range(r, size_text(l->side), "t = 0 and 0.5, every case", "total energy that all rates make", 0,
+                 worst.energy, 0, 1e-12);
+    report_range(r, size_text(l->side), "t = 0 and 0.5, every case", "momentum that all rates make", 0,
+                 worst.momentum, 0, 1e-12);
 }
 
 /* Ratios that cleaning must reach: they grow with resolution. */
@@ -747,34 +858,42 @@ static void judge(report *r, const level *l)
     for (t = 0; t < TIMES; t++)
         if (has(l, CONTROL, t) && has(l, CLEANED, t)) {
             if (t == HALF)
-                report_range(r, size, "t = 0.5", "error, control / cleaning", (double)NAN, o[CONTROL].at[t].error / o[CLEANED].at[t].error,
-                             least_ratio(l->side, t), HUGE_VAL);
+                report_range(r, size, "t = 0.5", "error, control / cleaning", (double)NAN,
+                             o[CONTROL].at[t].error / o[CLEANED].at[t].error, least_ratio(l->side, t),
+                             HUGE_VAL);
             else
-                report_range(r, size, "t = 1", "ratio of means, control / cleaning", (double)NAN, o[CONTROL].at[t].robust / o[CLEANED].at[t].robust,
-                             least_ratio(l->side, t), HUGE_VAL);
+                report_range(r, size, "t = 1", "ratio of means, control / cleaning", (double)NAN,
+                             o[CONTROL].at[t].robust / o[CLEANED].at[t].robust, least_ratio(l->side, t),
+                             HUGE_VAL);
         }
     for (k = 0; k < CASES; k++)
         if (!plans[k].cleans && !(plans[k].euler && plans[k].alpha_B > 0) && has(l, k, END))
-            report_range(r, size, plans[k].name, "total energy at t = 1, relative change", (double)NAN, o[k].at[END].total / o[k].energy - 1, -0.03, 0.03);
+            report_range(r, size, plans[k].name, "total energy at t = 1, relative change", (double)NAN,
+                         o[k].at[END].total / o[k].energy - 1, -0.03, 0.03);
     if (has(l, CONTROL, END) && has(l, RESISTIVE, END))
-        report_range(r, size, "t = 1", "error, control / resistivity", 10, o[CONTROL].at[END].error / o[RESISTIVE].at[END].error, 10, HUGE_VAL);
+        report_range(r, size, "t = 1", "error, control / resistivity", 10,
+                     o[CONTROL].at[END].error / o[RESISTIVE].at[END].error, 10, HUGE_VAL);
     if (has(l, CONTROL, END) && has(l, EULER_DISSIPATION, END))
-        report_range(r, size, "t = 1", "error, control / Euler potentials with dissipation", 10, o[CONTROL].at[END].error / o[EULER_DISSIPATION].at[END].error,
-                     10, HUGE_VAL);
+        report_range(r, size, "t = 1", "error, control / Euler potentials with dissipation", 10,
+                     o[CONTROL].at[END].error / o[EULER_DISSIPATION].at[END].error, 10, HUGE_VAL);
     if (has(l, CLEANED_RESISTIVE, END) && has(l, RESISTIVE, END) && has(l, CLEANED, END))
         report_range(r, size, "t = 1", "error, cleaning and resistivity / better of either", (double)NAN,
-                     o[CLEANED_RESISTIVE].at[END].error / fmin(o[RESISTIVE].at[END].error, o[CLEANED].at[END].error), 0, 1);
+                     o[CLEANED_RESISTIVE].at[END].error /
+                         fmin(o[RESISTIVE].at[END].error, o[CLEANED].at[END].error),
+                     0, 1);
     if (has(l, CONTROL, END) && has(l, CLEANED, END)) {
         const double kept = o[CLEANED].at[END].magnetic / o[CONTROL].at[END].magnetic,
                      apart = difference(o[CONTROL].at[END].density_bin, o[CLEANED].at[END].density_bin),
                      apart_B = difference(o[CONTROL].at[END].magnetic_bin, o[CLEANED].at[END].magnetic_bin);
         report_range(r, size, "t = 1", "magnetic energy, cleaning / control", (double)NAN, kept, 0.85, 1.15);
-        if (l->side >= 128) report_range(r, size, "t = 1, 32 x 32 bins", "density, cleaning from control, L1", (double)NAN, apart, 0, 0.1);
+        if (l->side >= 128)
+            report_range(r, size, "t = 1, 32 x 32 bins", "density, cleaning from control, L1", (double)NAN,
+                         apart, 0, 0.1);
         else report_info(r, size, "t = 1, 32 x 32 bins", "density, cleaning from control, L1", apart);
         report_info(r, size, "t = 1, 32 x 32 bins", "magnetic pressure, cleaning from control, L1", apart_B);
         if (has(l, RESISTIVE, END)) {
-            report_range(r, size, "t = 1", "magnetic energy, resistivity / control", (double)NAN, o[RESISTIVE].at[END].magnetic / o[CONTROL].at[END].magnetic,
-                         0, 0.5);
+            report_range(r, size, "t = 1", "magnetic energy, resistivity / control", (double)NAN,
+                         o[RESISTIVE].at[END].magnetic / o[CONTROL].at[END].magnetic, 0, 0.5);
             report_info(r, size, "t = 1, 32 x 32 bins", "density, resistivity from control, L1",
                         difference(o[CONTROL].at[END].density_bin, o[RESISTIVE].at[END].density_bin));
         }
@@ -782,11 +901,13 @@ static void judge(report *r, const level *l)
 }
 
 /* The statement holds, or it does not at this resolution */
-static void claim(report *r, const level *l, const char *quantity, const char *published, double measured, double wanted, const char *reason)
+static void claim(report *r, const level *l, const char *quantity, const char *published, double measured,
+                  double wanted, const char *reason)
 {
     char text[64];
     snprintf(text, sizeof text, "%.3g times at t = 1", measured);
-    if (measured >= wanted) report_claim(r, "Section IV-B", size_text(l->side), quantity, published, text, "at least as much", 1);
+    if (measured >= wanted)
+        report_claim(r, "Section IV-B", size_text(l->side), quantity, published, text, "at least as much", 1);
     else report_claim_fails(r, "Section IV-B", size_text(l->side), quantity, published, text, reason);
 }
 /* The error of resistivity alone whose alpha_B leaves the magnetic energy that cleaning leaves: a power of it between two runs; NaN outside */
@@ -799,40 +920,54 @@ static double error_at_energy(const level *l, double energy)
         if (has(l, by_alpha[k], END)) {
             const measure *const b = &l->o[by_alpha[k]].at[END];
             if (a && b->magnetic <= energy && energy <= a->magnetic)
-                return a->error * pow(b->error / a->error, log(energy / a->magnetic) / log(b->magnetic / a->magnetic));
+                return a->error *
+                       pow(b->error / a->error, log(energy / a->magnetic) / log(b->magnetic / a->magnetic));
             a = b;
         }
     return (double)NAN;
 }
 static void claims(report *r, const level *l)
 {
-    const char *const coarse = "at this resolution; the control's error falls slowly with h, that of cleaning nearly as h";
+    const char *const coarse =
+        "at this resolution; the control's error falls slowly with h, that of cleaning nearly as h";
     const outcome *const o = l->o;
     char text[REASON];
     if (l->cases >> BEFORE & 1u && l->end > 0.999) {
         if (o[BEFORE].broken[0]) snprintf(text, sizeof text, "%s", o[BEFORE].broken);
         else snprintf(text, sizeof text, "total energy has changed by %.3g", o[BEFORE].worst);
-        report_claim(r, "Section IV-A", size_text(l->side), plans[BEFORE].name, "exponential growth 'also occurs across jumps in density'", text,
+        report_claim(r, "Section IV-A", size_text(l->side), plans[BEFORE].name,
+                     "exponential growth 'also occurs across jumps in density'", text,
                      "no end, or energy doubles", o[BEFORE].broken[0] != '\0' || o[BEFORE].worst > 1);
     }
     if (!has(l, CONTROL, END) || !has(l, CLEANED, END)) return;
-    claim(r, l, "error, control / cleaning", "100 (two orders of magnitude)", o[CONTROL].at[END].error / o[CLEANED].at[END].error, 100, coarse);
+    claim(r, l, "error, control / cleaning", "100 (two orders of magnitude)",
+          o[CONTROL].at[END].error / o[CLEANED].at[END].error, 100, coarse);
     snprintf(text, sizeof text, "%.2f %% at t = 1", 100 * o[CLEANED].at[END].error);
-    if (o[CLEANED].at[END].error < 0.002) report_claim(r, "Section IV-B", size_text(l->side), "error with cleaning", "about 0.1 %", text, "less than 0.2 %", 1);
-    else report_claim_fails(r, "Section IV-B", size_text(l->side), "error with cleaning", "about 0.1 %", text, coarse);
+    if (o[CLEANED].at[END].error < 0.002)
+        report_claim(r, "Section IV-B", size_text(l->side), "error with cleaning", "about 0.1 %", text,
+                     "less than 0.2 %", 1);
+    else
+        report_claim_fails(r, "Section IV-B", size_text(l->side), "error with cleaning", "about 0.1 %", text,
+                           coarse);
     if (has(l, RESISTIVE, END)) {
-        claim(r, l, "error, resistivity / cleaning", "10 (an order of magnitude)", o[RESISTIVE].at[END].error / o[CLEANED].at[END].error, 10,
-              "alpha_B = 1 everywhere and always takes the field away with its divergence; the paper's alpha_B is not known");
-        claim(r, l, "error, control / resistivity", "10 (an order of magnitude)", o[CONTROL].at[END].error / o[RESISTIVE].at[END].error, 10, "");
+        claim(r, l, "error, resistivity / cleaning", "10 (an order of magnitude)",
+              o[RESISTIVE].at[END].error / o[CLEANED].at[END].error, 10,
+              "alpha_B = 1 everywhere and always takes the field away with its divergence; the paper's "
+              "alpha_B is not known");
+        claim(r, l, "error, control / resistivity", "10 (an order of magnitude)",
+              o[CONTROL].at[END].error / o[RESISTIVE].at[END].error, 10, "");
     }
     if (has(l, EULER, END)) {
         const char *const why = "without dissipation; with it the potentials do better, and lose the field";
-        claim(r, l, "error, Euler potentials / cleaning", "10 (an order of magnitude)", o[EULER].at[END].error / o[CLEANED].at[END].error, 10, coarse);
-        claim(r, l, "error, control / Euler potentials", "10 (an order of magnitude)", o[CONTROL].at[END].error / o[EULER].at[END].error, 10, why);
+        claim(r, l, "error, Euler potentials / cleaning", "10 (an order of magnitude)",
+              o[EULER].at[END].error / o[CLEANED].at[END].error, 10, coarse);
+        claim(r, l, "error, control / Euler potentials", "10 (an order of magnitude)",
+              o[CONTROL].at[END].error / o[EULER].at[END].error, 10, why);
     }
     if (has(l, WEAKER, END)) {
         const double resistive = error_at_energy(l, o[CLEANED].at[END].magnetic);
-        report_info(r, size_text(l->side), "t = 1", "error, resistivity / cleaning where both leave as much magnetic energy",
+        report_info(r, size_text(l->side), "t = 1",
+                    "error, resistivity / cleaning where both leave as much magnetic energy",
                     resistive / o[CLEANED].at[END].error);
         if (has(l, CLEANED_WEAK, END))
             report_info(r, size_text(l->side), "t = 1, alpha_B = 0.1", "error, without / with cleaning",
@@ -884,7 +1019,8 @@ int main(int argc, char **argv)
     const option_spec specs[] = {
         {"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
         {"figures", "folder of the figures' data", OPTION_TEXT, &s.figures, 0, 0},
-        {"full", "128 columns to t = 1, 256 to t = 0.5, and 512 x 590 as published: some five hours", OPTION_FLAG, &s.full, 0, 0},
+        {"full", "128 columns to t = 1, 256 to t = 0.5, and 512 x 590 as published: some five hours",
+         OPTION_FLAG, &s.full, 0, 0},
         {"side", "this number of columns alone", OPTION_INT, &side, 8, 4096},
         {"end", "time of the last step", OPTION_REAL, &s.end, 1e-3, 10},
         {"courant", "time step over its limit", OPTION_REAL, &s.courant, 1e-3, 10},
@@ -894,8 +1030,10 @@ int main(int argc, char **argv)
     s.figures = ".";
     s.end = 1;
     s.courant = 0.3;
-    options_parse(argc, argv, "The Orszag-Tang vortex of the paper on divergence cleaning, figures 2 and 3: published against measured.", specs,
-                  (int)(sizeof specs / sizeof *specs));
+    options_parse(argc, argv,
+                  "The Orszag-Tang vortex of the paper on divergence cleaning, figures 2 and 3: published "
+                  "against measured.",
+                  specs, (int)(sizeof specs / sizeof *specs));
     report_open(&r, "cleaning_orszag_tang", out);
     figure_folder(s.figures);
     signal(SIGINT, interrupt);
@@ -912,26 +1050,33 @@ int main(int argc, char **argv)
         panel = figure_open(s.figures, name);
         fprintf(panel, "case,x,y,density,magnetic_pressure,div_B\n");
         for (k = 0; k < CASES && !interrupted; k++)
-            if (levels[a].cases >> k & 1u) run(&s, levels[a].side, &plans[k], levels[a].end, panel, &levels[a].o[k]);
+            if (levels[a].cases >> k & 1u)
+                run(&s, levels[a].side, &plans[k], levels[a].end, panel, &levels[a].o[k]);
         figure_close(panel);
     }
     figure_close(s.history);
     progress_end(&s.show);
     if (interrupted) {
-        fprintf(stderr, "cleaning_orszag_tang: interrupted; the figures' data so far are in %s, and there is no result table\n", s.figures);
+        fprintf(stderr,
+                "cleaning_orszag_tang: interrupted; the figures' data so far are in %s, and there is no "
+                "result table\n",
+                s.figures);
         return 130;
     }
     {
         char text[96];
         const double twice = 2 * 5 / (12 * MATH_PI);
         report_section(&r, "Section IV-B: units");
-        snprintf(text, sizeof text, "beta = 2 P / B0^2 = %.3f; %.3f for B0^2 = 1 / (4 pi)", twice, twice * 4 * MATH_PI);
-        report_claim_fails(&r, "Section IV-B", "t = 0", "B0", "1, with (6) to (9) in units of mu_0 = 1", text,
-                           "the vortex of Orszag & Tang has beta = 10/3: the print of B is in units of mu_0 = 4 pi");
+        snprintf(text, sizeof text, "beta = 2 P / B0^2 = %.3f; %.3f for B0^2 = 1 / (4 pi)", twice,
+                 twice * 4 * MATH_PI);
+        report_claim_fails(
+            &r, "Section IV-B", "t = 0", "B0", "1, with (6) to (9) in units of mu_0 = 1", text,
+            "the vortex of Orszag & Tang has beta = 10/3: the print of B is in units of mu_0 = 4 pi");
     }
     for (a = 0; a < count; a++) {
         char title[96];
-        snprintf(title, sizeof title, "Orszag-Tang vortex, %s particles to t = %g", size_text(levels[a].side), levels[a].end);
+        snprintf(title, sizeof title, "Orszag-Tang vortex, %s particles to t = %g", size_text(levels[a].side),
+                 levels[a].end);
         report_section(&r, title);
         list_cases(&r, &levels[a]);
         judge(&r, &levels[a]);
@@ -942,8 +1087,10 @@ int main(int argc, char **argv)
         for (a = 0; a + 1 < count; a++)
             if (has(&levels[a], CLEANED, k) && has(&levels[a + 1], CLEANED, k)) {
                 char what[64];
-                snprintf(what, sizeof what, "%d and %d columns, t = %s", levels[a].side, levels[a + 1].side, k == HALF ? "0.5" : "1");
-                report_range(&r, "resolution", what, "error, cleaning / control, finer over coarser", (double)NAN,
+                snprintf(what, sizeof what, "%d and %d columns, t = %s", levels[a].side, levels[a + 1].side,
+                         k == HALF ? "0.5" : "1");
+                report_range(&r, "resolution", what, "error, cleaning / control, finer over coarser",
+                             (double)NAN,
                              levels[a + 1].o[CLEANED].at[k].error / levels[a + 1].o[CONTROL].at[k].error /
                                  (levels[a].o[CLEANED].at[k].error / levels[a].o[CONTROL].at[k].error),
                              0, 1);

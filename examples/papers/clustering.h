@@ -21,7 +21,8 @@
 #define CLUSTERING_H
 
 #if defined(__clang__)
-#pragma clang diagnostic ignored "-Wpass-failed" /* kernels that are chosen at run time: those loops do not vectorise */
+#pragma clang diagnostic ignored \
+    "-Wpass-failed" /* kernels that are chosen at run time: those loops do not vectorise */
 #endif
 
 #include <math.h>
@@ -32,7 +33,8 @@
 #include <time.h>
 
 #ifndef SPH_CHECK
-#define SPH_CHECK 0 /* the lists are the search's, and each step looks for particles that are not well, and names them: flow_healthy */
+#define SPH_CHECK \
+    0 /* the lists are the search's, and each step looks for particles that are not well, and names them: flow_healthy */
 #endif
 #ifndef FLOW_PERIODIC
 #define FLOW_PERIODIC 2 /* how many axes may be periodic, x first: those that cannot cost nothing */
@@ -86,8 +88,10 @@ static const double clustering_pi = 3.14159265358979323846;
 static const double hexagonal = 0.86602540378443864676;
 
 /* (1.1), (3.9), and beside them: kernels with a positive Fourier transform in two dimensions, and others made convex by the recipe of section III */
-static const sph_kernel clustering_kernels[] = {
-    SPH_WENDLAND_C2_1D, SPH_CONVEX, SPH_WENDLAND_C2, SPH_WENDLAND_C4, SPH_CONVEX_WENDLAND_C2, SPH_CONVEX_WENDLAND_C4, SPH_CONVEX_CUBIC_SPLINE};
+static const sph_kernel clustering_kernels[] = {SPH_WENDLAND_C2_1D,     SPH_CONVEX,
+                                                SPH_WENDLAND_C2,        SPH_WENDLAND_C4,
+                                                SPH_CONVEX_WENDLAND_C2, SPH_CONVEX_WENDLAND_C4,
+                                                SPH_CONVEX_CUBIC_SPLINE};
 enum { CLUSTERING_KERNELS = sizeof clustering_kernels / sizeof *clustering_kernels };
 
 /* The hexagonal lattice: S = sum_j V W_ij, the particle itself included, and the factor G of the gradient of a linear field, -sum_j V r W' / 2. Both are 1 in the continuum. */
@@ -132,14 +136,22 @@ static inline void clustering_expect(sph_index answer)
 static inline void clustering_written(int ok, const char *dir, const char *name)
 {
     if (!ok) {
-        fprintf(stderr, "clustering: cannot write %s/%s: %s; does the folder exist, may you write there, is the disk full?\n", dir, name,
-                errno ? strerror(errno) : "unknown cause");
+        fprintf(stderr,
+                "clustering: cannot write %s/%s: %s; does the folder exist, may you write there, is the disk "
+                "full?\n",
+                dir, name, errno ? strerror(errno) : "unknown cause");
         exit(2);
     }
 }
 /* data file of a figure: write to f->to, then clustering_figure_close */
-static inline void clustering_figure(part_file *f, const char *dir, const char *name) { clustering_written(part_file_open(f, dir, name, "csv"), dir, name); }
-static inline void clustering_figure_close(part_file *f) { clustering_written(part_file_close(f), f->path, ""); }
+static inline void clustering_figure(part_file *f, const char *dir, const char *name)
+{
+    clustering_written(part_file_open(f, dir, name, "csv"), dir, name);
+}
+static inline void clustering_figure_close(part_file *f)
+{
+    clustering_written(part_file_close(f), f->path, "");
+}
 
 /* lists that keep their memory */
 typedef struct neighbours {
@@ -154,18 +166,22 @@ static inline sph_list neighbours_list(const neighbours *l)
     s.index = l->index;
     return s;
 }
-static inline void neighbours_find(int dim, neighbours *l, const sph_grid *grid, sph_points targets, double radius, int flags)
+static inline void neighbours_find(int dim, neighbours *l, const sph_grid *grid, sph_points targets,
+                                   double radius, int flags)
 {
     const sph_scalars R = sph_scalars_same(&radius);
     int64_t pairs = 0;
     sph_index answer = SPH_ERROR_CAPACITY;
     l->start = (sph_index *)clustering_memory(l->start, ((size_t)targets.n + 1) * sizeof *l->start);
-    if (l->capacity) answer = sph_grid_lists(dim, grid, targets, SPH_GATHER, R, R, flags, l->start, l->index, l->capacity, &pairs);
+    if (l->capacity)
+        answer = sph_grid_lists(dim, grid, targets, SPH_GATHER, R, R, flags, l->start, l->index, l->capacity,
+                                &pairs);
     else pairs = 64 * (int64_t)targets.n;
     while (answer == (sph_index)SPH_ERROR_CAPACITY) {
         l->capacity = pairs + pairs / 8;
         l->index = (sph_index *)clustering_memory(l->index, (size_t)l->capacity * sizeof *l->index);
-        answer = sph_grid_lists(dim, grid, targets, SPH_GATHER, R, R, flags, l->start, l->index, l->capacity, &pairs);
+        answer = sph_grid_lists(dim, grid, targets, SPH_GATHER, R, R, flags, l->start, l->index, l->capacity,
+                                &pairs);
     }
     clustering_expect(answer);
 }
@@ -195,7 +211,13 @@ typedef enum flow_form {
     FLOW_NUMBER      /* rho_i = m_i sum W_ij and its pressure force (Hu & Adams): takes density jumps, too */
 } flow_form;
 
-typedef enum flow_remedy { FLOW_NO_COLLISIONS, FLOW_SEQUENTIAL, FLOW_WEIGHTED, FLOW_LITERAL, FLOW_REMEDIES } flow_remedy;
+typedef enum flow_remedy {
+    FLOW_NO_COLLISIONS,
+    FLOW_SEQUENTIAL,
+    FLOW_WEIGHTED,
+    FLOW_LITERAL,
+    FLOW_REMEDIES
+} flow_remedy;
 static const char *const flow_remedy_name[FLOW_REMEDIES] = {"none", "sequential", "weighted", "literal"};
 
 typedef enum flow_answer { FLOW_DONE, FLOW_INTERRUPTED, FLOW_BLEW_UP } flow_answer;
@@ -216,9 +238,9 @@ struct flow {
     double box_x, box_y; /* periodic lengths; 0: open; see FLOW_PERIODIC */
     double gravity_x, gravity_y;
     flow_state state[FLOW_PHASES];
-    int form;               /* a flow_form: the summation density */
-    int rate_after_kick;    /* 1: the rate of density by the new velocities, at the cost of a sweep; 0: by the old ones */
-    int ghosts_evolve;      /* 1: density and pressure of ghosts as those of the fluid; 0: they keep what they have */
+    int form;            /* a flow_form: the summation density */
+    int rate_after_kick; /* 1: the rate of density by the new velocities, at the cost of a sweep; 0: by the old ones */
+    int ghosts_evolve; /* 1: density and pressure of ghosts as those of the fluid; 0: they keep what they have */
     double alpha, eta;      /* of Monaghan's artificial viscosity: 0.1, 0.1 */
     int remedy;             /* a flow_remedy: none */
     int walls_only;         /* 1: only pairs of a fluid and a ghost particle collide */
@@ -234,14 +256,16 @@ struct flow {
 
     /* particles: 0 ... n_fluid - 1 the fluid, then ghosts */
     int n, n_fluid, capacity;
-    double *x, *y, *vx, *vy, *ax, *ay, *m, *rho, *p, *c, *rate, *volume, *inverse_mass, *old_x, *old_y; /* volume: with rate_after_kick only */
+    double *x, *y, *vx, *vy, *ax, *ay, *m, *rho, *p, *c, *rate, *volume, *inverse_mass, *old_x,
+        *old_y; /* volume: with rate_after_kick only */
     unsigned char *phase, *ghost;
 
     /* what happened */
     int64_t steps, rebuilds, collisions, coincident;
     double collision_energy, cpu; /* change of energy by sequential collisions; seconds in flow_run */
-    double worst_gain;            /* largest gain of kinetic energy by the collisions of a step, relative to it (weighted and literal) */
-    int bad;                      /* the first particle that was not ok, or -1 */
+    double
+        worst_gain; /* largest gain of kinetic energy by the collisions of a step, relative to it (weighted and literal) */
+    int bad; /* the first particle that was not ok, or -1 */
     const char *bad_what;
 
     /* private */
@@ -268,7 +292,8 @@ static inline void flow_open(flow *f, const char *name, sph_kernel kernel, doubl
 
 static inline void flow_close(flow *f)
 {
-    double *const arrays[] = {f->x, f->y, f->vx, f->vy, f->ax, f->ay, f->m, f->rho, f->p, f->c, f->rate, f->volume, f->inverse_mass, f->old_x, f->old_y};
+    double *const arrays[] = {f->x, f->y, f->vx,   f->vy,     f->ax,           f->ay,    f->m,    f->rho,
+                              f->p, f->c, f->rate, f->volume, f->inverse_mass, f->old_x, f->old_y};
     size_t a;
     for (a = 0; a < sizeof arrays / sizeof *arrays; a++) free(arrays[a]);
     free(f->phase);
@@ -284,11 +309,13 @@ static inline int flow_append(flow *f, double x, double y, int phase, double m, 
 {
     const int i = f->n++;
     if (f->n > f->capacity) {
-        double **const arrays[] = {&f->x, &f->y, &f->vx,   &f->vy,     &f->ax,           &f->ay,    &f->m,    &f->rho,
-                                   &f->p, &f->c, &f->rate, &f->volume, &f->inverse_mass, &f->old_x, &f->old_y};
+        double **const arrays[] = {&f->x,    &f->y,      &f->vx,           &f->vy,    &f->ax,
+                                   &f->ay,   &f->m,      &f->rho,          &f->p,     &f->c,
+                                   &f->rate, &f->volume, &f->inverse_mass, &f->old_x, &f->old_y};
         size_t a;
         f->capacity = 2 * f->n + 64;
-        for (a = 0; a < sizeof arrays / sizeof *arrays; a++) *arrays[a] = (double *)clustering_memory(*arrays[a], (size_t)f->capacity * sizeof(double));
+        for (a = 0; a < sizeof arrays / sizeof *arrays; a++)
+            *arrays[a] = (double *)clustering_memory(*arrays[a], (size_t)f->capacity * sizeof(double));
         f->phase = (unsigned char *)clustering_memory(f->phase, (size_t)f->capacity);
         f->ghost = (unsigned char *)clustering_memory(f->ghost, (size_t)f->capacity);
         f->count = (sph_index *)clustering_memory(f->count, (size_t)f->capacity * sizeof *f->count);
@@ -312,14 +339,26 @@ static inline int flow_add(flow *f, double x, double y, int phase, double m)
     return flow_append(f, x, y, phase, m, 0);
 }
 /* One that pushes, but is not pushed, with the p0 of its phase: all fluid particles must be there already. */
-static inline int flow_add_ghost(flow *f, double x, double y, int phase, double m) { return flow_append(f, x, y, phase, m, 1); }
+static inline int flow_add_ghost(flow *f, double x, double y, int phase, double m)
+{
+    return flow_append(f, x, y, phase, m, 1);
+}
 
 static inline sph_points flow_points(const flow *f)
 {
-    return sph_points_periodic(sph_points_separate(f->n, f->x, f->y, NULL), FLOW_PERIODIC > 0 ? f->box_x : 0, FLOW_PERIODIC > 1 ? f->box_y : 0, 0);
+    return sph_points_periodic(sph_points_separate(f->n, f->x, f->y, NULL), FLOW_PERIODIC > 0 ? f->box_x : 0,
+                               FLOW_PERIODIC > 1 ? f->box_y : 0, 0);
+}
+/* the targets 0 ... last - 1 */
+static inline sph_cloud flow_cloud(const flow *f, sph_list list, sph_scalars h, sph_index last)
+{
+    return sph_cloud_range(sph_cloud_of(flow_points(f), list, h, sph_scalars_none()), 0, last);
 }
 static inline sph_vectors flow_velocities(const flow *f) { return sph_vectors_separate(f->vx, f->vy, NULL); }
-static inline sph_vector_out flow_accelerations(const flow *f) { return sph_vector_out_separate(f->ax, f->ay, NULL); }
+static inline sph_vector_out flow_accelerations(const flow *f)
+{
+    return sph_vector_out_separate(f->ax, f->ay, NULL);
+}
 /* how many have an acceleration and a rate of density: ghosts are the last */
 static inline int flow_moved(const flow *f) { return f->ghosts_evolve ? f->n : f->n_fluid; }
 
@@ -355,7 +394,8 @@ static inline void flow_neighbours(flow *f)
     flow_grid(f, flow_points(f), reach + skin, &grid);
     neighbours_find(2, &f->all, &grid, flow_points(f), reach + skin, 0);
     if (f->remedy) {
-        neighbours_find(2, &f->colliding, &grid, flow_points(f), f->distance * f->dref + skin, SPH_LIST_SORTED); /* sorted: the order of collisions matters */
+        neighbours_find(2, &f->colliding, &grid, flow_points(f), f->distance * f->dref + skin,
+                        SPH_LIST_SORTED); /* sorted: the order of collisions matters */
         if (f->walls_only) neighbours_mixed(&f->colliding, f->n, f->ghost);
     }
     memcpy(f->old_x, f->x, (size_t)f->n * sizeof *f->x);
@@ -379,17 +419,22 @@ static inline void flow_neighbours(flow *f)
 SPH_FN sph_index flow_density_by(sph_kernel k, const flow *f, sph_scalars h)
 {
     const sph_scalars m = sph_scalars_array(f->m);
-    return f->form == FLOW_SUMMATION ? sph_density_summation(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all), h, sph_scalars_none()), 0, f->n_fluid), m, f->rho)
-                                     : sph_density_number(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all), h, sph_scalars_none()), 0, f->n_fluid), m, f->rho);
+    return f->form == FLOW_SUMMATION
+               ? sph_density_summation(k, 2, flow_cloud(f, neighbours_list(&f->all), h, f->n_fluid), m,
+                                       f->rho)
+               : sph_density_number(k, 2, flow_cloud(f, neighbours_list(&f->all), h, f->n_fluid), m, f->rho);
 }
 SPH_FN sph_index flow_rates_by(sph_kernel k, const flow *f, sph_scalars h, sph_fluid s)
 {
     const sph_list l = neighbours_list(&f->all);
     const sph_vector_out a = flow_accelerations(f);
-    if (f->form == FLOW_SUMMATION) return sph_fluid_rates_monaghan(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), l, h, sph_scalars_none()), 0, f->n_fluid), s, a, NULL, NULL);
-    if (f->form == FLOW_CONTINUITY && f->rate_after_kick) return sph_fluid_rates_colagrossi(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), l, h, sph_scalars_none()), 0, flow_moved(f)), s, a, NULL, NULL);
-    if (f->form == FLOW_CONTINUITY) return sph_fluid_rates_colagrossi(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), l, h, sph_scalars_none()), 0, flow_moved(f)), s, a, f->rate, NULL);
-    return sph_fluid_rates_hu_adams(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), l, h, sph_scalars_none()), 0, f->n_fluid), s, a, NULL, NULL);
+    if (f->form == FLOW_SUMMATION)
+        return sph_fluid_rates_monaghan(k, 2, flow_cloud(f, l, h, f->n_fluid), s, a, NULL, NULL);
+    if (f->form == FLOW_CONTINUITY && f->rate_after_kick)
+        return sph_fluid_rates_colagrossi(k, 2, flow_cloud(f, l, h, flow_moved(f)), s, a, NULL, NULL);
+    if (f->form == FLOW_CONTINUITY)
+        return sph_fluid_rates_colagrossi(k, 2, flow_cloud(f, l, h, flow_moved(f)), s, a, f->rate, NULL);
+    return sph_fluid_rates_hu_adams(k, 2, flow_cloud(f, l, h, f->n_fluid), s, a, NULL, NULL);
 }
 SPH_FN sph_index flow_divergence_by(sph_kernel k, const flow *f, sph_scalars h)
 {
@@ -397,7 +442,8 @@ SPH_FN sph_index flow_divergence_by(sph_kernel k, const flow *f, sph_scalars h)
     sph_gas g;
     g.m = sph_scalars_array(f->volume);
     g.rho = g.omega = sph_scalars_same(&one);
-    return sph_divergence_difference(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all), h, sph_scalars_none()), 0, flow_moved(f)), g, flow_velocities(f), f->rate);
+    return sph_divergence_difference(k, 2, flow_cloud(f, neighbours_list(&f->all), h, flow_moved(f)), g,
+                                     flow_velocities(f), f->rate);
 }
 
 static inline sph_index flow_density(flow *f)
@@ -451,7 +497,8 @@ static inline void flow_pressure(flow *f)
     int i;
     for (i = 0; i < flow_moved(f); i++) {
         const flow_state *s = &f->state[f->phase[i]];
-        f->p[i] = sph_pressure_tait(f->rho[i], s->rho0, s->c, 1, s->p0);
+        f->p[i] =
+            sph_pressure_tait(f->rho[i], (sph_tait){.rho0 = s->rho0, .c = s->c, .gamma = 1, .p0 = s->p0});
     }
 }
 
@@ -476,18 +523,28 @@ static inline void flow_collide(flow *f)
     if (f->remedy == FLOW_NO_COLLISIONS) return;
     if (f->remedy == FLOW_SEQUENTIAL) {
         sph_collision_report r;
-        clustering_expect(sph_collide_sequential(2, sph_cloud_range(sph_cloud_of(flow_points(f), l, sph_scalars_none(), sph_scalars_none()), 0, f->n_fluid), distance, w, f->restitution, f->vx, f->vy, NULL, 1, &r));
+        clustering_expect(sph_collide_sequential(
+            2, flow_cloud(f, l, sph_scalars_none(), f->n_fluid),
+            (sph_collision){.distance = distance, .inverse_mass = w, .restitution = f->restitution},
+            sph_vector_out_separate(f->vx, f->vy, NULL), &r));
         f->collisions += r.collisions;
         f->coincident += r.coincident;
         f->collision_energy += r.energy;
         return;
     }
     if (f->remedy == FLOW_WEIGHTED) {
-        clustering_expect(sph_collision_count(2, sph_cloud_range(sph_cloud_of(flow_points(f), l, sph_scalars_none(), sph_scalars_none()), 0, f->n_fluid), distance, w, flow_velocities(f), f->count));
-        clustering_expect(sph_collision_change_weighted(2, sph_cloud_range(sph_cloud_of(flow_points(f), l, sph_scalars_none(), sph_scalars_none()), 0, f->n_fluid), distance, w, f->restitution, flow_velocities(f), f->count, flow_accelerations(f)));
+        clustering_expect(sph_collision_count(2, flow_cloud(f, l, sph_scalars_none(), f->n_fluid),
+                                              (sph_collision){.distance = distance, .inverse_mass = w},
+                                              flow_velocities(f), f->count));
+        clustering_expect(sph_collision_change_weighted(
+            2, flow_cloud(f, l, sph_scalars_none(), f->n_fluid),
+            (sph_collision){.distance = distance, .inverse_mass = w, .restitution = f->restitution},
+            flow_velocities(f), f->count, flow_accelerations(f)));
     } else
-        clustering_expect(
-            sph_collision_change_literal(2, sph_cloud_range(sph_cloud_of(flow_points(f), l, sph_scalars_none(), sph_scalars_none()), 0, f->n_fluid), distance, w, f->restitution, flow_velocities(f), flow_accelerations(f)));
+        clustering_expect(sph_collision_change_literal(
+            2, flow_cloud(f, l, sph_scalars_none(), f->n_fluid),
+            (sph_collision){.distance = distance, .inverse_mass = w, .restitution = f->restitution},
+            flow_velocities(f), flow_accelerations(f)));
     before = flow_kinetic_energy(f);
     for (i = 0; i < f->n_fluid; i++) {
         f->vx[i] += f->ax[i];
@@ -505,7 +562,8 @@ static inline int flow_healthy(flow *f)
     int i;
     for (i = 0; i < f->n_fluid && f->bad < 0; i++) {
         const double speed = sqrt(f->vx[i] * f->vx[i] + f->vy[i] * f->vy[i]);
-        if (!isfinite(f->x[i]) || !isfinite(f->y[i]) || !isfinite(speed)) f->bad_what = "position or velocity is not a number";
+        if (!isfinite(f->x[i]) || !isfinite(f->y[i]) || !isfinite(speed))
+            f->bad_what = "position or velocity is not a number";
         else if (!isfinite(f->rho[i]) || !(f->rho[i] > 0)) f->bad_what = "density is not positive";
         else if (speed * f->dt > f->h) f->bad_what = "moved by more than h in one step";
         else continue;
@@ -524,7 +582,9 @@ static inline void flow_step(flow *f)
     if (f->ghosts) f->ghosts(f);
     if (lost == 0) lost = flow_rates(f);
     clustering_expect(lost);
-    if (lost > 0) f->bad = 0, f->bad_what = "an acceleration or a density overflowed (not necessarily of this particle)";
+    if (lost > 0)
+        f->bad = 0,
+        f->bad_what = "an acceleration or a density overflowed (not necessarily of this particle)";
     if (f->force) f->force(f);
     for (i = 0; i < f->n_fluid; i++) {
         f->vx[i] += f->dt * (f->ax[i] + f->gravity_x);
@@ -545,8 +605,10 @@ static inline void flow_step(flow *f)
 
 static inline void flow_picture(flow *f)
 {
-    const vtk_field fields[] = {{"velocity", f->vx, f->vy, NULL, NULL}, {"density", f->rho, NULL, NULL, NULL}, {"pressure", f->p, NULL, NULL, NULL},
-                                {"mass", f->m, NULL, NULL, NULL},       {"phase", NULL, NULL, NULL, f->phase}, {"ghost", NULL, NULL, NULL, f->ghost}};
+    const vtk_field fields[] = {
+        {"velocity", f->vx, f->vy, NULL, NULL}, {"density", f->rho, NULL, NULL, NULL},
+        {"pressure", f->p, NULL, NULL, NULL},   {"mass", f->m, NULL, NULL, NULL},
+        {"phase", NULL, NULL, NULL, f->phase},  {"ghost", NULL, NULL, NULL, f->ghost}};
     clustering_written(vtk_series_add(&f->series, f->t, f->n, f->x, f->y, NULL, fields, 6), f->vtk, f->name);
 }
 
@@ -588,20 +650,29 @@ static inline void flow_require(const flow *f, flow_answer answer)
     if (answer == FLOW_DONE) return;
     fflush(stdout);
     if (answer == FLOW_INTERRUPTED) {
-        fprintf(stderr, "%s: interrupted at t = %g; the rows of the table so far are in its .part file\n", f->name, f->t);
+        fprintf(stderr, "%s: interrupted at t = %g; the rows of the table so far are in its .part file\n",
+                f->name, f->t);
         exit(130);
     }
-    fprintf(stderr, "%s: blew up at t = %g: particle %d at (%g, %g): %s; try a smaller -dt\n", f->name, f->t, f->bad, f->x[f->bad], f->y[f->bad], f->bad_what);
+    fprintf(stderr, "%s: blew up at t = %g: particle %d at (%g, %g): %s; try a smaller -dt\n", f->name, f->t,
+            f->bad, f->x[f->bad], f->y[f->bad], f->bad_what);
     exit(3);
 }
 
 /* of CPU time for each fluid particle and step, neighbour lists and what the driver measures included */
-static inline double flow_microseconds(const flow *f) { return f->steps ? 1e6 * f->cpu / ((double)f->steps * f->n_fluid) : 0; }
+static inline double flow_microseconds(const flow *f)
+{
+    return f->steps ? 1e6 * f->cpu / ((double)f->steps * f->n_fluid) : 0;
+}
 
 static inline void flow_conserved(const flow *f, sph_conserved *c)
 {
     sph_points x = flow_points(f);
-    clustering_expect(sph_conserved_sums(2, 0, f->n_fluid, x, sph_scalars_array(f->m), flow_velocities(f), c));
+    clustering_expect(sph_conserved_sums(
+        2,
+        sph_cloud_range(sph_cloud_of(x, (sph_list){0}, sph_scalars_none(), sph_scalars_none()), 0,
+                        f->n_fluid),
+        sph_scalars_array(f->m), flow_velocities(f), c));
 }
 
 /* ================================================================ what the pictures show, in numbers */
@@ -615,15 +686,18 @@ typedef struct flow_distribution {
     double mean, least;        /* distance to the nearest neighbour */
     double below_50, below_75; /* share of the particles that are nearer to theirs */
     double hexatic;            /* mean order by the six nearest, of those that have six within four dref */
-    double void_share, hole;   /* share of the area without a particle within 0.85, and the largest distance from any (at most 4) */
+    double void_share,
+        hole; /* share of the area without a particle within 0.85, and the largest distance from any (at most 4) */
 } flow_distribution;
 
 enum { FLOW_PROBES = 512, FLOW_ALL = -1 };
 /* Of the fluid particles of a phase, or FLOW_ALL; the other phases, and with_ghosts the ghosts, count as neighbours. The area: points of the domain where inside(f, x, y), null: everywhere; probed each dref / 10. */
-static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts, flow_domain area, int (*inside)(const flow *, double, double))
+static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts, flow_domain area,
+                                             int (*inside)(const flow *, double, double))
 {
     const double reach = 4 * f->dref, step = 0.1 * f->dref;
-    const int columns = (int)ceil((area.x1 - area.x0) / step - 1e-9), rows = (int)ceil((area.y1 - area.y0) / step - 1e-9);
+    const int columns = (int)ceil((area.x1 - area.x0) / step - 1e-9),
+              rows = (int)ceil((area.y1 - area.y0) / step - 1e-9);
     sph_points x = flow_points(f);
     neighbours l = {0};
     double *const value = (double *)clustering_memory(NULL, (size_t)f->n * sizeof *value);
@@ -638,7 +712,11 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
     if (!with_ghosts) x.n = f->n_fluid;
     flow_grid(f, x, reach, &grid);
     neighbours_find(2, &l, &grid, x, reach, 0);
-    clustering_expect(sph_nearest_distance(2, 0, f->n_fluid, x, x, neighbours_list(&l), value, status));
+    clustering_expect(sph_nearest_distance(
+        2,
+        sph_cloud_range(sph_cloud_of(x, neighbours_list(&l), sph_scalars_none(), sph_scalars_none()), 0,
+                        f->n_fluid),
+        x, sph_scalar_out_array(value, status)));
     d.least = HUGE_VAL;
     for (i = 0; i < f->n_fluid; i++) {
         const double nearest = status[i] ? reach / f->dref : value[i] / f->dref;
@@ -652,7 +730,10 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
     d.mean /= counted;
     d.below_50 /= counted;
     d.below_75 /= counted;
-    clustering_expect(sph_hexatic_order(sph_cloud_range(sph_cloud_of(x, neighbours_list(&l), sph_scalars_none(), sph_scalars_none()), 0, f->n_fluid), value, status));
+    clustering_expect(sph_hexatic_order(
+        sph_cloud_range(sph_cloud_of(x, neighbours_list(&l), sph_scalars_none(), sph_scalars_none()), 0,
+                        f->n_fluid),
+        sph_scalar_out_array(value, status)));
     for (i = 0; i < f->n_fluid; i++)
         if (!status[i] && (phase == FLOW_ALL || f->phase[i] == phase)) {
             d.hexatic += value[i];
@@ -675,7 +756,12 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
             {
                 const sph_points probe = sph_points_separate(count, px, py, NULL);
                 neighbours_find(2, &l, &grid, probe, reach, SPH_LIST_FOREIGN);
-                clustering_expect(sph_nearest_distance(2, 0, count, probe, x, neighbours_list(&l), distance, state));
+                clustering_expect(
+                    sph_nearest_distance(2,
+                                         sph_cloud_range(sph_cloud_of(probe, neighbours_list(&l),
+                                                                      sph_scalars_none(), sph_scalars_none()),
+                                                         0, count),
+                                         x, sph_scalar_out_array(distance, state)));
             }
             for (i = 0; i < count; i++) {
                 const double r = state[i] ? reach / f->dref : distance[i] / f->dref;
@@ -692,7 +778,8 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
 }
 
 /* The radial distribution function of the fluid up to `reach` (in dref): g of `bins` shells, against n_fluid / area. Where it is largest goes to *peak_at (in dref), how large to *peak. */
-static inline void flow_radial(flow *f, double area, double reach, int bins, double *g, double *peak_at, double *peak)
+static inline void flow_radial(flow *f, double area, double reach, int bins, double *g, double *peak_at,
+                               double *peak)
 {
     sph_points x = flow_points(f);
     neighbours l = {0};
@@ -701,7 +788,11 @@ static inline void flow_radial(flow *f, double area, double reach, int bins, dou
     x.n = f->n_fluid;
     flow_grid(f, x, reach * f->dref, &grid);
     neighbours_find(2, &l, &grid, x, reach * f->dref, 0);
-    clustering_expect(sph_radial_distribution(2, sph_cloud_range(sph_cloud_of(x, neighbours_list(&l), sph_scalars_none(), sph_scalars_none()), 0, f->n_fluid), reach * f->dref, f->n_fluid / area, bins, g));
+    clustering_expect(sph_radial_distribution(
+        2,
+        sph_cloud_range(sph_cloud_of(x, neighbours_list(&l), sph_scalars_none(), sph_scalars_none()), 0,
+                        f->n_fluid),
+        reach * f->dref, f->n_fluid / area, bins, g));
     *peak = *peak_at = 0;
     for (b = 0; b < bins; b++)
         if (g[b] > *peak) {
@@ -721,7 +812,8 @@ static inline void flow_snapshot(const flow *f, const char *dir, const char *nam
     for (i = 0; i < f->n; i++) {
         const double x = f->box_x > 0 ? f->x[i] - f->box_x * floor(f->x[i] / f->box_x) : f->x[i];
         const double y = f->box_y > 0 ? f->y[i] - f->box_y * floor(f->y[i] / f->box_y) : f->y[i];
-        fprintf(to.to, "%.8g,%.8g,%.8g,%.8g,%.8g,%.8g,%d,%d\n", x, y, f->vx[i], f->vy[i], f->rho[i], f->p[i], f->phase[i], f->ghost[i]);
+        fprintf(to.to, "%.8g,%.8g,%.8g,%.8g,%.8g,%.8g,%d,%d\n", x, y, f->vx[i], f->vy[i], f->rho[i], f->p[i],
+                f->phase[i], f->ghost[i]);
     }
     clustering_figure_close(&to);
 }
@@ -742,7 +834,8 @@ static inline int clustering_remedy(const clustering_options *o)
     int i;
     for (i = 0; i < FLOW_REMEDIES; i++)
         if (strcmp(o->remedy, flow_remedy_name[i]) == 0) return i;
-    fprintf(stderr, "option -remedy: '%s' is none; there are none, sequential, weighted, literal\n", o->remedy);
+    fprintf(stderr, "option -remedy: '%s' is none; there are none, sequential, weighted, literal\n",
+            o->remedy);
     exit(2);
 }
 

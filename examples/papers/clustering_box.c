@@ -50,7 +50,9 @@ static setting usual(sph_kernel kernel, double p0, int remedy, double dt)
 /* Monaghan 2000, JCP 159, 290: R f^4 joins the pressure term, f = W(r) / W(dref); R = 0.01 (p_i / rho_i^2 + p_j / rho_j^2) where both pressures are positive, and 0.2 |p| / rho^2 of each that is not. */
 static double repulsion(double p_i, double rho_i, double p_j, double rho_j, double share)
 {
-    if (p_i > 0 && p_j > 0) return share * sph_pressure_pair_monaghan(p_i, rho_i, p_j, rho_j);
+    if (p_i > 0 && p_j > 0)
+        return share * sph_pressure_pair_monaghan((sph_fluid_side){.p = p_i, .rho = rho_i},
+                                                  (sph_fluid_side){.p = p_j, .rho = rho_j});
     return 20 * share * ((p_i < 0 ? -p_i / (rho_i * rho_i) : 0) + (p_j < 0 ? -p_j / (rho_j * rho_j) : 0));
 }
 static void add_repulsion(flow *f)
@@ -60,9 +62,12 @@ static void add_repulsion(flow *f)
     for (i = 0; i < f->n_fluid; i++)
         for (p = f->all.start[i]; p < f->all.start[i + 1]; p++) {
             const sph_index j = f->all.index[p];
-            const sph_vec x_ij = sphi_separation(2, flow_points(f), sphi_point(2, flow_points(f), i), sphi_point(2, flow_points(f), j));
-            const double r = sph_length(2, x_ij), near_to = sph_kernel_w(f->kernel, 2, r, f->h) / lattice, square = near_to * near_to;
-            const double b = f->m[j] * repulsion(f->p[i], f->rho[i], f->p[j], f->rho[j], share) * square * square * sph_kernel_f(f->kernel, 2, r, f->h);
+            const sph_vec x_ij = sphi_separation(2, flow_points(f), sphi_point(2, flow_points(f), i),
+                                                 sphi_point(2, flow_points(f), j));
+            const double r = sph_length(2, x_ij), near_to = sph_kernel_w(f->kernel, 2, r, f->h) / lattice,
+                         square = near_to * near_to;
+            const double b = f->m[j] * repulsion(f->p[i], f->rho[i], f->p[j], f->rho[j], share) * square *
+                             square * sph_kernel_f(f->kernel, 2, r, f->h);
             f->ax[i] -= b * x_ij.x;
             f->ay[i] -= b * x_ij.y;
         }
@@ -114,7 +119,13 @@ static result simulate(const setting *s, const clustering_options *o, const char
     for (i = 0; i < n; i++) mean += f.rho[i] / n;
     for (i = 0; i < n; i++) square += (f.rho[i] - mean) * (f.rho[i] - mean) / n;
     r.noise = sqrt(square) / mean;
-    if (f.all.capacity) r.coincident = sph_count_coincident(2, sph_cloud_range(sph_cloud_of(flow_points(&f), neighbours_list(&f.all), sph_scalars_none(), sph_scalars_none()), 0, f.n), 1e-12 * f.h);
+    if (f.all.capacity)
+        r.coincident =
+            sph_count_coincident(2,
+                                 sph_cloud_range(sph_cloud_of(flow_points(&f), neighbours_list(&f.all),
+                                                              sph_scalars_none(), sph_scalars_none()),
+                                                 0, f.n),
+                                 1e-12 * f.h);
     r.worst_gain = f.worst_gain;
     r.t = f.t;
     r.collisions = f.collisions;
@@ -128,21 +139,25 @@ static result simulate(const setting *s, const clustering_options *o, const char
 static const char *describe(const setting *s)
 {
     static char text[128];
-    static const char *const remedy[FLOW_REMEDIES] = {"", ", collisions", ", collisions weighted", ", (4.20) as printed"};
-    snprintf(text, sizeof text, "%s, p0 = %g%s%s", sph_kernel_name(s->kernel), s->p0, s->artificial > 0 ? ", artificial pressure" : "", remedy[s->remedy]);
+    static const char *const remedy[FLOW_REMEDIES] = {"", ", collisions", ", collisions weighted",
+                                                      ", (4.20) as printed"};
+    snprintf(text, sizeof text, "%s, p0 = %g%s%s", sph_kernel_name(s->kernel), s->p0,
+             s->artificial > 0 ? ", artificial pressure" : "", remedy[s->remedy]);
     return text;
 }
 static void row_info(report *r, const char *item, const setting *s, const char *more, const result *a)
 {
     char at[192], text[160];
     snprintf(at, sizeof at, "%s%s", describe(s), more);
-    snprintf(text, sizeof text, "%.3f (%.3f), %.3f, %.3f; %.3f; %.4f; %.1f @ %.2f", a->d.mean, a->d.least, a->d.below_50, a->d.below_75, a->d.hexatic,
-             a->d.void_share, a->peak, a->peak_at);
-    report_row(r, item, at, "nnd mean (least), f(<.5), f(<.75); psi6; void; g peak @ r", NULL, text, NULL, NULL, REPORT_INFO);
+    snprintf(text, sizeof text, "%.3f (%.3f), %.3f, %.3f; %.3f; %.4f; %.1f @ %.2f", a->d.mean, a->d.least,
+             a->d.below_50, a->d.below_75, a->d.hexatic, a->d.void_share, a->peak, a->peak_at);
+    report_row(r, item, at, "nnd mean (least), f(<.5), f(<.75); psi6; void; g peak @ r", NULL, text, NULL,
+               NULL, REPORT_INFO);
 }
 static void momentum_row(report *r, const char *at, const result *a)
 {
-    report_absolute(r, "V.I", at, "momentum (the masses sum to 1)", 0, fmax(fabs(a->sums.momentum.x), fabs(a->sums.momentum.y)), 1e-13);
+    report_absolute(r, "V.I", at, "momentum (the masses sum to 1)", 0,
+                    fmax(fabs(a->sums.momentum.x), fabs(a->sums.momentum.y)), 1e-13);
 }
 
 /* ================================================================ figures 1 and 3 */
@@ -158,7 +173,8 @@ static void paper_runs(report *r, const clustering_options *o, int seeds, double
 {
     static const char *const figure[METHODS] = {"untreated", "convex", "collisions"};
     static const char *const item[METHODS] = {"Figure 1", "Figure 3 left", "Figure 3 right"};
-    double highest[PRESSURES][METHODS] = {{0}}, lowest[PRESSURES][METHODS], share[PRESSURES] = {0}, cost = 0; /* of psi6; mean f(<.5), untreated */
+    double highest[PRESSURES][METHODS] = {{0}}, lowest[PRESSURES][METHODS], share[PRESSURES] = {0},
+           cost = 0; /* of psi6; mean f(<.5), untreated */
     char text[160];
     int p, a, seed, runs = 0;
     setting start = usual(SPH_WENDLAND_C2_1D, 0, FLOW_NO_COLLISIONS, dt);
@@ -166,16 +182,19 @@ static void paper_runs(report *r, const clustering_options *o, int seeds, double
     start.tend = 0;
     start.figure = "clustering_box_initial";
     initial = simulate(&start, o, "box");
-    report_section(r, "Figures 1 and 3: distances in units of dref, f: share of particles nearer than that to their nearest");
+    report_section(r, "Figures 1 and 3: distances in units of dref, f: share of particles nearer than that "
+                      "to their nearest");
     row_info(r, "Figure 1", &start, ", initial", &initial);
     for (p = 0; p < PRESSURES; p++)
         for (seed = 1; seed <= seeds; seed++)
             for (a = 0; a < METHODS; a++) {
-                setting s = usual(a == 1 ? SPH_CONVEX : SPH_WENDLAND_C2_1D, background[p], a == 2 ? FLOW_SEQUENTIAL : FLOW_NO_COLLISIONS, dt);
+                setting s = usual(a == 1 ? SPH_CONVEX : SPH_WENDLAND_C2_1D, background[p],
+                                  a == 2 ? FLOW_SEQUENTIAL : FLOW_NO_COLLISIONS, dt);
                 char at[160], name[48], run[80];
                 result x;
                 s.seed = seed;
-                if (a == 2) s.dt = fmin(dt, 2e-4); /* pairs come closer than delta_c by what they move in a step */
+                if (a == 2)
+                    s.dt = fmin(dt, 2e-4); /* pairs come closer than delta_c by what they move in a step */
                 snprintf(name, sizeof name, "clustering_box_%s_%s", figure[a], p ? "p0" : "0");
                 if (seed == 1) s.figure = name;
                 snprintf(run, sizeof run, "%s_seed%d", name, seed);
@@ -183,12 +202,15 @@ static void paper_runs(report *r, const clustering_options *o, int seeds, double
                 snprintf(at, sizeof at, "%s, seed %d", describe(&s), seed);
                 row_info(r, item[a], &s, "", &x);
                 if (a == 0) {
-                    report_range(r, item[a], at, "mean nearest distance (no lattice)", (double)NAN, x.d.mean, 0, clustered_mean);
-                    report_range(r, item[a], at, "f(<.5) (clusters)", (double)NAN, x.d.below_50, clustered_share, 1);
+                    report_range(r, item[a], at, "mean nearest distance (no lattice)", (double)NAN, x.d.mean,
+                                 0, clustered_mean);
+                    report_range(r, item[a], at, "f(<.5) (clusters)", (double)NAN, x.d.below_50,
+                                 clustered_share, 1);
                 } else if (a == 1) {
                     report_range(r, item[a], at, "mean nearest distance", (double)NAN, x.d.mean, 0.82, 1.1);
                     report_range(r, item[a], at, "f(<.5)", (double)NAN, x.d.below_50, 0, 0);
-                } else report_range(r, item[a], at, "least nearest distance", (double)NAN, x.d.least, 0.84, 1.1);
+                } else
+                    report_range(r, item[a], at, "least nearest distance", (double)NAN, x.d.least, 0.84, 1.1);
                 momentum_row(r, at, &x);
                 highest[p][a] = fmax(highest[p][a], x.d.hexatic);
                 lowest[p][a] = seed == 1 ? x.d.hexatic : fmin(lowest[p][a], x.d.hexatic);
@@ -197,16 +219,23 @@ static void paper_runs(report *r, const clustering_options *o, int seeds, double
                 runs++;
             }
     for (p = 0; p < PRESSURES && seeds > 1; p++)
-        report_range(r, "Figure 1", p ? "(1.1), p0 = rho0 c^2, mean of the seeds" : "(1.1), p0 = 0, mean of the seeds", "f(<.5) (clusters)", (double)NAN,
-                     share[p], 0.2, 1);
-    snprintf(text, sizeof text, "psi6 at most %.2f, %.2f, %.2f (untreated, convex, collisions); 1: lattice, .36: random", highest[0][0], highest[0][1],
-             highest[0][2]);
+        report_range(r, "Figure 1",
+                     p ? "(1.1), p0 = rho0 c^2, mean of the seeds" : "(1.1), p0 = 0, mean of the seeds",
+                     "f(<.5) (clusters)", (double)NAN, share[p], 0.2, 1);
+    snprintf(text, sizeof text,
+             "psi6 at most %.2f, %.2f, %.2f (untreated, convex, collisions); 1: lattice, .36: random",
+             highest[0][0], highest[0][1], highest[0][2]);
     if (highest[0][1] < 0.8 && highest[0][2] < 0.8)
         report_claim_fails(r, "V.I", "p0 = 0", "'an almost hexagonal distribution'", "Figure 3", text,
                            "it takes a background pressure, which the paper does not mention");
-    else report_claim(r, "V.I", "p0 = 0", "'an almost hexagonal distribution'", "Figure 3", text, "psi6 > .8", 1);
-    snprintf(text, sizeof text, "psi6 of convex at least %.2f; of collisions %.2f to %.2f (12 seeds: .57 to .84)", lowest[1][1], lowest[1][2], highest[1][2]);
-    report_claim(r, "V.I", "p0 = rho0 c^2", "'an almost hexagonal distribution'", "Figure 3 (judged: convex)", text, "psi6 > .8", lowest[1][1] > 0.8);
+    else
+        report_claim(r, "V.I", "p0 = 0", "'an almost hexagonal distribution'", "Figure 3", text, "psi6 > .8",
+                     1);
+    snprintf(text, sizeof text,
+             "psi6 of convex at least %.2f; of collisions %.2f to %.2f (12 seeds: .57 to .84)", lowest[1][1],
+             lowest[1][2], highest[1][2]);
+    report_claim(r, "V.I", "p0 = rho0 c^2", "'an almost hexagonal distribution'", "Figure 3 (judged: convex)",
+                 text, "psi6 > .8", lowest[1][1] > 0.8);
     report_info(r, "run", "", "CPU microseconds per particle and step", cost / runs);
 }
 
@@ -223,11 +252,15 @@ static void rebuttal(report *r, const clustering_options *o, int full, double dt
         char text[128];
         row_info(r, "Section I", &s, "", &x);
         if (p == 0) continue;
-        snprintf(text, sizeof text, "the Wendland C2 of two dimensions: mean %.3f, f(<.5) = %.3f, psi6 = %.2f", x.d.mean, x.d.below_50, x.d.hexatic);
+        snprintf(text, sizeof text,
+                 "the Wendland C2 of two dimensions: mean %.3f, f(<.5) = %.3f, psi6 = %.2f", x.d.mean,
+                 x.d.below_50, x.d.hexatic);
         if (x.d.mean > 0.82 && x.d.below_50 <= 0)
             report_claim_fails(r, "Section I", describe(&s), "Wendland kernels", "cluster, against [3]", text,
                                "(1.1) belongs to one dimension: [3] does not speak of it in two");
-        else report_claim(r, "Section I", describe(&s), "Wendland kernels", "cluster, against [3]", text, "f(<.5) > 0", 1);
+        else
+            report_claim(r, "Section I", describe(&s), "Wendland kernels", "cluster, against [3]", text,
+                         "f(<.5) > 0", 1);
     }
 }
 
@@ -237,8 +270,9 @@ static void linear_functions(report *r)
     static const struct {
         sph_kernel k;
         double h, S, G; /* known from an independent sum */
-    } lattice[] = {{SPH_WENDLAND_C2_1D, 1.5, 0.00033, -0.00761}, {SPH_WENDLAND_C2_1D, 2, -0.00003, 0.00061}, {SPH_CONVEX, 1.5, 0.03201, -0.02146},
-                   {SPH_CONVEX, 2, 0.01343, -0.00628},           {SPH_HERMITE, 1.5, -0.00231, 0.00487},      {SPH_WENDLAND_C2, 1.5, 0.00368, -0.00803}};
+    } lattice[] = {{SPH_WENDLAND_C2_1D, 1.5, 0.00033, -0.00761}, {SPH_WENDLAND_C2_1D, 2, -0.00003, 0.00061},
+                   {SPH_CONVEX, 1.5, 0.03201, -0.02146},         {SPH_CONVEX, 2, 0.01343, -0.00628},
+                   {SPH_HERMITE, 1.5, -0.00231, 0.00487},        {SPH_WENDLAND_C2, 1.5, 0.00368, -0.00803}};
     double S, G, smooth = 0, convex = 0;
     char text[160];
     int a;
@@ -247,22 +281,27 @@ static void linear_functions(report *r)
         char at[64];
         clustering_lattice(lattice[a].k, lattice[a].h, &S, &G);
         snprintf(at, sizeof at, "%s, h = %g dref", sph_kernel_name(lattice[a].k), lattice[a].h);
-        report_absolute(r, "Section III", at, "sum V W - 1 (published: an independent sum)", lattice[a].S, S - 1, 6e-6);
+        report_absolute(r, "Section III", at, "sum V W - 1 (published: an independent sum)", lattice[a].S,
+                        S - 1, 6e-6);
         report_absolute(r, "Section III", at, "gradient factor - 1 (likewise)", lattice[a].G, G - 1, 6e-6);
     }
     /* by symmetry, sum V f W = S f for a linear f */
     clustering_lattice(SPH_WENDLAND_C2_1D, 2, &smooth, &G);
     clustering_lattice(SPH_CONVEX, 2, &convex, &G);
-    snprintf(text, sizeof text, "f = x comes back as %.4f x by (3.9), %.5f x by (1.1), at h = 2 dref; divided by sum V W: exactly", convex, smooth);
-    report_claim(r, "Section III", "f = x, hexagonal grid", "'impossible to reconstruct linear functions'", "with convex kernels", text,
-                 "holds for the plain sum: above 1 %", convex - 1 > 0.01);
+    snprintf(
+        text, sizeof text,
+        "f = x comes back as %.4f x by (3.9), %.5f x by (1.1), at h = 2 dref; divided by sum V W: exactly",
+        convex, smooth);
+    report_claim(r, "Section III", "f = x, hexagonal grid", "'impossible to reconstruct linear functions'",
+                 "with convex kernels", text, "holds for the plain sum: above 1 %", convex - 1 > 0.01);
 }
 
 static void larger_smoothing(report *r, const clustering_options *o, int full, double dt)
 {
     static const double ratio[] = {3, 1.5, 2, 2.5};
     int a;
-    report_section(r, "Section III: 'the higher sensitivity can be reduced by choosing a larger smoothing scale', without clustering");
+    report_section(r, "Section III: 'the higher sensitivity can be reduced by choosing a larger smoothing "
+                      "scale', without clustering");
     for (a = 0; a < (full ? 4 : 1); a++) {
         setting s = usual(SPH_CONVEX, 100, FLOW_NO_COLLISIONS, dt);
         char more[48], text[128];
@@ -271,9 +310,10 @@ static void larger_smoothing(report *r, const clustering_options *o, int full, d
         x = simulate(&s, o, "box_larger_h");
         snprintf(more, sizeof more, ", h = %g dref", ratio[a]);
         row_info(r, "Section III", &s, more, &x);
-        snprintf(text, sizeof text, "mean %.3f, f(<.5) = %.3f; density varies by %.2g", x.d.mean, x.d.below_50, x.noise);
-        report_claim(r, "Section III", more + 2, "convex kernel, larger h", "does not lead to clustering", text, "mean > .82, f(<.5) = 0",
-                     x.d.mean > 0.82 && x.d.below_50 <= 0);
+        snprintf(text, sizeof text, "mean %.3f, f(<.5) = %.3f; density varies by %.2g", x.d.mean,
+                 x.d.below_50, x.noise);
+        report_claim(r, "Section III", more + 2, "convex kernel, larger h", "does not lead to clustering",
+                     text, "mean > .82, f(<.5) = 0", x.d.mean > 0.82 && x.d.below_50 <= 0);
     }
 }
 
@@ -286,16 +326,20 @@ static void literal(report *r, const clustering_options *o, double dt)
         const setting s = usual(SPH_WENDLAND_C2_1D, background[p], FLOW_LITERAL, dt);
         const result x = simulate(&s, o, "box_literal");
         char text[160];
-        snprintf(text, sizeof text, "%s t = %.2f: mean %.3f, f(<.5) = %.3f, kinetic energy %.3g; largest gain in a step %.2g times",
-                 x.answer == FLOW_BLEW_UP ? "blew up at" : "ran to", x.t, x.d.mean, x.d.below_50, x.sums.kinetic_energy, 1 + x.worst_gain);
-        report_claim_fails(r, "(4.20)", describe(&s), "the sum over all pairs in reach", "Figure 3 right", text,
-                           "pairs that part are pulled back: it takes 'approaching' in C_i");
+        snprintf(
+            text, sizeof text,
+            "%s t = %.2f: mean %.3f, f(<.5) = %.3f, kinetic energy %.3g; largest gain in a step %.2g times",
+            x.answer == FLOW_BLEW_UP ? "blew up at" : "ran to", x.t, x.d.mean, x.d.below_50,
+            x.sums.kinetic_energy, 1 + x.worst_gain);
+        report_claim_fails(r, "(4.20)", describe(&s), "the sum over all pairs in reach", "Figure 3 right",
+                           text, "pairs that part are pulled back: it takes 'approaching' in C_i");
     }
     for (p = 0; p < PRESSURES; p++) {
         const setting s = usual(SPH_WENDLAND_C2_1D, background[p], FLOW_WEIGHTED, dt);
         const result x = simulate(&s, o, "box_weighted");
         row_info(r, "weighted", &s, "", &x);
-        report_range(r, "weighted", describe(&s), "largest gain of energy by the collisions of a step", (double)NAN, x.worst_gain, -1, 1e-12);
+        report_range(r, "weighted", describe(&s), "largest gain of energy by the collisions of a step",
+                     (double)NAN, x.worst_gain, -1, 1e-12);
     }
 }
 
@@ -320,7 +364,8 @@ static void restitution_study(report *r, const clustering_options *o, double dt)
 /* Monaghan's artificial pressure, Read's kernel, kernels with positive transforms, other convex kernels */
 static void rivals(report *r, const clustering_options *o, double dt)
 {
-    static const sph_kernel kernel[] = {SPH_HERMITE, SPH_CUBIC_SPLINE, SPH_CORE_TRIANGLE, SPH_JOHNSON_BEISSEL, SPH_SCHUESSLER_SCHMITT};
+    static const sph_kernel kernel[] = {SPH_HERMITE, SPH_CUBIC_SPLINE, SPH_CORE_TRIANGLE, SPH_JOHNSON_BEISSEL,
+                                        SPH_SCHUESSLER_SCHMITT};
     int p, a;
     report_section(r, "beyond the paper: rivals");
     for (p = 0; p < PRESSURES; p++) {
@@ -362,8 +407,12 @@ static void coincident_pairs(report *r, const clustering_options *o, double dt)
         s.coincident = 20;
         s.tend = 0.5;
         x = simulate(&s, o, "box_coincident");
-        if (a < 2) report_range(r, "beyond", describe(&s), "particles that still coincide at t = .5", (double)NAN, (double)x.coincident, 40, 40);
-        else report_info(r, "beyond", describe(&s), "particles that still coincide at t = .5", (double)x.coincident);
+        if (a < 2)
+            report_range(r, "beyond", describe(&s), "particles that still coincide at t = .5", (double)NAN,
+                         (double)x.coincident, 40, 40);
+        else
+            report_info(r, "beyond", describe(&s), "particles that still coincide at t = .5",
+                        (double)x.coincident);
     }
 }
 
@@ -409,7 +458,8 @@ int main(int argc, char **argv)
     static report r;
     double dt;
     options_parse(argc, argv,
-                  "Section V.I of the paper on particle clustering: the gas-filled box. Without -full: one seed of three, time steps of 5e-4 instead of 1e-4, "
+                  "Section V.I of the paper on particle clustering: the gas-filled box. Without -full: one "
+                  "seed of three, time steps of 5e-4 instead of 1e-4, "
                   "few studies.",
                   specs, CLUSTERING_OPTION_COUNT);
     report_open(&r, "clustering_box", o.out);

@@ -71,29 +71,36 @@ static void watch_front(flow *f)
 /* Rows half a lattice distance above the bottom, and every other one shifted by half a particle: a quarter of dref from the left wall, or three. */
 static void fill(flow *f, const tank *b, int phases)
 {
-    const double dy = hexagonal * f->dref, V = f->dref * dy, reach = sph_kernel_support(f->kernel) * f->h * (1 - 1e-9);
-    const int layers = (int)(reach / dy) + 1, rows = (int)(b->height / dy) + layers + 1, columns = (int)(b->width / f->dref) + layers + 1;
+    const double dy = hexagonal * f->dref, V = f->dref * dy,
+                 reach = sph_kernel_support(f->kernel) * f->h * (1 - 1e-9);
+    const int layers = (int)(reach / dy) + 1, rows = (int)(b->height / dy) + layers + 1,
+              columns = (int)(b->width / f->dref) + layers + 1;
     int ghosts, row, column;
     for (ghosts = 0; ghosts < 2; ghosts++)
         for (row = -layers; row < rows; row++)
             for (column = -layers - 1; column < columns; column++) {
                 const double x = (column + 0.25 + 0.5 * (row % 2 != 0)) * f->dref, y = (row + 0.5) * dy;
-                const int inside = x > 0 && x < b->width && y > 0 && y < b->height, water = x < b->water_width && y < b->water_height;
+                const int inside = x > 0 && x < b->width && y > 0 && y < b->height,
+                          water = x < b->water_width && y < b->water_height;
                 const flow_state *const s = &f->state[water ? WATER : AIR];
-                if (ghosts && !inside && x > -reach && x < b->width + reach && y > -reach && y < b->height + reach)
+                if (ghosts && !inside && x > -reach && x < b->width + reach && y > -reach &&
+                    y < b->height + reach)
                     flow_add_ghost(f, x, y, water ? WATER : AIR, s->rho0 * V);
                 if (!ghosts && inside && (water || phases > 1)) {
                     const double air = phases > 1 ? f->state[AIR].rho0 * gravity : 0;
-                    const double p =
-                        s->p0 + (water ? f->state[WATER].rho0 * gravity * (b->water_height - y) + air * (b->height - b->water_height) : air * (b->height - y));
-                    const double rho = sph_density_tait(p, s->rho0, s->c, 1, s->p0);
+                    const double p = s->p0 + (water ? f->state[WATER].rho0 * gravity * (b->water_height - y) +
+                                                          air * (b->height - b->water_height)
+                                                    : air * (b->height - y));
+                    const double rho =
+                        sph_density_tait(p, (sph_tait){.rho0 = s->rho0, .c = s->c, .gamma = 1, .p0 = s->p0});
                     const int i = flow_add(f, x, y, water ? WATER : AIR, rho * V);
                     f->rho[i] = rho;
                 }
             }
 }
 
-static void open_dam(flow *f, const scenario *s, const tank *b, double dref, double smoothing, double dt, watch *w)
+static void open_dam(flow *f, const scenario *s, const tank *b, double dref, double smoothing, double dt,
+                     watch *w)
 {
     flow_open(f, s->name, s->kernel, dref, smoothing * dref);
     f->dt = dt;
@@ -124,7 +131,8 @@ static void measure(flow *f, const tank *b, outcome *o)
     o->lost = 0;
     o->fastest = 0;
     for (i = 0; i < f->n_fluid; i++) {
-        o->lost += !(f->x[i] > -half && f->x[i] < b->width + half && f->y[i] > -half && f->y[i] < b->height + half);
+        o->lost +=
+            !(f->x[i] > -half && f->x[i] < b->width + half && f->y[i] > -half && f->y[i] < b->height + half);
         o->fastest = fmax(o->fastest, sqrt(f->vx[i] * f->vx[i] + f->vy[i] * f->vy[i]));
     }
     o->front = front(f, ((const watch *)f->data)->below);
@@ -136,8 +144,8 @@ static void measure(flow *f, const tank *b, outcome *o)
 }
 
 /* From one of the times to the next, with what is so at each (outcome[k] of times[k], the last of them complete), and a picture of it. A run that blows up ends there: the rest of outcome[] says so. */
-static void run(const clustering_options *c, const scenario *s, const tank *b, double dref, double smoothing, double dt, const double *times, int count,
-                const char *figure, outcome *o)
+static void run(const clustering_options *c, const scenario *s, const tank *b, double dref, double smoothing,
+                double dt, const double *times, int count, const char *figure, outcome *o)
 {
     static watch w; /* large */
     char file[96];
@@ -158,8 +166,8 @@ static void run(const clustering_options *c, const scenario *s, const tank *b, d
         o[k].front_of = w.front;
         measure(&f, b, &o[k]);
         if (o[k].answer == FLOW_BLEW_UP)
-            snprintf(o[k].blow_up, sizeof o[k].blow_up, "t = %.4f: a particle of %s at (%.3f, %.3f): %s", f.t, f.phase[f.bad] == WATER ? "water" : "air",
-                     f.x[f.bad], f.y[f.bad], f.bad_what);
+            snprintf(o[k].blow_up, sizeof o[k].blow_up, "t = %.4f: a particle of %s at (%.3f, %.3f): %s", f.t,
+                     f.phase[f.bad] == WATER ? "water" : "air", f.x[f.bad], f.y[f.bad], f.bad_what);
         if (!figure) continue;
         snprintf(file, sizeof file, "clustering_%s_%s_%03.0f", figure, s->file, 1000 * times[k]);
         flow_snapshot(&f, c->figures, file);
@@ -169,7 +177,8 @@ static void run(const clustering_options *c, const scenario *s, const tank *b, d
 
 /* ---------------------------------------------------------------- rows of the table */
 
-static void info(report *r, const char *item, const char *setting, const char *quantity, double measured, double known)
+static void info(report *r, const char *item, const char *setting, const char *quantity, double measured,
+                 double known)
 {
     char criterion[REPORT_CRITERION] = "";
     if (!isnan(known)) snprintf(criterion, sizeof criterion, "independent program: %g", known);
@@ -177,14 +186,23 @@ static void info(report *r, const char *item, const char *setting, const char *q
 }
 
 /* known: mean, least, f(<0.5), f(<0.75), void, hole, front, kinetic energy of an independent program; null: nothing known */
-static void distribution_rows(report *r, const char *item, const char *setting, const outcome *o, const double *known)
+static void distribution_rows(report *r, const char *item, const char *setting, const outcome *o,
+                              const double *known)
 {
-    static const char *const quantity[] = {"mean distance to the nearest / dref",        "least distance / dref",        "f(<0.5)",   "f(<0.75)",
-                                           "void: area farther than 0.85 dref from any", "largest hole / dref (radius)", "front [m]", "kinetic energy [J/m]"};
-    const double value[] = {o->d.mean, o->d.least, o->d.below_50, o->d.below_75, o->d.void_share, o->d.hole, o->front, o->kinetic_energy};
+    static const char *const quantity[] = {"mean distance to the nearest / dref",
+                                           "least distance / dref",
+                                           "f(<0.5)",
+                                           "f(<0.75)",
+                                           "void: area farther than 0.85 dref from any",
+                                           "largest hole / dref (radius)",
+                                           "front [m]",
+                                           "kinetic energy [J/m]"};
+    const double value[] = {o->d.mean,       o->d.least, o->d.below_50, o->d.below_75,
+                            o->d.void_share, o->d.hole,  o->front,      o->kinetic_energy};
     int k;
     if (o->answer == FLOW_BLEW_UP) {
-        report_row(r, item, setting, "blew up", NULL, o->blow_up, NULL, "picture: the last one of this run", REPORT_INFO);
+        report_row(r, item, setting, "blew up", NULL, o->blow_up, NULL, "picture: the last one of this run",
+                   REPORT_INFO);
         return;
     }
     for (k = 0; k < 8; k++) info(r, item, setting, quantity[k], value[k], known ? known[k] : (double)NAN);
@@ -200,33 +218,48 @@ static const scenario methods[METHODS] = {
     {"(3.9)", "convex", SPH_CONVEX, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 1, 2, 0},
     {"(1.1) + collisions", "collisions", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 0, 2, 0},
     {"(1.1), water only", "single", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 1, 1, 0},
-    {"(1.1) + collisions, water only", "single_collisions", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 0, 1, 0},
+    {"(1.1) + collisions, water only", "single_collisions", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0,
+     FLOW_SEQUENTIAL, 0, 1, 0},
 };
 /* an independent program at t = 0.1, dref = 1/200, dt = 2e-5 */
-static const double known[METHODS][8] = {
-    {.819, .000, .071, .244, .0033, 1.30, .592, 7.90}, {.890, .056, .022, .095, .0007, 1.26, .594, 7.87}, {.915, .690, 0, 0, 0, 0.84, .588, 7.28}};
+static const double known[METHODS][8] = {{.819, .000, .071, .244, .0033, 1.30, .592, 7.90},
+                                         {.890, .056, .022, .095, .0007, 1.26, .594, 7.87},
+                                         {.915, .690, 0, 0, 0, 0.84, .588, 7.28}};
 /* and its fronts at t = 0.1, 0.2, 0.3 and their speed from 0.2 on, dref = 1/100 */
-static const double known_front[METHODS][4] = {
-    {.581, .764, .955, 1.91}, {.582, .761, .965, 2.04}, {.571, .734, .903, 1.69}, {.587, .777, .979, 2.02}, {.575, .742, .905, 1.63}};
+static const double known_front[METHODS][4] = {{.581, .764, .955, 1.91},
+                                               {.582, .761, .965, 2.04},
+                                               {.571, .734, .903, 1.69},
+                                               {.587, .777, .979, 2.02},
+                                               {.575, .742, .905, 1.63}};
 
 static void early(report *r, const outcome *o, int full)
 {
     char text[96];
     int k;
-    report_section(r, full ? "Figure 8: t = 0.1, dref = 1/200" : "Figure 8: t = 0.1, dref = 1/100 (paper: 1/200)");
-    for (k = UNTREATED; k <= COLLISIONS; k++) distribution_rows(r, "Figure 8", methods[k].name, &o[k], full ? known[k] : NULL);
-    report_range(r, "Figure 8", methods[COLLISIONS].name, "'great improvement': f(<0.5)", (double)NAN, o[COLLISIONS].d.below_50, 0, 0);
-    report_range(r, "Figure 8", methods[COLLISIONS].name, "'the interface looks very good': void, to four decimals", (double)NAN, o[COLLISIONS].d.void_share, 0,
-                 5e-5);
-    snprintf(text, sizeof text, "void %.4f, %.4f, %.4f", o[UNTREATED].d.void_share, o[CONVEX].d.void_share, o[COLLISIONS].d.void_share);
-    report_claim(r, "Figure 8", "(1.1), (3.9), collisions", "'large cavities', 'better, but still cavities', none", "pictures", text, "in this order",
-                 o[UNTREATED].d.void_share > o[CONVEX].d.void_share && o[CONVEX].d.void_share > o[COLLISIONS].d.void_share);
+    report_section(r, full ? "Figure 8: t = 0.1, dref = 1/200"
+                           : "Figure 8: t = 0.1, dref = 1/100 (paper: 1/200)");
+    for (k = UNTREATED; k <= COLLISIONS; k++)
+        distribution_rows(r, "Figure 8", methods[k].name, &o[k], full ? known[k] : NULL);
+    report_range(r, "Figure 8", methods[COLLISIONS].name, "'great improvement': f(<0.5)", (double)NAN,
+                 o[COLLISIONS].d.below_50, 0, 0);
+    report_range(r, "Figure 8", methods[COLLISIONS].name,
+                 "'the interface looks very good': void, to four decimals", (double)NAN,
+                 o[COLLISIONS].d.void_share, 0, 5e-5);
+    snprintf(text, sizeof text, "void %.4f, %.4f, %.4f", o[UNTREATED].d.void_share, o[CONVEX].d.void_share,
+             o[COLLISIONS].d.void_share);
+    report_claim(r, "Figure 8", "(1.1), (3.9), collisions",
+                 "'large cavities', 'better, but still cavities', none", "pictures", text, "in this order",
+                 o[UNTREATED].d.void_share > o[CONVEX].d.void_share &&
+                     o[CONVEX].d.void_share > o[COLLISIONS].d.void_share);
     snprintf(text, sizeof text, "f(<0.5) = %.3f, %.3f", o[UNTREATED].d.below_50, o[CONVEX].d.below_50);
-    report_claim(r, "Figure 8", "(1.1), (3.9)", "'the distribution within the fluids is much better'", "pictures", text, "less than half",
-                 o[CONVEX].d.below_50 < 0.5 * o[UNTREATED].d.below_50);
+    report_claim(r, "Figure 8", "(1.1), (3.9)", "'the distribution within the fluids is much better'",
+                 "pictures", text, "less than half", o[CONVEX].d.below_50 < 0.5 * o[UNTREATED].d.below_50);
 }
 
-static double speed(const outcome *o) { return (front_at(&o->front_of, 0.3) - front_at(&o->front_of, 0.2)) / 0.1; }
+static double speed(const outcome *o)
+{
+    return (front_at(&o->front_of, 0.3) - front_at(&o->front_of, 0.2)) / 0.1;
+}
 
 /* o: of t = 0.3 */
 static void fronts(report *r, const outcome *o, const clustering_options *c)
@@ -244,10 +277,14 @@ static void fronts(report *r, const outcome *o, const clustering_options *c)
         for (s = 0; s < f->count; s++) fprintf(to.to, "%s,%.6g,%.6g\n", methods[k].file, f->t[s], f->x[s]);
         if (isnan(v)) continue;
         snprintf(text, sizeof text, "%.3f %.3f %.3f", front_at(f, 0.1), front_at(f, 0.2), front_at(f, 0.3));
-        snprintf(setting, sizeof setting, "independent program: %.3f %.3f %.3f", known_front[k][0], known_front[k][1], known_front[k][2]);
-        report_row(r, "front", methods[k].name, "x at t = 0.1, 0.2, 0.3 [m]", NULL, text, c->full ? NULL : setting, NULL, REPORT_INFO);
-        info(r, "front", methods[k].name, "speed, t = 0.2 to 0.3 [m/s]", v, c->full ? (double)NAN : known_front[k][3]);
-        report_range(r, "front", methods[k].name, "speed / sqrt(gH) (Ritter: 2)", (double)NAN, v / wave, 1.1, 2);
+        snprintf(setting, sizeof setting, "independent program: %.3f %.3f %.3f", known_front[k][0],
+                 known_front[k][1], known_front[k][2]);
+        report_row(r, "front", methods[k].name, "x at t = 0.1, 0.2, 0.3 [m]", NULL, text,
+                   c->full ? NULL : setting, NULL, REPORT_INFO);
+        info(r, "front", methods[k].name, "speed, t = 0.2 to 0.3 [m/s]", v,
+             c->full ? (double)NAN : known_front[k][3]);
+        report_range(r, "front", methods[k].name, "speed / sqrt(gH) (Ritter: 2)", (double)NAN, v / wave, 1.1,
+                     2);
     }
     clustering_figure_close(&to);
 }
@@ -263,19 +300,22 @@ static void who_is_slower(report *r, const outcome *o, double dref)
         const double a = speed(&o[without]), b = speed(&o[with]);
         if (isnan(a) || isnan(b)) continue;
         snprintf(setting, sizeof setting, "%s, dref = 1/%.0f", k ? "water only" : "water and air", 1 / dref);
-        snprintf(text, sizeof text, "%.2f m/s without, %.2f m/s with: %+.0f %%; x(0.3) = %.3f, %.3f", a, b, 100 * (b / a - 1),
-                 front_at(&o[without].front_of, 0.3), front_at(&o[with].front_of, 0.3));
+        snprintf(text, sizeof text, "%.2f m/s without, %.2f m/s with: %+.0f %%; x(0.3) = %.3f, %.3f", a, b,
+                 100 * (b / a - 1), front_at(&o[without].front_of, 0.3), front_at(&o[with].front_of, 0.3));
         if (b < 0.98 * a)
-            report_claim_fails(r, k ? "beyond" : "Figure 9", setting, "'the flow with collisions is not slower'", k ? "" : "pictures", text,
+            report_claim_fails(r, k ? "beyond" : "Figure 9", setting,
+                               "'the flow with collisions is not slower'", k ? "" : "pictures", text,
                                k ? "collisions are a viscosity: the less, the finer the lattice"
                                  : "a coarse lattice: 6 % slower at 1/100, 1 % at the paper's 1/200");
-        else report_claim(r, k ? "beyond" : "Figure 9", setting, "'the flow with collisions is not slower'", k ? "" : "pictures", text, "within 2 %", 1);
+        else
+            report_claim(r, k ? "beyond" : "Figure 9", setting, "'the flow with collisions is not slower'",
+                         k ? "" : "pictures", text, "within 2 %", 1);
     }
     if (isnan(with_air) || isnan(alone)) return;
     snprintf(setting, sizeof setting, "without collisions, dref = 1/%.0f", 1 / dref);
     snprintf(text, sizeof text, "x(0.3) = %.3f with air, %.3f without", with_air, alone);
-    report_claim(r, "Figure 9", setting, "'the multiphase flow is slower than the single phase flow'", "pictures", text, "front less far at t = 0.3",
-                 with_air < alone);
+    report_claim(r, "Figure 9", setting, "'the multiphase flow is slower than the single phase flow'",
+                 "pictures", text, "front less far at t = 0.3", with_air < alone);
 }
 
 /* ---------------------------------------------------------------- figure 9: t = 0.7 */
@@ -289,13 +329,19 @@ static void late(report *r, const outcome *o, double dref)
     for (k = 0; k < METHODS; k++)
         if (k != CONVEX) distribution_rows(r, "Figure 9", methods[k].name, &o[k], NULL);
     if (o[UNTREATED].answer == FLOW_DONE) {
-        snprintf(text, sizeof text, "void %.4f, f(<0.5) = %.3f", o[UNTREATED].d.void_share, o[UNTREATED].d.below_50);
-        report_claim(r, "Figure 9", methods[UNTREATED].name, "'many voids visible, particles are clearly clustering'", "picture", text,
-                     "void > 0.01, f(<0.5) > 0.2", o[UNTREATED].d.void_share > 0.01 && o[UNTREATED].d.below_50 > 0.2);
+        snprintf(text, sizeof text, "void %.4f, f(<0.5) = %.3f", o[UNTREATED].d.void_share,
+                 o[UNTREATED].d.below_50);
+        report_claim(r, "Figure 9", methods[UNTREATED].name,
+                     "'many voids visible, particles are clearly clustering'", "picture", text,
+                     "void > 0.01, f(<0.5) > 0.2",
+                     o[UNTREATED].d.void_share > 0.01 && o[UNTREATED].d.below_50 > 0.2);
     }
-    snprintf(text, sizeof text, "void %.4f, f(<0.5) = %.3f, %d outside", o[COLLISIONS].d.void_share, o[COLLISIONS].d.below_50, o[COLLISIONS].lost);
-    report_claim(r, "Figure 9", methods[COLLISIONS].name, "'much better', 'hardly any voids'", "picture", text, "void < 0.002, f(<0.5) < 0.05",
-                 o[COLLISIONS].answer == FLOW_DONE && o[COLLISIONS].d.void_share < 0.002 && o[COLLISIONS].d.below_50 < 0.05);
+    snprintf(text, sizeof text, "void %.4f, f(<0.5) = %.3f, %d outside", o[COLLISIONS].d.void_share,
+             o[COLLISIONS].d.below_50, o[COLLISIONS].lost);
+    report_claim(r, "Figure 9", methods[COLLISIONS].name, "'much better', 'hardly any voids'", "picture",
+                 text, "void < 0.002, f(<0.5) < 0.05",
+                 o[COLLISIONS].answer == FLOW_DONE && o[COLLISIONS].d.void_share < 0.002 &&
+                     o[COLLISIONS].d.below_50 < 0.05);
 }
 
 /* ---------------------------------------------------------------- which equations, and what walls need */
@@ -305,15 +351,29 @@ static void equations(report *r, const clustering_options *c, double dref, doubl
     static const scenario others[] = {
         {"(5.23), (5.24)", "continuity", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_SEQUENTIAL, 1, 2, 0},
         {"(2.2), (2.3)", "summation", SPH_WENDLAND_C2_1D, FLOW_SUMMATION, 0, FLOW_SEQUENTIAL, 1, 2, 0},
-        {"(2.2), (2.3) + collisions", "summation_collisions", SPH_WENDLAND_C2_1D, FLOW_SUMMATION, 0, FLOW_SEQUENTIAL, 0, 2, 0},
+        {"(2.2), (2.3) + collisions", "summation_collisions", SPH_WENDLAND_C2_1D, FLOW_SUMMATION, 0,
+         FLOW_SEQUENTIAL, 0, 2, 0},
         {"Hu & Adams", "hu_adams", SPH_WENDLAND_C2_1D, FLOW_NUMBER, 0, FLOW_SEQUENTIAL, 1, 2, 0},
-        {"Hu & Adams + collisions", "hu_adams_collisions", SPH_WENDLAND_C2_1D, FLOW_NUMBER, 0, FLOW_SEQUENTIAL, 0, 2, 0},
-        {"no collisions with walls", "open_walls", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_NO_COLLISIONS, 0, 2, 0},
-        {"density by old velocities", "old_rate", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 1, FLOW_SEQUENTIAL, 1, 2, 0},
+        {"Hu & Adams + collisions", "hu_adams_collisions", SPH_WENDLAND_C2_1D, FLOW_NUMBER, 0,
+         FLOW_SEQUENTIAL, 0, 2, 0},
+        {"no collisions with walls", "open_walls", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 0, FLOW_NO_COLLISIONS,
+         0, 2, 0},
+        {"density by old velocities", "old_rate", SPH_WENDLAND_C2_1D, FLOW_CONTINUITY, 1, FLOW_SEQUENTIAL, 1,
+         2, 0},
     };
-    enum { OTHERS = sizeof others / sizeof *others, CONTINUITY = 0, SUMMATION, SUMMATION_COLLISIONS, HU_ADAMS, HU_ADAMS_COLLISIONS, OPEN_WALLS, OLD_RATE };
+    enum {
+        OTHERS = sizeof others / sizeof *others,
+        CONTINUITY = 0,
+        SUMMATION,
+        SUMMATION_COLLISIONS,
+        HU_ADAMS,
+        HU_ADAMS_COLLISIONS,
+        OPEN_WALLS,
+        OLD_RATE
+    };
     static outcome o[OTHERS];
-    const double end = 0.1, available = 0.5 * 1000 * gravity * dam.water_width * dam.water_height * dam.water_height * (1 - dam.water_width / dam.width);
+    const double end = 0.1, available = 0.5 * 1000 * gravity * dam.water_width * dam.water_height *
+                                        dam.water_height * (1 - dam.water_width / dam.width);
     char text[160];
     int k;
     snprintf(text, sizeof text, "Which equations: t = 0.1, dref = 1/%.0f", 1 / dref);
@@ -321,24 +381,34 @@ static void equations(report *r, const clustering_options *c, double dref, doubl
     for (k = 0; k < OTHERS; k++) {
         run(c, &others[k], &dam, dref, 1.5, dt, &end, 1, "dam", &o[k]);
         if (o[k].answer == FLOW_BLEW_UP) {
-            report_row(r, "equations", others[k].name, "blew up", NULL, o[k].blow_up, NULL, "picture: the last one of this run", REPORT_INFO);
+            report_row(r, "equations", others[k].name, "blew up", NULL, o[k].blow_up, NULL,
+                       "picture: the last one of this run", REPORT_INFO);
             continue;
         }
-        snprintf(text, sizeof text, "void %.4f, hole %.2f dref, f(<0.5) %.3f, %.1f J/m, front %.3f, %d outside", o[k].d.void_share, o[k].d.hole,
-                 o[k].d.below_50, o[k].kinetic_energy, o[k].front, o[k].lost);
+        snprintf(text, sizeof text,
+                 "void %.4f, hole %.2f dref, f(<0.5) %.3f, %.1f J/m, front %.3f, %d outside",
+                 o[k].d.void_share, o[k].d.hole, o[k].d.below_50, o[k].kinetic_energy, o[k].front, o[k].lost);
         report_row(r, "equations", others[k].name, "at t = 0.1", NULL, text, NULL, NULL, REPORT_INFO);
     }
-    snprintf(text, sizeof text, "kinetic energy %.0f J/m of %.0f that the water could ever give; void %.3f, with collisions %.3f", o[SUMMATION].kinetic_energy,
-             available, o[SUMMATION].d.void_share, o[SUMMATION_COLLISIONS].d.void_share);
+    snprintf(
+        text, sizeof text,
+        "kinetic energy %.0f J/m of %.0f that the water could ever give; void %.3f, with collisions %.3f",
+        o[SUMMATION].kinetic_energy, available, o[SUMMATION].d.void_share,
+        o[SUMMATION_COLLISIONS].d.void_share);
     if (o[SUMMATION].answer == FLOW_BLEW_UP) snprintf(text, sizeof text, "%s", o[SUMMATION].blow_up);
-    report_claim_fails(r, "Section V.IV", "water and air by (2.2), (2.3)", "equations", "(5.23), (5.24) 'for this problem only', i.e. the tank", text,
-                       "the sum smears the density over the interface: pressures of both signs, c^2 x hundreds of kg/m2");
-    snprintf(text, sizeof text, "void %.4f, %.4f; with collisions %.4f; front %.3f, %.3f", o[HU_ADAMS].d.void_share, o[CONTINUITY].d.void_share,
-             o[HU_ADAMS_COLLISIONS].d.void_share, o[HU_ADAMS].front, o[CONTINUITY].front);
-    report_claim(r, "beyond", "Hu & Adams, (5.23) + (5.24)", "two forms that take density jumps", "", text, "fronts within 2 %",
-                 fabs(o[HU_ADAMS].front / o[CONTINUITY].front - 1) < 0.02);
-    snprintf(text, sizeof text, "%d outside of the tank without, %d with", o[OPEN_WALLS].lost, o[CONTINUITY].lost);
-    report_claim(r, "Section V.IV", "collisions with walls", "'an extra measure to keep particles inside'", "needed", text, "some without, none with",
+    report_claim_fails(
+        r, "Section V.IV", "water and air by (2.2), (2.3)", "equations",
+        "(5.23), (5.24) 'for this problem only', i.e. the tank", text,
+        "the sum smears the density over the interface: pressures of both signs, c^2 x hundreds of kg/m2");
+    snprintf(text, sizeof text, "void %.4f, %.4f; with collisions %.4f; front %.3f, %.3f",
+             o[HU_ADAMS].d.void_share, o[CONTINUITY].d.void_share, o[HU_ADAMS_COLLISIONS].d.void_share,
+             o[HU_ADAMS].front, o[CONTINUITY].front);
+    report_claim(r, "beyond", "Hu & Adams, (5.23) + (5.24)", "two forms that take density jumps", "", text,
+                 "fronts within 2 %", fabs(o[HU_ADAMS].front / o[CONTINUITY].front - 1) < 0.02);
+    snprintf(text, sizeof text, "%d outside of the tank without, %d with", o[OPEN_WALLS].lost,
+             o[CONTINUITY].lost);
+    report_claim(r, "Section V.IV", "collisions with walls", "'an extra measure to keep particles inside'",
+                 "needed", text, "some without, none with",
                  (o[OPEN_WALLS].lost > 0 || o[OPEN_WALLS].answer == FLOW_BLEW_UP) && o[CONTINUITY].lost == 0);
 }
 
@@ -391,10 +461,10 @@ static void kernels(report *r, const clustering_options *c, double dref, double 
             s.p0 = background[p];
             run(c, &s, &dam, dref, 1.5, dt, &end, 1, NULL, &o);
             snprintf(at, sizeof at, "%s, p0 = %g", s.name, s.p0);
-            snprintf(text, sizeof text, "%.3f, %.3f, %.3f; %.4f, %.2f; %.3f; %d", o.d.mean, o.d.below_50, o.d.below_75, o.d.void_share, o.d.hole, o.front,
-                     o.lost);
-            report_row(r, "kernel", at, "nnd mean, f(<.5), f(<.75); void, hole; front; outside", NULL, o.answer == FLOW_DONE ? text : o.blow_up, NULL, NULL,
-                       REPORT_INFO);
+            snprintf(text, sizeof text, "%.3f, %.3f, %.3f; %.4f, %.2f; %.3f; %d", o.d.mean, o.d.below_50,
+                     o.d.below_75, o.d.void_share, o.d.hole, o.front, o.lost);
+            report_row(r, "kernel", at, "nnd mean, f(<.5), f(<.75); void, hole; front; outside", NULL,
+                       o.answer == FLOW_DONE ? text : o.blow_up, NULL, NULL, REPORT_INFO);
         }
 }
 
@@ -420,7 +490,8 @@ static int own_run(report *r, const clustering_options *c)
     own.remedy = clustering_remedy(c);
     own.walls = own.remedy == FLOW_NO_COLLISIONS;
     if (own.walls) own.remedy = FLOW_SEQUENTIAL;
-    run(c, &own, &dam, dref, clustering_choose(c->h, 1.5), clustering_choose(c->dt, 0.01 * dref), &end, 1, "dam", &o);
+    run(c, &own, &dam, dref, clustering_choose(c->h, 1.5), clustering_choose(c->dt, 0.01 * dref), &end, 1,
+        "dam", &o);
     distribution_rows(r, "own run", own.name, &o, NULL);
     info(r, "own run", own.name, "fluid particles", o.particles, (double)NAN);
     info(r, "own run", own.name, "steps that a neighbour list lasts", o.steps_per_list, (double)NAN);
@@ -437,7 +508,9 @@ int main(int argc, char **argv)
     static outcome o[METHODS][TIMES], at[METHODS];
     double dref, dt;
     int k;
-    options_parse(argc, argv, "Figures 7 to 9 of the paper on particle clustering: a dam breaks, water and air.", specs, CLUSTERING_OPTION_COUNT);
+    options_parse(argc, argv,
+                  "Figures 7 to 9 of the paper on particle clustering: a dam breaks, water and air.", specs,
+                  CLUSTERING_OPTION_COUNT);
     report_open(&r, "clustering_dam", c.out);
     if (c.kernel) return own_run(&r, &c);
     dref = c.full ? 0.005 : 0.01;
@@ -456,7 +529,8 @@ int main(int argc, char **argv)
     fronts(&r, at, &c);
     if (!c.full) who_is_slower(&r, at, dref);
     for (k = 0; k < METHODS; k++) {
-        if (!c.full && k != CONVEX) run(&c, &methods[k], &dam, 0.02, 1.5, 2 * dt, times + LAST, 1, "dam", &o[k][LAST]);
+        if (!c.full && k != CONVEX)
+            run(&c, &methods[k], &dam, 0.02, 1.5, 2 * dt, times + LAST, 1, "dam", &o[k][LAST]);
         at[k] = o[k][LAST];
     }
     if (!c.full) dref = 0.02;

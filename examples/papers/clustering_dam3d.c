@@ -13,7 +13,8 @@
 
 enum { PICTURES = 40 };
 static const sph_kernel wendland = SPH_WENDLAND_C2;
-static const double water = 1000, skin = 0.3, distance = 0.85, restitution = 0.01; /* in dref; of collisions as in the paper */
+static const double water = 1000, skin = 0.3, distance = 0.85,
+                    restitution = 0.01; /* in dref; of collisions as in the paper */
 
 typedef struct dam {
     int dim, n, n_fluid;
@@ -26,15 +27,24 @@ typedef struct dam {
     int64_t steps;
 } dam;
 
-static sph_points points(const dam *d, double *const x[3]) { return sph_points_separate(d->n, x[0], x[1], d->dim > 2 ? x[2] : NULL); }
-static sph_vectors velocities(const dam *d) { return sph_vectors_separate(d->v[0], d->v[1], d->dim > 2 ? d->v[2] : NULL); }
+static sph_points points(const dam *d, double *const x[3])
+{
+    return sph_points_separate(d->n, x[0], x[1], d->dim > 2 ? x[2] : NULL);
+}
+static sph_vectors velocities(const dam *d)
+{
+    return sph_vectors_separate(d->v[0], d->v[1], d->dim > 2 ? d->v[2] : NULL);
+}
 
 /* y is up, z across; 2D: one layer of cells in z, and no walls there. Only what the water can reach has walls. */
 static void fill(dam *d, int dim, int resolution)
 {
-    double **const arrays[] = {&d->x[0],   &d->x[1],   &d->x[2], &d->v[0], &d->v[1], &d->v[2],  &d->a[0],         &d->a[1],   &d->a[2],      &d->old[0],
-                               &d->old[1], &d->old[2], &d->m,    &d->rho,  &d->p,    &d->sound, &d->inverse_mass, &d->volume, &d->divergence};
-    const int reach = 3, across = dim > 2 ? resolution : 1, sides = dim > 2 ? reach : 0; /* layers of 2h / dref */
+    double **const arrays[] = {&d->x[0],   &d->x[1],         &d->x[2],   &d->v[0],      &d->v[1],
+                               &d->v[2],   &d->a[0],         &d->a[1],   &d->a[2],      &d->old[0],
+                               &d->old[1], &d->old[2],       &d->m,      &d->rho,       &d->p,
+                               &d->sound,  &d->inverse_mass, &d->volume, &d->divergence};
+    const int reach = 3, across = dim > 2 ? resolution : 1,
+              sides = dim > 2 ? reach : 0; /* layers of 2h / dref */
     const int total = (5 * resolution + 2 * reach) * (3 * resolution + 2 * reach) * (across + 2 * sides);
     size_t k;
     int ghosts, i, j, l;
@@ -43,15 +53,18 @@ static void fill(dam *d, int dim, int resolution)
     d->dref = column_a / resolution;
     d->h = 1.5 * d->dref;
     d->c = 10 * sqrt(2 * column_gravity * column_a);
-    for (k = 0; k < sizeof arrays / sizeof *arrays; k++) *arrays[k] = (double *)clustering_memory(NULL, (size_t)total * sizeof(double));
+    for (k = 0; k < sizeof arrays / sizeof *arrays; k++)
+        *arrays[k] = (double *)clustering_memory(NULL, (size_t)total * sizeof(double));
     d->ghost = (unsigned char *)clustering_memory(NULL, (size_t)total);
     for (ghosts = 0; ghosts < 2; ghosts++)
         for (i = -reach; i < 5 * resolution + reach; i++)
             for (j = -reach; j < 3 * resolution; j++)
                 for (l = -sides; l < across + sides; l++) {
-                    const int fluid = i >= 0 && i < resolution && j >= 0 && j < 2 * resolution && l >= 0 && l < across;
+                    const int fluid =
+                        i >= 0 && i < resolution && j >= 0 && j < 2 * resolution && l >= 0 && l < across;
                     const int wall = i < 0 || i >= 5 * resolution || j < 0 || l < 0 || l >= across;
-                    const double y = (j + 0.5) * d->dref, V = dim > 2 ? d->dref * d->dref * d->dref : d->dref * d->dref;
+                    const double y = (j + 0.5) * d->dref,
+                                 V = dim > 2 ? d->dref * d->dref * d->dref : d->dref * d->dref;
                     const int n = d->n;
                     if (ghosts ? !wall : !fluid) continue;
                     d->n++;
@@ -61,7 +74,7 @@ static void fill(dam *d, int dim, int resolution)
                     d->x[2][n] = (l + 0.5) * d->dref;
                     d->v[0][n] = d->v[1][n] = d->v[2][n] = 0;
                     d->p[n] = ghosts ? 0 : water * column_gravity * (2 * column_a - y);
-                    d->rho[n] = sph_density_tait(d->p[n], water, d->c, 1, 0);
+                    d->rho[n] = sph_density_tait(d->p[n], (sph_tait){.rho0 = water, .c = d->c, .gamma = 1});
                     d->m[n] = d->rho[n] * V;
                     d->inverse_mass[n] = ghosts ? 0 : 1 / d->m[n];
                     d->sound[n] = d->c;
@@ -70,8 +83,9 @@ static void fill(dam *d, int dim, int resolution)
 }
 static void dam_close(dam *d)
 {
-    double *const arrays[] = {d->x[0],   d->x[1],   d->x[2], d->v[0], d->v[1], d->v[2],  d->a[0],         d->a[1],   d->a[2],      d->old[0],
-                              d->old[1], d->old[2], d->m,    d->rho,  d->p,    d->sound, d->inverse_mass, d->volume, d->divergence};
+    double *const arrays[] = {d->x[0], d->x[1],  d->x[2],         d->v[0],   d->v[1],      d->v[2], d->a[0],
+                              d->a[1], d->a[2],  d->old[0],       d->old[1], d->old[2],    d->m,    d->rho,
+                              d->p,    d->sound, d->inverse_mass, d->volume, d->divergence};
     size_t k;
     for (k = 0; k < sizeof arrays / sizeof *arrays; k++) free(arrays[k]);
     free(d->ghost);
@@ -109,7 +123,8 @@ SPH_FN void step(int dim, dam *d, double dt)
     sph_gas g;
     int i, k;
     find_neighbours(dim, d);
-    for (i = 0; i < d->n_fluid; i++) d->p[i] = sph_pressure_tait(d->rho[i], water, d->c, 1, 0);
+    for (i = 0; i < d->n_fluid; i++)
+        d->p[i] = sph_pressure_tait(d->rho[i], (sph_tait){.rho0 = water, .c = d->c, .gamma = 1});
     s.m = sph_scalars_array(d->m);
     s.rho = sph_scalars_array(d->rho);
     s.p = sph_scalars_array(d->p);
@@ -120,16 +135,33 @@ SPH_FN void step(int dim, dam *d, double dt)
     s.beta = 0;
     s.eta = 0.1;
     clustering_expect(
-        sph_fluid_rates_colagrossi(wendland, dim, sph_cloud_range(sph_cloud_of(points(d, d->x), neighbours_list(&d->all), sph_scalars_same(&d->h), sph_scalars_none()), 0, d->n_fluid), s, a, NULL, NULL));
+        sph_fluid_rates_colagrossi(wendland, dim,
+                                   sph_cloud_range(sph_cloud_of(points(d, d->x), neighbours_list(&d->all),
+                                                                sph_scalars_same(&d->h), sph_scalars_none()),
+                                                   0, d->n_fluid),
+                                   s, a, NULL, NULL));
     for (i = 0; i < d->n_fluid; i++) {
         d->a[1][i] -= column_gravity;
         for (k = 0; k < dim; k++) d->v[k][i] += dt * d->a[k][i];
     }
-    clustering_expect(sph_collide_sequential(dim, sph_cloud_range(sph_cloud_of(points(d, d->x), neighbours_list(&d->colliding), sph_scalars_none(), sph_scalars_none()), 0, d->n_fluid), distance * d->dref, sph_scalars_array(d->inverse_mass), restitution, d->v[0], d->v[1], dim > 2 ? d->v[2] : NULL, 1, NULL));
+    clustering_expect(
+        sph_collide_sequential(dim,
+                               sph_cloud_range(sph_cloud_of(points(d, d->x), neighbours_list(&d->colliding),
+                                                            sph_scalars_none(), sph_scalars_none()),
+                                               0, d->n_fluid),
+                               (sph_collision){.distance = distance * d->dref,
+                                               .inverse_mass = sph_scalars_array(d->inverse_mass),
+                                               .restitution = restitution},
+                               sph_vector_out_separate(d->v[0], d->v[1], dim > 2 ? d->v[2] : NULL), NULL));
     for (i = 0; i < d->n; i++) d->volume[i] = d->m[i] / d->rho[i];
     g.m = sph_scalars_array(d->volume);
     g.rho = g.omega = sph_scalars_same(&one);
-    clustering_expect(sph_divergence_difference(wendland, dim, sph_cloud_range(sph_cloud_of(points(d, d->x), neighbours_list(&d->all), sph_scalars_same(&d->h), sph_scalars_none()), 0, d->n_fluid), g, velocities(d), d->divergence));
+    clustering_expect(
+        sph_divergence_difference(wendland, dim,
+                                  sph_cloud_range(sph_cloud_of(points(d, d->x), neighbours_list(&d->all),
+                                                               sph_scalars_same(&d->h), sph_scalars_none()),
+                                                  0, d->n_fluid),
+                                  g, velocities(d), d->divergence));
     for (i = 0; i < d->n_fluid; i++) {
         d->rho[i] -= dt * d->rho[i] * d->divergence[i];
         for (k = 0; k < dim; k++) d->x[k][i] += dt * d->v[k][i];
@@ -171,7 +203,8 @@ static void picture(const dam *d, vtk_series *series, double t)
                                 {"density", d->rho, NULL, NULL, NULL},
                                 {"pressure", d->p, NULL, NULL, NULL},
                                 {"ghost", NULL, NULL, NULL, d->ghost}};
-    clustering_written(vtk_series_add(series, t, d->n, d->x[0], d->x[1], d->x[2], fields, 4), series->dir, series->name);
+    clustering_written(vtk_series_add(series, t, d->n, d->x[0], d->x[1], d->x[2], fields, 4), series->dir,
+                       series->name);
 }
 static void snapshot(const dam *d, const char *figures, const char *name)
 {
@@ -180,7 +213,8 @@ static void snapshot(const dam *d, const char *figures, const char *name)
     clustering_figure(&to, figures, name);
     fprintf(to.to, "x,y,z,vx,vy,vz,p\n");
     for (i = 0; i < d->n_fluid; i++)
-        fprintf(to.to, "%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", d->x[0][i], d->x[1][i], d->x[2][i], d->v[0][i], d->v[1][i], d->v[2][i], d->p[i]);
+        fprintf(to.to, "%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", d->x[0][i], d->x[1][i], d->x[2][i], d->v[0][i],
+                d->v[1][i], d->v[2][i], d->p[i]);
     clustering_figure_close(&to);
 }
 
@@ -214,8 +248,13 @@ static void run(const clustering_options *c, int dim, int resolution, outcome *o
         bad = unwell(&d, dt);
         if (bad >= 0 || clustering_signal) {
             fflush(stdout);
-            if (bad >= 0) fprintf(stderr, "%s: blew up at t = %g: particle %d at (%g, %g, %g)\n", name, t, bad, d.x[0][bad], d.x[1][bad], d.x[2][bad]);
-            else fprintf(stderr, "%s: interrupted at t = %g; the rows of the table so far are in its .part file\n", name, t);
+            if (bad >= 0)
+                fprintf(stderr, "%s: blew up at t = %g: particle %d at (%g, %g, %g)\n", name, t, bad,
+                        d.x[0][bad], d.x[1][bad], d.x[2][bad]);
+            else
+                fprintf(stderr,
+                        "%s: interrupted at t = %g; the rows of the table so far are in its .part file\n",
+                        name, t);
             exit(bad >= 0 ? 3 : 130);
         }
         if (front_due(&o->front, t)) front_add(&o->front, t, front(&d));
@@ -228,8 +267,10 @@ static void run(const clustering_options *c, int dim, int resolution, outcome *o
     o->fastest = 0;
     for (i = 0; i < d.n_fluid; i++) {
         const double half = 0.5 * d.dref, width = dim > 2 ? column_a : d.dref;
-        o->lost += d.x[0][i] < -half || d.x[0][i] > 5 * column_a + half || d.x[1][i] < -half || d.x[2][i] < -half || d.x[2][i] > width + half;
-        o->fastest = fmax(o->fastest, sqrt(d.v[0][i] * d.v[0][i] + d.v[1][i] * d.v[1][i] + d.v[2][i] * d.v[2][i]));
+        o->lost += d.x[0][i] < -half || d.x[0][i] > 5 * column_a + half || d.x[1][i] < -half ||
+                   d.x[2][i] < -half || d.x[2][i] > width + half;
+        o->fastest =
+            fmax(o->fastest, sqrt(d.v[0][i] * d.v[0][i] + d.v[1][i] * d.v[1][i] + d.v[2][i] * d.v[2][i]));
     }
     o->microseconds = 1e6 * (double)(clock() - begin) / CLOCKS_PER_SEC / ((double)d.steps * d.n_fluid);
     snapshot(&d, c->figures, name);
@@ -240,19 +281,24 @@ int main(int argc, char **argv)
 {
     clustering_options c = clustering_defaults();
     int resolution = 0, dim, k;
-    const option_spec specs[] = {{"resolution", "particles on the length a; 0: 10, with -full 20", OPTION_INT, &resolution, 0, 200},
-                                 {"out", "folder of the result table (and of VTK files)", OPTION_TEXT, &c.out, 0, 0},
-                                 {"figures", "folder of the figures' data", OPTION_TEXT, &c.figures, 0, 0},
-                                 {"full", "dref = a/20", OPTION_FLAG, &c.full, 0, 0},
-                                 {"vtk", "write 40 pictures of each run for ParaView", OPTION_FLAG, &c.vtk, 0, 0},
-                                 {"quiet", "no progress on the terminal", OPTION_FLAG, &c.quiet, 0, 0}};
-    static const char *const name[] = {"two dimensions, square lattice", "three dimensions"}, *const file[] = {"plane", "space"};
+    const option_spec specs[] = {
+        {"resolution", "particles on the length a; 0: 10, with -full 20", OPTION_INT, &resolution, 0, 200},
+        {"out", "folder of the result table (and of VTK files)", OPTION_TEXT, &c.out, 0, 0},
+        {"figures", "folder of the figures' data", OPTION_TEXT, &c.figures, 0, 0},
+        {"full", "dref = a/20", OPTION_FLAG, &c.full, 0, 0},
+        {"vtk", "write 40 pictures of each run for ParaView", OPTION_FLAG, &c.vtk, 0, 0},
+        {"quiet", "no progress on the terminal", OPTION_FLAG, &c.quiet, 0, 0}};
+    static const char *const name[] = {"two dimensions, square lattice", "three dimensions"},
+                             *const file[] = {"plane", "space"};
     static report r;
     static outcome o[2];
     part_file to;
     char text[96];
     double mean = 0;
-    options_parse(argc, argv, "A column of water of a x 2a x a collapses in a channel: three dimensions beside two and beside Martin & Moyce 1952.", specs, 6);
+    options_parse(argc, argv,
+                  "A column of water of a x 2a x a collapses in a channel: three dimensions beside two and "
+                  "beside Martin & Moyce 1952.",
+                  specs, 6);
     report_open(&r, "clustering_dam3d", c.out);
     if (resolution == 0) resolution = c.full ? 20 : 10;
     snprintf(text, sizeof text, "A column of a x 2a x a, dref = a/%d", resolution);
@@ -265,12 +311,20 @@ int main(int argc, char **argv)
         run(&c, dim, resolution, x);
         column_lines(to.to, file[dim - 2], &x->front);
         column_rows(&r, name[dim - 2], &x->front, dim > 2);
-        report_range(&r, "column", name[dim - 2], "particles outside of the walls", (double)NAN, x->lost, 0, 0);
-        report_info(&r, "column", name[dim - 2], "fastest particle at T = 3.4 / sqrt(2 g a)", x->fastest / sqrt(2 * column_gravity * column_a));
-        report_info(&r, "column", name[dim - 2], "CPU time of a fluid particle and step [us]", x->microseconds);
+        report_range(&r, "column", name[dim - 2], "particles outside of the walls", (double)NAN, x->lost, 0,
+                     0);
+        report_info(&r, "column", name[dim - 2], "fastest particle at T = 3.4 / sqrt(2 g a)",
+                    x->fastest / sqrt(2 * column_gravity * column_a));
+        report_info(&r, "column", name[dim - 2], "CPU time of a fluid particle and step [us]",
+                    x->microseconds);
     }
     clustering_figure_close(&to);
-    for (k = 0; k < MARTIN; k++) mean += (front_at(&o[1].front, martin_T[k] / column_T(1)) / front_at(&o[0].front, martin_T[k] / column_T(1)) - 1) / MARTIN;
-    report_range(&r, "column", "three dimensions beside two", "mean of Z / Z - 1 at the times of Martin & Moyce", (double)NAN, mean, -0.1, 0.1);
+    for (k = 0; k < MARTIN; k++)
+        mean += (front_at(&o[1].front, martin_T[k] / column_T(1)) /
+                     front_at(&o[0].front, martin_T[k] / column_T(1)) -
+                 1) /
+                MARTIN;
+    report_range(&r, "column", "three dimensions beside two",
+                 "mean of Z / Z - 1 at the times of Martin & Moyce", (double)NAN, mean, -0.1, 0.1);
     return report_close(&r) ? 1 : 0;
 }

@@ -27,7 +27,14 @@ static const method methods[] = {{"(1.1)", SPH_WENDLAND_C2_1D, FLOW_NO_COLLISION
                                  {"Wendland C2", SPH_WENDLAND_C2, FLOW_NO_COLLISIONS, 0, 0},
                                  {"(1.1) with p0 = 3.2", SPH_WENDLAND_C2_1D, FLOW_NO_COLLISIONS, 3.2, 0},
                                  {"(1.1), cleaned", SPH_WENDLAND_C2_1D, FLOW_NO_COLLISIONS, 0, 1}};
-enum { METHODS = sizeof methods / sizeof *methods, CONVENTIONAL = 0, CONVEX, COLLISIONS, BACKGROUND = METHODS - 2, CLEANED };
+enum {
+    METHODS = sizeof methods / sizeof *methods,
+    CONVENTIONAL = 0,
+    CONVEX,
+    COLLISIONS,
+    BACKGROUND = METHODS - 2,
+    CLEANED
+};
 
 /* ---------------------------------------------------------------- between plates */
 
@@ -49,7 +56,8 @@ enum { PLATE_TIMES = 3 };
 static const double plate_times[PLATE_TIMES] = {0.02, 0.1, 1};
 
 /* Root mean square error at the times, in units of the largest speed of all. profile: a line per row of particles, or null. */
-static flow_answer plates(const clustering_options *c, int couette, const method *m, int rows, double *error, FILE *profile, double *microseconds)
+static flow_answer plates(const clustering_options *c, int couette, const method *m, int rows, double *error,
+                          FILE *profile, double *microseconds)
 {
     const double dy = 1.0 / rows, dref = dy / hexagonal, h = 1.5 * dref, speed_of_sound = 10;
     const int columns = 8, layers = (int)(sph_kernel_support(m->kernel) * h / dy) + 1;
@@ -86,8 +94,8 @@ static flow_answer plates(const clustering_options *c, int couette, const method
             const double off = f.vx[i] - exact_speed(couette, f.y[i], f.t);
             error[k] += off * off / f.n_fluid;
             if (profile && i % columns == 0)
-                fprintf(profile, "%s,%g,%.6g,%.6g,%.6g\n", couette ? "Couette" : "Poiseuille", plate_times[k], f.y[i], f.vx[i],
-                        exact_speed(couette, f.y[i], f.t));
+                fprintf(profile, "%s,%g,%.6g,%.6g,%.6g\n", couette ? "Couette" : "Poiseuille", plate_times[k],
+                        f.y[i], f.vx[i], exact_speed(couette, f.y[i], f.t));
         }
         if (profile) fprintf(profile, "\n"); /* gnuplot: a new line */
         error[k] = sqrt(error[k]);
@@ -109,13 +117,16 @@ static void between_plates(report *r, const clustering_options *c)
     fprintf(to.to, "flow,t,y,u,exact\n");
     for (couette = 0; couette < 2; couette++) {
         const char *const item = couette ? "Couette" : "Poiseuille";
-        report_section(r, couette ? "Couette flow, Re = 1: against the series" : "Poiseuille flow, Re = 1: against the series");
+        report_section(r, couette ? "Couette flow, Re = 1: against the series"
+                                  : "Poiseuille flow, Re = 1: against the series");
         for (m = 0; m < BACKGROUND; m++) {
             double error[3][PLATE_TIMES], us;
             char setting[64], quantity[64];
             for (g = 0; g < grids; g++) {
-                const flow_answer answer = plates(c, couette, &methods[m], rows[g], error[g], m == CONVENTIONAL && g == 1 ? to.to : NULL, &us);
-                if (answer == FLOW_BLEW_UP) report_row(r, item, methods[m].name, "blew up", NULL, NULL, NULL, NULL, REPORT_DIFFERS);
+                const flow_answer answer = plates(c, couette, &methods[m], rows[g], error[g],
+                                                  m == CONVENTIONAL && g == 1 ? to.to : NULL, &us);
+                if (answer == FLOW_BLEW_UP)
+                    report_row(r, item, methods[m].name, "blew up", NULL, NULL, NULL, NULL, REPORT_DIFFERS);
             }
             for (k = 0; k < PLATE_TIMES; k++) {
                 snprintf(setting, sizeof setting, "%s, t = %g", methods[m].name, plate_times[k]);
@@ -123,10 +134,11 @@ static void between_plates(report *r, const clustering_options *c)
                     snprintf(quantity, sizeof quantity, "rms error / largest speed, %d rows", rows[g]);
                     report_info(r, item, setting, quantity, error[g][k]);
                 }
-                report_info(r, item, setting, "order", log(error[grids - 2][k] / error[grids - 1][k]) / log(2.0));
+                report_info(r, item, setting, "order",
+                            log(error[grids - 2][k] / error[grids - 1][k]) / log(2.0));
             }
-            report_range(r, item, methods[m].name, "largest rms error / largest speed, 20 rows", (double)NAN, fmax(fmax(error[1][0], error[1][1]), error[1][2]),
-                         0, 0.03);
+            report_range(r, item, methods[m].name, "largest rms error / largest speed, 20 rows", (double)NAN,
+                         fmax(fmax(error[1][0], error[1][1]), error[1][2]), 0, 0.03);
             report_info(r, item, methods[m].name, "CPU time of a particle and step [us]", us);
         }
     }
@@ -139,8 +151,9 @@ static void between_plates(report *r, const clustering_options *c)
    from, and late. */
 typedef struct vortices {
     flow_answer answer;
-    double early, lattice, late, microseconds;  /* lattice: what the early one ought to be */
-    double early_error, late_error, divergence; /* rms error of velocity at t = 0.05 and 0.5; rms of div v over particles and the times after the first */
+    double early, lattice, late, microseconds; /* lattice: what the early one ought to be */
+    double early_error, late_error,
+        divergence; /* rms error of velocity at t = 0.05 and 0.5; rms of div v over particles and the times after the first */
     flow_distribution d;
     int64_t collisions;
 } vortices;
@@ -156,7 +169,11 @@ static double lattice_viscosity(sph_kernel k, double h, double dx, double dy)
         for (column = -reach; column <= reach; column++) {
             const double x = (column + 0.5 * (row % 2 != 0)) * dx, y = row * dy, r = sqrt(x * x + y * y);
             if (row == 0 && column == 0) continue;
-            sum -= dx * dy * sph_viscosity_mu_pair_morris(1, 1, 1, 1, sph_kernel_f(k, 2, r, h), r, h, eta) * (1 - cos(wave * x) * cos(wave * y));
+            sum -= dx * dy *
+                   sph_viscosity_mu_pair_morris(
+                       (sph_fluid_side){.mu = 1, .rho = 1}, (sph_fluid_side){.mu = 1, .rho = 1},
+                       (sph_encounter){.r = r, .h = h}, sph_kernel_f(k, 2, r, h), eta) *
+                   (1 - cos(wave * x) * cos(wave * y));
         }
     return sum / (2 * wave * wave);
 }
@@ -175,12 +192,13 @@ static double velocity_error(const flow *f, double nu)
     return sqrt(sum);
 }
 
-static vortices taylor_green(const clustering_options *c, const method *m, int columns, double smoothing, double nu, FILE *curve)
+static vortices taylor_green(const clustering_options *c, const method *m, int columns, double smoothing,
+                             double nu, FILE *curve)
 {
     enum { POINTS = 21, EARLY = 3, LATE = 10 }; /* t <= 0.05, t >= 0.25 */
     const int rows = 2 * (int)(columns / (2 * hexagonal) + 0.5);
-    const double dx = 1.0 / columns, dy = 1.0 / rows, dref = sqrt(dx * dy / hexagonal), h = smoothing * dref, end = 0.5,
-                 k2 = 16 * clustering_pi * clustering_pi;
+    const double dx = 1.0 / columns, dy = 1.0 / rows, dref = sqrt(dx * dy / hexagonal), h = smoothing * dref,
+                 end = 0.5, k2 = 16 * clustering_pi * clustering_pi;
     const flow_domain box = {0, 1, 0, 1};
     double t[POINTS], energy[POINTS], start;
     vortices o;
@@ -217,7 +235,8 @@ static vortices taylor_green(const clustering_options *c, const method *m, int c
             clustering_expect(flow_divergence(&f)); /* into rate */
             for (i = 0; i < f.n; i++) o.divergence += f.rate[i] * f.rate[i] / f.n / (POINTS - 1);
         }
-        fprintf(curve, "\"%s\",%g,%d,%g,%.6g,%.6g\n", m->name, smoothing, columns, f.t, exp(energy[k]), exp(-k2 * nu * f.t));
+        fprintf(curve, "\"%s\",%g,%d,%g,%.6g,%.6g\n", m->name, smoothing, columns, f.t, exp(energy[k]),
+                exp(-k2 * nu * f.t));
     }
     flow_require(&f, o.answer);
     o.early = -statistics_slope(t, energy, EARLY) / k2;
@@ -239,10 +258,11 @@ static void background_pressure(report *r, const vortices *convex, const vortice
 {
     double S, G;
     clustering_lattice(SPH_CONVEX, 1.5, &S, &G);
-    report_absolute(r, "Taylor-Green", "(3.9), h = 1.5 dref", "c^2 (S - 1) on the lattice (published: the p0 of the next row)", methods[BACKGROUND].p0,
+    report_absolute(r, "Taylor-Green", "(3.9), h = 1.5 dref",
+                    "c^2 (S - 1) on the lattice (published: the p0 of the next row)", methods[BACKGROUND].p0,
                     100 * (S - 1), 0.05);
-    report_absolute(r, "Taylor-Green", "(3.9) beside (1.1) with this pressure", "viscosity / nu, t = 0 to 0.05", conventional->early / nu, convex->early / nu,
-                    0.05);
+    report_absolute(r, "Taylor-Green", "(3.9) beside (1.1) with this pressure",
+                    "viscosity / nu, t = 0 to 0.05", conventional->early / nu, convex->early / nu, 0.05);
 }
 
 static void decay(report *r, const clustering_options *c)
@@ -257,50 +277,69 @@ static void decay(report *r, const clustering_options *c)
     int m, g, s;
     clustering_figure(&to, c->figures, "clustering_taylor_green");
     fprintf(to.to, "run,smoothing,columns,t,energy,exact\n");
-    report_section(r, "Vortices of Taylor and Green, Re = 100, (2.2), (2.3), p0 = 0: the viscosity that their decay shows");
+    report_section(
+        r,
+        "Vortices of Taylor and Green, Re = 100, (2.2), (2.3), p0 = 0: the viscosity that their decay shows");
     for (m = 0; m < METHODS; m++)
         for (s = 0; s < (m <= CONVEX ? WIDTHS : 1); s++)
             for (g = 0; g < grids; g++) {
-                const int plain = !methods[m].remedy && m < BACKGROUND && !(m == CONVEX && s == 0); /* see background_pressure */
+                const int plain = !methods[m].remedy && m < BACKGROUND &&
+                                  !(m == CONVEX && s == 0); /* see background_pressure */
                 const vortices *const v = &o[m][s][g];
                 char setting[64];
                 o[m][s][g] = taylor_green(c, &methods[m], columns[g], smoothing[s], nu, to.to);
-                snprintf(setting, sizeof setting, "%s, h = %g dref, %d columns", methods[m].name, smoothing[s], columns[g]);
+                snprintf(setting, sizeof setting, "%s, h = %g dref, %d columns", methods[m].name,
+                         smoothing[s], columns[g]);
                 if (plain)
-                    report_absolute(r, "Taylor-Green", setting, "viscosity / nu, t = 0 to 0.05 (published: of the lattice)", v->lattice / nu, v->early / nu,
-                                    0.05);
+                    report_absolute(r, "Taylor-Green", setting,
+                                    "viscosity / nu, t = 0 to 0.05 (published: of the lattice)",
+                                    v->lattice / nu, v->early / nu, 0.05);
                 else report_info(r, "Taylor-Green", setting, "viscosity / nu, t = 0 to 0.05", v->early / nu);
                 report_info(r, "Taylor-Green", setting, "viscosity / nu, t = 0.25 to 0.5", v->late / nu);
                 report_info(r, "Taylor-Green", setting, "rms error of velocity at t = 0.05", v->early_error);
                 report_info(r, "Taylor-Green", setting, "rms error of velocity at t = 0.5", v->late_error);
-                if (g > 0) report_info(r, "Taylor-Green", setting, "order of the error at t = 0.05", log(v[-1].early_error / v->early_error) / log(2.0));
-                if (g > 0) report_info(r, "Taylor-Green", setting, "order of the error at t = 0.5", log(v[-1].late_error / v->late_error) / log(2.0));
+                if (g > 0)
+                    report_info(r, "Taylor-Green", setting, "order of the error at t = 0.05",
+                                log(v[-1].early_error / v->early_error) / log(2.0));
+                if (g > 0)
+                    report_info(r, "Taylor-Green", setting, "order of the error at t = 0.5",
+                                log(v[-1].late_error / v->late_error) / log(2.0));
                 report_info(r, "Taylor-Green", setting, "rms of div v", v->divergence);
                 report_info(r, "Taylor-Green", setting, "mean distance to the nearest / dref", v->d.mean);
                 report_info(r, "Taylor-Green", setting, "f(<0.5)", v->d.below_50);
-                if (methods[m].remedy) report_info(r, "Taylor-Green", setting, "collisions", (double)v->collisions);
-                report_info(r, "Taylor-Green", setting, "CPU time of a particle and step [us]", v->microseconds);
+                if (methods[m].remedy)
+                    report_info(r, "Taylor-Green", setting, "collisions", (double)v->collisions);
+                report_info(r, "Taylor-Green", setting, "CPU time of a particle and step [us]",
+                            v->microseconds);
             }
     clustering_figure_close(&to);
     background_pressure(r, &o[CONVEX][0][last], &o[BACKGROUND][0][last], nu);
-    report_range(r, "Taylor-Green", "(1.1), h = 1.5 dref, 20 to 40 columns", "order of the error at t = 0.05, near the lattice", (double)NAN,
-                 log(o[CONVENTIONAL][0][0].early_error / o[CONVENTIONAL][0][1].early_error) / log(2.0), 1.5, 2.5);
+    report_range(r, "Taylor-Green", "(1.1), h = 1.5 dref, 20 to 40 columns",
+                 "order of the error at t = 0.05, near the lattice", (double)NAN,
+                 log(o[CONVENTIONAL][0][0].early_error / o[CONVENTIONAL][0][1].early_error) / log(2.0), 1.5,
+                 2.5);
     for (g = 0; g < grids; g++) {
         const vortices *const plain = &o[CONVENTIONAL][0][g], *const cleaned = &o[CLEANED][0][g];
         char setting[64];
         snprintf(setting, sizeof setting, "(1.1), h = 1.5 dref, %d columns", columns[g]);
-        snprintf(text, sizeof text, "rms of div v %.2f, %.2f cleaned; late viscosity / nu %.2f, %.2f", plain->divergence, cleaned->divergence, plain->late / nu,
-                 cleaned->late / nu);
-        report_claim(r, "cleaning", setting, "velocity cleaning reduces div v", "", text, "below 0.7 times", cleaned->divergence < 0.7 * plain->divergence);
+        snprintf(text, sizeof text, "rms of div v %.2f, %.2f cleaned; late viscosity / nu %.2f, %.2f",
+                 plain->divergence, cleaned->divergence, plain->late / nu, cleaned->late / nu);
+        report_claim(r, "cleaning", setting, "velocity cleaning reduces div v", "", text, "below 0.7 times",
+                     cleaned->divergence < 0.7 * plain->divergence);
     }
-    snprintf(text, sizeof text, "viscosity / nu = %.1f early, %.1f late; %.2f, %.1f without", o[COLLISIONS][0][last].early / nu,
-             o[COLLISIONS][0][last].late / nu, o[CONVENTIONAL][0][last].early / nu, o[CONVENTIONAL][0][last].late / nu);
-    report_row(r, "Section VI", "collisions, h = 1.5 dref", "'the effect on the macroscopic flow needs more investigation'", NULL, text, NULL,
+    snprintf(text, sizeof text, "viscosity / nu = %.1f early, %.1f late; %.2f, %.1f without",
+             o[COLLISIONS][0][last].early / nu, o[COLLISIONS][0][last].late / nu,
+             o[CONVENTIONAL][0][last].early / nu, o[CONVENTIONAL][0][last].late / nu);
+    report_row(r, "Section VI", "collisions, h = 1.5 dref",
+               "'the effect on the macroscopic flow needs more investigation'", NULL, text, NULL,
                "lattice rows that pass each other collide: energy is lost as long as order is", REPORT_INFO);
-    snprintf(text, sizeof text, "late viscosity / nu %.2f at h = 1.5 dref, %.2f at 2 dref, %d columns", o[CONVEX][0][last].late / nu,
-             o[CONVEX][1][last].late / nu, columns[last]);
-    report_row(r, "Section III", "(3.9)", "'can be reduced by choosing a larger smoothing scale'", NULL, text, NULL,
-               "disorder dissipates with every method here, more the finer the lattice: the order needs more neighbours, not only more particles", REPORT_INFO);
+    snprintf(text, sizeof text, "late viscosity / nu %.2f at h = 1.5 dref, %.2f at 2 dref, %d columns",
+             o[CONVEX][0][last].late / nu, o[CONVEX][1][last].late / nu, columns[last]);
+    report_row(r, "Section III", "(3.9)", "'can be reduced by choosing a larger smoothing scale'", NULL, text,
+               NULL,
+               "disorder dissipates with every method here, more the finer the lattice: the order needs more "
+               "neighbours, not only more particles",
+               REPORT_INFO);
 }
 
 int main(int argc, char **argv)
@@ -311,7 +350,9 @@ int main(int argc, char **argv)
                                  {"full", "finer lattices, too", OPTION_FLAG, &c.full, 0, 0},
                                  {"quiet", "no progress on the terminal", OPTION_FLAG, &c.quiet, 0, 0}};
     static report r;
-    options_parse(argc, argv, "Viscous flows with a known solution, by the methods of the paper on particle clustering.", specs, 4);
+    options_parse(argc, argv,
+                  "Viscous flows with a known solution, by the methods of the paper on particle clustering.",
+                  specs, 4);
     report_open(&r, "clustering_flows", c.out);
     between_plates(&r, &c);
     decay(&r, &c);

@@ -27,8 +27,9 @@ typedef struct tank {
     FILE *curve; /* of figure 5, or null */
     const char *label;
     int64_t steps, late;
-    double sum, late_sum, low[2], high[2]; /* of the error in %, its range in both halves of the run; late: second half */
-    double deviation;                      /* sum of |p - exact| / (rho0 g 1 m) of the fluid, in % */
+    double sum, late_sum, low[2],
+        high[2];      /* of the error in %, its range in both halves of the run; late: second half */
+    double deviation; /* sum of |p - exact| / (rho0 g 1 m) of the fluid, in % */
     double *y, *p;
     sph_vectors rest;
     double *share, *zero; /* for wall particles by Adami */
@@ -67,7 +68,8 @@ static void measure(flow *f)
     t->late += late;
     t->low[late] = fmin(t->low[late], error);
     t->high[late] = fmax(t->high[late], error);
-    if (t->curve && floor(f->t / every + 1e-6) > floor((f->t - f->dt) / every + 1e-6)) fprintf(t->curve, "%s,%.6g,%.6g\n", t->label, f->t, error);
+    if (t->curve && floor(f->t / every + 1e-6) > floor((f->t - f->dt) / every + 1e-6))
+        fprintf(t->curve, "%s,%.6g,%.6g\n", t->label, f->t, error);
 }
 
 /* Adami, Hu & Adams: pressure and velocity of the ghosts from the fluid above them */
@@ -80,12 +82,25 @@ static void wall(flow *f)
     sph_vec g = {0, 0, 0};
     int i;
     g.y = -gravity;
-    clustering_expect(sph_wall_adami(f->kernel, 2, sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all), h, sph_scalars_none()), f->n_fluid, f->n), sph_scalars_array(t->share), sph_scalars_array(f->rho), sph_scalars_array(f->p), flow_velocities(f), t->rest, g, none, f->p, sph_vector_out_separate(f->vx, f->vy, NULL), NULL));
-    for (i = f->n_fluid; i < f->n; i++) f->rho[i] = sph_density_tait(f->p[i], water, sound, 1, 0);
+    clustering_expect(sph_wall_adami(
+        f->kernel, 2,
+        sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all), h, sph_scalars_none()),
+                        f->n_fluid, f->n),
+        (sph_wall){.share = sph_scalars_array(t->share),
+                   .rho = sph_scalars_array(f->rho),
+                   .p = sph_scalars_array(f->p),
+                   .v = flow_velocities(f),
+                   .velocity = t->rest,
+                   .gravity = g,
+                   .normal = none},
+        (sph_wall_out){.p = f->p, .v = sph_vector_out_separate(f->vx, f->vy, NULL)}));
+    for (i = f->n_fluid; i < f->n; i++)
+        f->rho[i] = sph_density_tait(f->p[i], (sph_tait){.rho0 = water, .c = sound, .gamma = 1});
 }
 
-static tank_result simulate(sph_kernel kernel, double smoothing, double p0, int remedy, int adami, double dref, double dt, double tend,
-                            const clustering_options *o, const char *name, FILE *curve, const char *label)
+static tank_result simulate(sph_kernel kernel, double smoothing, double p0, int remedy, int adami,
+                            double dref, double dt, double tend, const clustering_options *o,
+                            const char *name, FILE *curve, const char *label)
 {
     const int rows = dref > 0.00999 && dref < 0.01001 ? ROWS : (int)(1 / (hexagonal * dref)),
               reach = (int)ceil(sph_kernel_support(kernel) * smoothing / hexagonal);
@@ -117,7 +132,7 @@ static tank_result simulate(sph_kernel kernel, double smoothing, double p0, int 
         for (i = 0; i < columns; i++) flow_add_ghost(&f, (i + 0.5 * (-j % 2)) * dref, (j + 0.5) * step, 0, 1);
     for (i = 0; i < f.n; i++) {
         f.p[i] = p0 + exact_pressure(f.y[i]);
-        f.rho[i] = sph_density_tait(f.p[i], water, sound, 1, p0);
+        f.rho[i] = sph_density_tait(f.p[i], (sph_tait){.rho0 = water, .c = sound, .gamma = 1, .p0 = p0});
         f.m[i] = f.rho[i] * hexagonal * dref * dref;
         if (!f.ghost[i]) f.inverse_mass[i] = 1 / f.m[i];
     }
@@ -174,7 +189,8 @@ static void spread(report *r, const char *at, const tank_result *x)
 {
     char text[96];
     snprintf(text, sizeof text, "%.3f in [%.2f, %.2f]", x->late_mean, x->low[1], x->high[1]);
-    report_row(r, "Figure 5", at, "error, t > .5 [%]: mean in [least, largest]", NULL, text, NULL, NULL, REPORT_INFO);
+    report_row(r, "Figure 5", at, "error, t > .5 [%]: mean in [least, largest]", NULL, text, NULL, NULL,
+               REPORT_INFO);
 }
 
 /* A background pressure has nothing to hold it at the free surface: that run, with the density that (5.23) gives there, is a result whatever becomes of it. */
@@ -185,16 +201,18 @@ static void kernels(report *r, const clustering_options *o, double dt)
     report_section(r, "Kernels beside the paper's, h = 1.5 dref");
     for (p = 0; p < 2; p++)
         for (k = 0; k < CLUSTERING_KERNELS; k++) {
-            const tank_result x =
-                simulate(clustering_kernels[k], 1.5, p ? background : 0, FLOW_NO_COLLISIONS, 0, 0.01, dt, 1, o, "clustering_tank_kernels", NULL, NULL);
+            const tank_result x = simulate(clustering_kernels[k], 1.5, p ? background : 0, FLOW_NO_COLLISIONS,
+                                           0, 0.01, dt, 1, o, "clustering_tank_kernels", NULL, NULL);
             const double expected = formula(clustering_kernels[k], 1.5);
             char at[96], text[96];
-            snprintf(at, sizeof at, "%s, p0 = %s", sph_kernel_name(clustering_kernels[k]), p ? "rho0 c^2" : "0");
-            snprintf(text, sizeof text, "%s t = %.3f; fastest %.2g m/s, nearest %.2f dref", x.answer == FLOW_DONE ? "ran to" : "blew up at", x.t, x.fastest,
-                     x.nearest);
+            snprintf(at, sizeof at, "%s, p0 = %s", sph_kernel_name(clustering_kernels[k]),
+                     p ? "rho0 c^2" : "0");
+            snprintf(text, sizeof text, "%s t = %.3f; fastest %.2g m/s, nearest %.2f dref",
+                     x.answer == FLOW_DONE ? "ran to" : "blew up at", x.t, x.fastest, x.nearest);
             report_row(r, "kernel", at, "outcome", NULL, text, NULL, NULL, REPORT_INFO);
             if (x.answer == FLOW_DONE)
-                report_number_row(r, "kernel", at, "mean error [%] (published: lattice formula)", p ? (double)NAN : expected, x.mean, NULL, NULL, REPORT_INFO);
+                report_number_row(r, "kernel", at, "mean error [%] (published: lattice formula)",
+                                  p ? (double)NAN : expected, x.mean, NULL, NULL, REPORT_INFO);
             if (x.answer == FLOW_DONE) spread(r, at, &x);
         }
 }
@@ -207,10 +225,12 @@ int main(int argc, char **argv)
         int remedy;
         double published;
         const char *label, *name;
-    } entry[] = {{SPH_WENDLAND_C2_1D, 1.5, FLOW_SEQUENTIAL, 1.32, "particle collisions", "clustering_tank_collisions"},
-                 {SPH_WENDLAND_C2_1D, 1.5, FLOW_NO_COLLISIONS, 1.32, "Wendland kernel (1.1)", "clustering_tank_untreated"},
-                 {SPH_CONVEX, 1.5, FLOW_NO_COLLISIONS, 2.76, "convex kernel (3.9)", "clustering_tank_convex"},
-                 {SPH_CONVEX, 2, FLOW_NO_COLLISIONS, 1.20, "convex kernel (3.9)", "clustering_tank_convex_h2"}};
+    } entry[] = {
+        {SPH_WENDLAND_C2_1D, 1.5, FLOW_SEQUENTIAL, 1.32, "particle collisions", "clustering_tank_collisions"},
+        {SPH_WENDLAND_C2_1D, 1.5, FLOW_NO_COLLISIONS, 1.32, "Wendland kernel (1.1)",
+         "clustering_tank_untreated"},
+        {SPH_CONVEX, 1.5, FLOW_NO_COLLISIONS, 2.76, "convex kernel (3.9)", "clustering_tank_convex"},
+        {SPH_CONVEX, 2, FLOW_NO_COLLISIONS, 1.20, "convex kernel (3.9)", "clustering_tank_convex_h2"}};
     enum { ENTRIES = (int)(sizeof entry / sizeof *entry) };
     clustering_options o = clustering_defaults();
     const option_spec specs[] = {CLUSTERING_OPTIONS(o)};
@@ -221,19 +241,21 @@ int main(int argc, char **argv)
     double dt, cost = 0;
     int a;
     options_parse(argc, argv,
-                  "Section V.II of the paper on particle clustering: the hydrostatic pressure-tank. Without -full the time step is 1e-4 instead of 1e-5.",
+                  "Section V.II of the paper on particle clustering: the hydrostatic pressure-tank. Without "
+                  "-full the time step is 1e-4 instead of 1e-5.",
                   specs, CLUSTERING_OPTION_COUNT);
     report_open(&r, "clustering_tank", o.out);
     dt = clustering_choose(o.dt, o.full ? 1e-5 : 1e-4);
     if (o.kernel) {
         const sph_kernel k = clustering_kernel(&o);
         const double smoothing = clustering_choose(o.h, 1.5);
-        x[0] = simulate(k, smoothing, 0, clustering_remedy(&o), 0, clustering_choose(o.dref, 0.01), dt, clustering_choose(o.tend, 1), &o, "clustering_tank_own",
-                        NULL, NULL);
+        x[0] = simulate(k, smoothing, 0, clustering_remedy(&o), 0, clustering_choose(o.dref, 0.01), dt,
+                        clustering_choose(o.tend, 1), &o, "clustering_tank_own", NULL, NULL);
         report_info(&r, "own", sph_kernel_name(k), "mean error of the slope [%]", x[0].mean);
         report_info(&r, "own", sph_kernel_name(k), "lattice formula [%]", formula(k, smoothing));
         spread(&r, sph_kernel_name(k), &x[0]);
-        report_info(&r, "own", sph_kernel_name(k), "CPU microseconds per particle and step", x[0].microseconds);
+        report_info(&r, "own", sph_kernel_name(k), "CPU microseconds per particle and step",
+                    x[0].microseconds);
         return report_close(&r) ? 1 : 0;
     }
 
@@ -246,39 +268,54 @@ int main(int argc, char **argv)
         char at[96], label[96];
         snprintf(at, sizeof at, "%s, h = %g dref", entry[a].label, entry[a].h);
         snprintf(label, sizeof label, "%s h = %g dref", entry[a].label, entry[a].h);
-        if (a == 1 && x[0].collisions == 0) x[1] = x[0]; /* the run with collisions, in which none happened, is the run without them, too */
-        else x[a] = simulate(entry[a].k, entry[a].h, 0, entry[a].remedy, 0, 0.01, dt, 1, &o, entry[a].name, curve.to, label);
+        if (a == 1 && x[0].collisions == 0)
+            x[1] = x[0]; /* the run with collisions, in which none happened, is the run without them, too */
+        else
+            x[a] = simulate(entry[a].k, entry[a].h, 0, entry[a].remedy, 0, 0.01, dt, 1, &o, entry[a].name,
+                            curve.to, label);
         report_absolute(&r, "Table 1", at, "mean error [%]", entry[a].published, x[a].mean, 0.1);
-        report_absolute(&r, "Table 1", at, "mean error [%] (published: lattice formula)", formula(entry[a].k, entry[a].h), x[a].mean, 0.05);
+        report_absolute(&r, "Table 1", at, "mean error [%] (published: lattice formula)",
+                        formula(entry[a].k, entry[a].h), x[a].mean, 0.05);
         spread(&r, at, &x[a]);
         cost += x[a].microseconds / ENTRIES;
     }
     clustering_figure_close(&curve);
-    snprintf(text, sizeof text, "0.5 g / c^2 = %.3f points of each entry: water compressed by its weight", 50 * gravity / (sound * sound));
-    report_claim_fails(&r, "Table 1", "all", "'the error we make'", "of the method", text, "that part is physics: the exact slope of the compressible column");
+    snprintf(text, sizeof text, "0.5 g / c^2 = %.3f points of each entry: water compressed by its weight",
+             50 * gravity / (sound * sound));
+    report_claim_fails(&r, "Table 1", "all", "'the error we make'", "of the method", text,
+                       "that part is physics: the exact slope of the compressible column");
 
     report_section(&r, "Section V.II: what is said");
-    snprintf(text, sizeof text, "[%.2f, %.2f] against [%.2f, %.2f]", x[1].low[1], x[1].high[1], x[2].low[1], x[2].high[1]);
-    report_claim(&r, "Figure 5", "h = 1.5 dref, t > .5", "fluctuations", "'significantly smaller' with (1.1) than with (3.9)", text, "range is smaller",
+    snprintf(text, sizeof text, "[%.2f, %.2f] against [%.2f, %.2f]", x[1].low[1], x[1].high[1], x[2].low[1],
+             x[2].high[1]);
+    report_claim(&r, "Figure 5", "h = 1.5 dref, t > .5", "fluctuations",
+                 "'significantly smaller' with (1.1) than with (3.9)", text, "range is smaller",
                  x[1].high[1] - x[1].low[1] < x[2].high[1] - x[2].low[1]);
     /* the start is an error of 0 and no part of the waves: the first half counts by its largest value */
-    snprintf(text, sizeof text, "largest error %.2f %% before t = .5, %.2f %% after, mean %.2f %%", x[2].high[0], x[2].high[1], x[2].mean);
-    report_claim(&r, "Section V.II", "convex kernel, h = 1.5 dref", "'fluctuations become smaller over time'", "until an equilibrium", text,
-                 "smaller in the second half; no equilibrium by t = 1", x[2].high[1] < x[2].high[0]);
-    snprintf(text, sizeof text, "%ld collisions; mean %.6f against %.6f %%; nearest pair at %.3f dref", (long)x[0].collisions, x[0].mean, x[1].mean,
-             x[0].nearest);
-    report_claim(&r, "Section V.II", "particle collisions", "'no influence on the pressures'", "very interesting", text,
-                 "no collision happens: nothing is within 0.85 dref", x[0].collisions == 0);
+    snprintf(text, sizeof text, "largest error %.2f %% before t = .5, %.2f %% after, mean %.2f %%",
+             x[2].high[0], x[2].high[1], x[2].mean);
+    report_claim(&r, "Section V.II", "convex kernel, h = 1.5 dref", "'fluctuations become smaller over time'",
+                 "until an equilibrium", text, "smaller in the second half; no equilibrium by t = 1",
+                 x[2].high[1] < x[2].high[0]);
+    snprintf(text, sizeof text, "%ld collisions; mean %.6f against %.6f %%; nearest pair at %.3f dref",
+             (long)x[0].collisions, x[0].mean, x[1].mean, x[0].nearest);
+    report_claim(&r, "Section V.II", "particle collisions", "'no influence on the pressures'",
+                 "very interesting", text, "no collision happens: nothing is within 0.85 dref",
+                 x[0].collisions == 0);
     snprintf(text, sizeof text, "%.3f, %.3f", x[2].mean, x[3].mean);
-    report_claim(&r, "Section V.II", "convex kernel, h = 1.5, 2 dref", "error", "smaller for the larger h", text, "smaller", x[3].mean < x[2].mean);
+    report_claim(&r, "Section V.II", "convex kernel, h = 1.5, 2 dref", "error", "smaller for the larger h",
+                 text, "smaller", x[3].mean < x[2].mean);
 
     report_section(&r, "beyond the paper: wall particles by Adami et al. (2012), (1.1), h = 1.5 dref");
     {
-        const tank_result w = simulate(SPH_WENDLAND_C2_1D, 1.5, 0, FLOW_NO_COLLISIONS, 1, 0.01, dt, 1, &o, "clustering_tank_adami", NULL, NULL);
+        const tank_result w = simulate(SPH_WENDLAND_C2_1D, 1.5, 0, FLOW_NO_COLLISIONS, 1, 0.01, dt, 1, &o,
+                                       "clustering_tank_adami", NULL, NULL);
         report_info(&r, "beyond", "Adami's walls", "mean error of the slope [%]", w.mean);
         spread(&r, "Adami's walls", &w);
-        report_info(&r, "beyond", "Adami's walls, at the end", "mean |p - exact| / (rho0 g 1 m) [%]", w.deviation);
-        report_info(&r, "beyond", "ghosts by (5.23), at the end", "mean |p - exact| / (rho0 g 1 m) [%]", x[1].deviation);
+        report_info(&r, "beyond", "Adami's walls, at the end", "mean |p - exact| / (rho0 g 1 m) [%]",
+                    w.deviation);
+        report_info(&r, "beyond", "ghosts by (5.23), at the end", "mean |p - exact| / (rho0 g 1 m) [%]",
+                    x[1].deviation);
         report_info(&r, "beyond", "Adami's walls, at the end", "fastest particle [m/s]", w.fastest);
         report_info(&r, "beyond", "ghosts by (5.23), at the end", "fastest particle [m/s]", x[1].fastest);
     }

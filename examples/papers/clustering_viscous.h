@@ -28,7 +28,18 @@ SPH_FN sph_index viscous_walls_by(sph_kernel k, flow *f, viscous *w)
     const sph_vec nothing = {0, 0, 0};
     const sph_vectors none = sph_vectors_separate(NULL, NULL, NULL);
     const sph_vector_out v = sph_vector_out_separate(w->wall_vx, w->wall_vy, NULL);
-    return sph_wall_adami(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all), sph_scalars_same(&f->h), sph_scalars_none()), f->n_fluid, f->n), sph_scalars_array(w->share), sph_scalars_array(f->rho), sph_scalars_array(f->p), flow_velocities(f), flow_velocities(f), nothing, none, w->wall_p, v, NULL);
+    return sph_wall_adami(k, 2,
+                          sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all),
+                                                       sph_scalars_same(&f->h), sph_scalars_none()),
+                                          f->n_fluid, f->n),
+                          (sph_wall){.share = sph_scalars_array(w->share),
+                                     .rho = sph_scalars_array(f->rho),
+                                     .p = sph_scalars_array(f->p),
+                                     .v = flow_velocities(f),
+                                     .velocity = flow_velocities(f),
+                                     .gravity = nothing,
+                                     .normal = none},
+                          (sph_wall_out){.p = w->wall_p, .v = v});
 }
 /* psi joins the pressure. Then pressure, and the density that belongs to it, of ghosts, and the velocity that makes the fluid stick to them; their own stays that of the wall. */
 static inline void viscous_pressures(flow *f)
@@ -45,7 +56,8 @@ static inline void viscous_pressures(flow *f)
     for (i = f->n_fluid; i < f->n; i++) {
         const flow_state *const s = &f->state[f->phase[i]];
         f->p[i] = w->wall_p[i];
-        f->rho[i] = sph_density_tait(f->p[i], s->rho0, s->c, 1, s->p0);
+        f->rho[i] =
+            sph_density_tait(f->p[i], (sph_tait){.rho0 = s->rho0, .c = s->c, .gamma = 1, .p0 = s->p0});
     }
 }
 
@@ -53,7 +65,15 @@ static inline void viscous_pressures(flow *f)
 
 SPH_FN sph_index viscous_accelerations_by(sph_kernel k, const flow *f, const viscous *w)
 {
-    return sph_viscous_mu_morris(k, 2, sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all), sph_scalars_same(&f->h), sph_scalars_none()), 0, f->n_fluid), sph_scalars_array(f->m), sph_scalars_array(f->rho), sph_vectors_separate(w->vx, w->vy, NULL), sph_scalars_same(&w->mu), 0.1, sph_vector_out_separate(w->ax, w->ay, NULL));
+    return sph_viscous_mu_morris(k, 2,
+                                 sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all),
+                                                              sph_scalars_same(&f->h), sph_scalars_none()),
+                                                 0, f->n_fluid),
+                                 (sph_fluid){.m = sph_scalars_array(f->m),
+                                             .rho = sph_scalars_array(f->rho),
+                                             .v = sph_vectors_separate(w->vx, w->vy, NULL),
+                                             .eta = 0.1},
+                                 sph_scalars_same(&w->mu), sph_vector_out_separate(w->ax, w->ay, NULL));
 }
 static inline void viscous_forces(flow *f)
 {
@@ -82,17 +102,22 @@ static inline void viscous_psi(flow *f)
     const double damping = exp(-0.5 * sph_cleaning_sigma(2) * w->ch * f->dt / f->h);
     int i;
     if (f->form != FLOW_CONTINUITY || !f->rate_after_kick) flow_continuity(f);
-    for (i = 0; i < f->n_fluid; i++) w->psi[i] = damping * (damping * w->psi[i] + f->dt * sph_cleaning_rate_velocity(w->ch, 0, f->h, 0, f->rate[i]));
+    for (i = 0; i < f->n_fluid; i++)
+        w->psi[i] = damping * (damping * w->psi[i] +
+                               f->dt * sph_cleaning_rate_velocity((sph_cleaning_wave){.ch = w->ch, .h = f->h},
+                                                                  0, f->rate[i]));
 }
 
 /* ---------------------------------------------------------------- */
 
 static inline void viscous_open(viscous *w, flow *f, double mu, double body_force)
 {
-    double **const arrays[] = {&w->psi, &w->share, &w->wall_p, &w->wall_vx, &w->wall_vy, &w->vx, &w->vy, &w->ax, &w->ay};
+    double **const arrays[] = {&w->psi, &w->share, &w->wall_p, &w->wall_vx, &w->wall_vy,
+                               &w->vx,  &w->vy,    &w->ax,     &w->ay};
     size_t a;
     int i;
-    for (a = 0; a < sizeof arrays / sizeof *arrays; a++) *arrays[a] = (double *)clustering_memory(NULL, (size_t)f->n * sizeof(double));
+    for (a = 0; a < sizeof arrays / sizeof *arrays; a++)
+        *arrays[a] = (double *)clustering_memory(NULL, (size_t)f->n * sizeof(double));
     for (i = 0; i < f->n; i++) {
         w->psi[i] = 0;
         w->share[i] = f->ghost[i] ? 0 : 1;
@@ -111,7 +136,8 @@ static inline void viscous_clean(viscous *w, flow *f, double ch)
 }
 static inline void viscous_close(viscous *w)
 {
-    double *const arrays[] = {w->psi, w->share, w->wall_p, w->wall_vx, w->wall_vy, w->vx, w->vy, w->ax, w->ay};
+    double *const arrays[] = {w->psi, w->share, w->wall_p, w->wall_vx, w->wall_vy,
+                              w->vx,  w->vy,    w->ax,     w->ay};
     size_t a;
     for (a = 0; a < sizeof arrays / sizeof *arrays; a++) free(arrays[a]);
 }

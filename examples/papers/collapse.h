@@ -26,12 +26,13 @@
 
 /* The numbers of a run that never change. A restart file is good for the same numbers only. */
 typedef struct collapse_model {
-    double m, box;                    /* of a particle; period of all three axes, 0: open */
-    double cs, medium_cs, rho1, rho2; /* sound speeds of the cold cloud and of the medium; densities above which the cloud heats up: collapse_pressure */
-    double courant, shortest;         /* time step over its limit; a shorter one than that ends the run */
-    double fastest;                   /* so does a faster signal */
-    double theta;                     /* of the tree; 0: direct summation */
-    double alpha_B;                   /* resistivity; with `switches` the most of it: alpha_B min(1, h |curl B| / |B|) */
+    double m, box; /* of a particle; period of all three axes, 0: open */
+    double cs, medium_cs, rho1,
+        rho2; /* sound speeds of the cold cloud and of the medium; densities above which the cloud heats up: collapse_pressure */
+    double courant, shortest; /* time step over its limit; a shorter one than that ends the run */
+    double fastest;           /* so does a faster signal */
+    double theta;             /* of the tree; 0: direct summation */
+    double alpha_B; /* resistivity; with `switches` the most of it: alpha_B min(1, h |curl B| / |B|) */
     double alpha_min, alpha_max, sigma, tensile;
     double radius, rho_sink;            /* of the sink; rho_sink 0: never */
     int cleans, zeta, switches, unused; /* a restart compares all bytes: no gaps */
@@ -52,7 +53,8 @@ typedef struct collapse_state {
     char objection[64]; /* why there is no sink yet although a particle is dense enough; empty: none is */
     /* net forces on all of it, and their impulses so far: of gravity (the tree's error), and of the rest (all of it (9)) */
     double force_gravity[3], force_field[3], impulse_gravity[3], impulse_field[3];
-    double error, error_cloud, ratio; /* mean h |div B| / |B| of all and of the cloud's particles; <h |div B|> / <|B|> */
+    double error, error_cloud,
+        ratio; /* mean h |div B| / |B| of all and of the cloud's particles; <h |div B|> / <|B|> */
     double densest, fastest;
 } collapse_state;
 
@@ -105,11 +107,26 @@ static inline void collapse_free(collapse *g)
 
 /* ---- views ---- */
 
-static inline sph_scalars collapse_field(const collapse *g, int which) { return sph_scalars_array(g->a[which]); }
-static inline sph_vectors collapse_vectors(const collapse *g, int which) { return sph_vectors_separate(g->a[which], g->a[which + 1], g->a[which + 2]); }
-static inline sph_vector_out collapse_into(double *const *a) { return sph_vector_out_separate(a[0], a[1], a[2]); }
-static inline sph_points collapse_open(const collapse *g) { return sph_points_separate(g->s.n, g->a[X], g->a[Y], g->a[Z]); }
-static inline sph_points collapse_points(const collapse *g) { return sph_points_periodic(collapse_open(g), g->model.box, g->model.box, g->model.box); }
+static inline sph_scalars collapse_field(const collapse *g, int which)
+{
+    return sph_scalars_array(g->a[which]);
+}
+static inline sph_vectors collapse_vectors(const collapse *g, int which)
+{
+    return sph_vectors_separate(g->a[which], g->a[which + 1], g->a[which + 2]);
+}
+static inline sph_vector_out collapse_into(double *const *a)
+{
+    return sph_vector_out_separate(a[0], a[1], a[2]);
+}
+static inline sph_points collapse_open(const collapse *g)
+{
+    return sph_points_separate(g->s.n, g->a[X], g->a[Y], g->a[Z]);
+}
+static inline sph_points collapse_points(const collapse *g)
+{
+    return sph_points_periodic(collapse_open(g), g->model.box, g->model.box, g->model.box);
+}
 static inline sph_list collapse_list(const collapse *g)
 {
     sph_list l;
@@ -117,6 +134,11 @@ static inline sph_list collapse_list(const collapse *g)
     l.index = g->rows.index;
     return l;
 }
+static inline sph_cloud collapse_cloud(const collapse *g)
+{
+    return sph_cloud_of(collapse_points(g), collapse_list(g), collapse_field(g, H), sph_scalars_none());
+}
+
 static inline sph_gas collapse_gas(const collapse *g)
 {
     sph_gas s;
@@ -127,16 +149,17 @@ static inline sph_gas collapse_gas(const collapse *g)
 }
 static inline sph_mhd collapse_mhd(const collapse *g)
 {
-    static const double none = 0; /* the pressure is a function of the density: no thermal energy evolves, and none is conducted */
+    static const double none =
+        0; /* the pressure is a function of the density: no thermal energy evolves, and none is conducted */
     sph_mhd s;
     s.gas = collapse_gas(g);
-    s.P = collapse_field(g, P);
+    s.p = collapse_field(g, P);
     s.u = sph_scalars_same(&none);
     s.cs = collapse_field(g, CS);
     s.alpha = collapse_field(g, ALPHA);
     s.alpha_B = g->model.switches ? collapse_field(g, ALPHA_B) : sph_scalars_same(&g->model.alpha_B);
     s.v = collapse_vectors(g, VX);
-    s.B = collapse_vectors(g, BX);
+    s.field = collapse_vectors(g, BX);
     s.psi = sph_scalars_array(g->model.cleans ? g->a[PSI] : NULL);
     s.ch = g->s.ch;
     s.sigma = g->model.sigma;
@@ -151,7 +174,10 @@ static inline void collapse_vector_of(double *const *a, int which, sph_index i, 
     int c;
     for (c = 0; c < 3; c++) v[c] = a[which + c][i];
 }
-static inline double collapse_length(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+static inline double collapse_length(const double *v)
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
 static inline double collapse_length_of(double *const *a, int which, sph_index i)
 {
     double v[3];
@@ -168,7 +194,8 @@ static inline sph_index collapse_everywhere(collapse_sweep work, collapse *g, sp
     enum { PIECES = 64 };
     sph_index k;
 #pragma omp parallel for schedule(dynamic) reduction(+ : failed)
-    for (k = 0; k < PIECES; k++) failed += work(g, (sph_index)((int64_t)n * k / PIECES), (sph_index)((int64_t)n * (k + 1) / PIECES));
+    for (k = 0; k < PIECES; k++)
+        failed += work(g, (sph_index)((int64_t)n * k / PIECES), (sph_index)((int64_t)n * (k + 1) / PIECES));
 #else
     failed = work(g, 0, n);
 #endif
@@ -177,7 +204,8 @@ static inline sph_index collapse_everywhere(collapse_sweep work, collapse *g, sp
 static inline int collapse_expect(collapse *g, sph_index answer, const char *operation)
 {
     if (answer < 0) return collapse_trouble(g, "%s: %s", operation, sph_status_text((int)answer));
-    if (answer > 0) return collapse_trouble(g, "%s has no finite result for %ld particles", operation, (long)answer);
+    if (answer > 0)
+        return collapse_trouble(g, "%s has no finite result for %ld particles", operation, (long)answer);
     return 0;
 }
 
@@ -198,7 +226,9 @@ static inline int collapse_sort(collapse *g)
     int c, k;
     for (c = 0; c < 3; c++)
         for (i = 0; i < g->s.n; i++) {
-            if (!isfinite(g->a[X + c][i])) return collapse_trouble(g, "%c of particle %ld is %g", 'x' + c, (long)g->a[ID][i], g->a[X + c][i]);
+            if (!isfinite(g->a[X + c][i]))
+                return collapse_trouble(g, "%c of particle %ld is %g", 'x' + c, (long)g->a[ID][i],
+                                        g->a[X + c][i]);
             if (L > 0) g->a[X + c][i] -= L * floor(g->a[X + c][i] / L + 0.5);
         }
     tree_order(&g->tree, g->s.n, g->a[X], g->a[Y], g->a[Z]);
@@ -209,16 +239,22 @@ static inline int collapse_sort(collapse *g)
 
 static inline sph_index collapse_density_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_density_adaptive(COLLAPSE_KERNEL, 3, sph_cloud_range(sph_cloud_of(collapse_points(g), collapse_list(g), sph_scalars_none(), sph_scalars_none()), first, last), collapse_field(g, REACH), sph_scalars_same(&g->model.m), COLLAPSE_ETA, COLLAPSE_TOLERANCE, g->a[H], g->a[RHO], g->a[OMEGA], g->status);
+    return sph_density_adaptive(
+        COLLAPSE_KERNEL, 3, sph_cloud_range(collapse_cloud(g), first, last), sph_scalars_same(&g->model.m),
+        (sph_density_options){
+            .reach = collapse_field(g, REACH), .eta = COLLAPSE_ETA, .tolerance = COLLAPSE_TOLERANCE},
+        (sph_density_out){.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status});
 }
 static inline int collapse_density(collapse *g)
 {
-    const double support = sph_kernel_support(COLLAPSE_KERNEL), longest = g->model.box > 0 ? 0.4999 * g->model.box : HUGE_VAL;
+    const double support = sph_kernel_support(COLLAPSE_KERNEL),
+                 longest = g->model.box > 0 ? 0.4999 * g->model.box : HUGE_VAL;
     int again = 1;
     while (again) {
         sph_index i, answer;
         for (i = 0; i < g->s.n; i++) {
-            if (!(g->a[H][i] > 0 && isfinite(g->a[H][i]))) return collapse_trouble(g, "h of particle %ld is %g", (long)g->a[ID][i], g->a[H][i]);
+            if (!(g->a[H][i] > 0 && isfinite(g->a[H][i])))
+                return collapse_trouble(g, "h of particle %ld is %g", (long)g->a[ID][i], g->a[H][i]);
             g->a[REACH][i] = fmin(COLLAPSE_GROWTH * support * g->a[H][i], longest);
         }
         tree_reach(&g->tree, g->a[REACH]);
@@ -228,7 +264,9 @@ static inline int collapse_density(collapse *g)
         again = 0;
         for (i = 0; i < g->s.n && answer > 0; i++) {
             if (g->status[i] == SPH_OK) continue;
-            if (g->status[i] != SPH_LIST_TOO_SHORT) return collapse_trouble(g, "density of particle %ld: %s", (long)g->a[ID][i], sph_status_text(g->status[i]));
+            if (g->status[i] != SPH_LIST_TOO_SHORT)
+                return collapse_trouble(g, "density of particle %ld: %s", (long)g->a[ID][i],
+                                        sph_status_text(g->status[i]));
             if (g->a[REACH][i] < longest) again = 1;
             else g->a[H][i] = longest / support; /* a void: as far as the box allows */
         }
@@ -258,7 +296,8 @@ static inline void collapse_equation_of_state(collapse *g)
     sph_index i;
     g->s.densest = 0;
     for (i = 0; i < g->s.n; i++) {
-        const double B2 = g->a[BX][i] * g->a[BX][i] + g->a[BY][i] * g->a[BY][i] + g->a[BZ][i] * g->a[BZ][i], rho = g->a[RHO][i];
+        const double B2 = g->a[BX][i] * g->a[BX][i] + g->a[BY][i] * g->a[BY][i] + g->a[BZ][i] * g->a[BZ][i],
+                     rho = g->a[RHO][i];
         g->a[P][i] = collapse_pressure(&g->model, g->a[MEDIUM][i] > 0, rho, &g->a[CS][i]);
         fastest = fmax(fastest, g->a[CS][i] * g->a[CS][i] + B2 / rho);
         g->s.densest = fmax(g->s.densest, rho);
@@ -268,31 +307,43 @@ static inline void collapse_equation_of_state(collapse *g)
 
 static inline sph_index collapse_tree_sweep(collapse *g, sph_index first, sph_index last)
 {
-    tree_gravity(COLLAPSE_KERNEL, &g->tree, (int)first, (int)last, g->model.theta, g->a[X], g->a[Y], g->a[Z], g->spare, g->a[H], 1, collapse_list(g), g->a[GX],
-                 g->a[GY], g->a[GZ]);
+    tree_gravity(COLLAPSE_KERNEL, &g->tree, (int)first, (int)last, g->model.theta, g->a[X], g->a[Y], g->a[Z],
+                 g->spare, g->a[H], 1, collapse_list(g), g->a[GX], g->a[GY], g->a[GZ]);
     return 0;
 }
 static inline sph_index collapse_direct_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_gravity_direct(COLLAPSE_KERNEL, first, last, collapse_open(g), collapse_field(g, H), sph_scalars_same(&g->model.m), 1, collapse_into(&g->a[GX]),
-                              NULL);
+    return sph_gravity_direct(COLLAPSE_KERNEL,
+                              sph_cloud_range(sph_cloud_of(collapse_open(g), (sph_list){0},
+                                                           collapse_field(g, H), sph_scalars_none()),
+                                              first, last),
+                              sph_scalars_same(&g->model.m), 1, collapse_into(&g->a[GX]), NULL);
 }
 /* Neighbours across the edge of the box count in the density, and so in the correction; they are no neighbours for gravity, which is isolated: zeta takes the open distances. */
 static inline sph_index collapse_zeta_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_gravity_zeta(COLLAPSE_KERNEL, sph_cloud_range(sph_cloud_of(collapse_open(g), collapse_list(g), collapse_field(g, H), sph_scalars_none()), first, last), sph_scalars_same(&g->model.m), collapse_field(g, RHO), g->a[ZETA]);
+    return sph_gravity_zeta(COLLAPSE_KERNEL,
+                            sph_cloud_range(sph_cloud_of(collapse_open(g), collapse_list(g),
+                                                         collapse_field(g, H), sph_scalars_none()),
+                                            first, last),
+                            sph_scalars_same(&g->model.m), collapse_field(g, RHO), g->a[ZETA]);
 }
 static inline sph_index collapse_correction_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_gravity_correction(COLLAPSE_KERNEL, sph_cloud_range(sph_cloud_of(collapse_points(g), collapse_list(g), collapse_field(g, H), sph_scalars_none()), first, last), collapse_gas(g), collapse_field(g, ZETA), 1, collapse_into(&g->a[SX]));
+    return sph_gravity_correction(COLLAPSE_KERNEL, sph_cloud_range(collapse_cloud(g), first, last),
+                                  collapse_gas(g), collapse_field(g, ZETA), 1, collapse_into(&g->a[SX]));
 }
 /* the curl, in the place of the rate of B that comes after it */
 static inline sph_index collapse_resistivity_sweep(collapse *g, sph_index first, sph_index last)
 {
-    const sph_index failed = sph_curl_difference(COLLAPSE_KERNEL, 3, sph_cloud_range(sph_cloud_of(collapse_points(g), collapse_list(g), collapse_field(g, H), sph_scalars_none()), first, last), collapse_gas(g), collapse_vectors(g, BX), collapse_into(&g->rate[BX]));
+    const sph_index failed =
+        sph_curl_difference(COLLAPSE_KERNEL, 3, sph_cloud_range(collapse_cloud(g), first, last),
+                            collapse_gas(g), collapse_vectors(g, BX), collapse_into(&g->rate[BX]));
     sph_index i;
     for (i = first; i < last; i++)
-        g->a[ALPHA_B][i] = sph_resistivity_switch(g->model.alpha_B, g->a[H][i], collapse_length_of(g->rate, BX, i), collapse_length_of(g->a, BX, i));
+        g->a[ALPHA_B][i] =
+            g->model.alpha_B * sph_resistivity_switch(g->a[H][i], collapse_length_of(g->rate, BX, i),
+                                                      collapse_length_of(g->a, BX, i));
     return failed;
 }
 static inline sph_index collapse_rates_sweep(collapse *g, sph_index first, sph_index last)
@@ -305,7 +356,8 @@ static inline sph_index collapse_rates_sweep(collapse *g, sph_index first, sph_i
     out.div_B = g->a[DIV_B];
     out.div_v = g->a[DIV_V];
     out.v_sig = g->a[SPEED];
-    return sph_mhd_rates(COLLAPSE_KERNEL, 3, sph_cloud_range(sph_cloud_of(collapse_points(g), collapse_list(g), collapse_field(g, H), sph_scalars_none()), first, last), collapse_mhd(g), out);
+    return sph_mhd_rates(COLLAPSE_KERNEL, 3, sph_cloud_range(collapse_cloud(g), first, last), collapse_mhd(g),
+                         out);
 }
 static inline int collapse_gravity(collapse *g)
 {
@@ -319,10 +371,15 @@ static inline int collapse_gravity(collapse *g)
         tree_reach(&g->tree, g->a[REACH]);
         tree_moments(&g->tree, g->a[X], g->a[Y], g->a[Z], g->spare);
         collapse_everywhere(collapse_tree_sweep, g, g->tree.leaves);
-    } else if (collapse_expect(g, collapse_everywhere(collapse_direct_sweep, g, g->s.n), "sph_gravity_direct")) return 1;
+    } else if (collapse_expect(g, collapse_everywhere(collapse_direct_sweep, g, g->s.n),
+                               "sph_gravity_direct"))
+        return 1;
     if (g->model.zeta) {
-        if (collapse_expect(g, collapse_everywhere(collapse_zeta_sweep, g, g->s.n), "sph_gravity_zeta")) return 1;
-        if (collapse_expect(g, collapse_everywhere(collapse_correction_sweep, g, g->s.n), "sph_gravity_correction")) return 1;
+        if (collapse_expect(g, collapse_everywhere(collapse_zeta_sweep, g, g->s.n), "sph_gravity_zeta"))
+            return 1;
+        if (collapse_expect(g, collapse_everywhere(collapse_correction_sweep, g, g->s.n),
+                            "sph_gravity_correction"))
+            return 1;
     }
     return 0;
 }
@@ -377,7 +434,9 @@ static inline int collapse_rates(collapse *g)
     if (collapse_sort(g) || collapse_density(g)) return 1;
     collapse_equation_of_state(g);
     if (collapse_gravity(g)) return 1;
-    if (g->model.switches && collapse_expect(g, collapse_everywhere(collapse_resistivity_sweep, g, g->s.n), "sph_curl_difference")) return 1;
+    if (g->model.switches &&
+        collapse_expect(g, collapse_everywhere(collapse_resistivity_sweep, g, g->s.n), "sph_curl_difference"))
+        return 1;
     if (collapse_expect(g, collapse_everywhere(collapse_rates_sweep, g, g->s.n), "sph_mhd_rates")) return 1;
     collapse_sink_gravity(g);
     collapse_errors(g);
@@ -393,7 +452,9 @@ static inline int collapse_rates(collapse *g)
             g->s.force_field[c] += g->model.m * g->rate[VX + c][i];
             g->rate[VX + c][i] += g->a[GX + c][i];
         }
-        g->rate[ALPHA][i] = sph_viscosity_switch_rate(g->a[ALPHA][i], g->model.alpha_min, g->model.alpha_max, g->a[SPEED][i], g->a[H][i], g->a[DIV_V][i]);
+        g->rate[ALPHA][i] = sph_viscosity_switch_rate(
+            (sph_switch){.alpha = g->a[ALPHA][i], .least = g->model.alpha_min, .most = g->model.alpha_max},
+            g->a[SPEED][i], g->a[H][i], g->a[DIV_V][i]);
         g->s.fastest = fmax(g->s.fastest, g->a[SPEED][i]);
     }
     return 0;
@@ -409,7 +470,8 @@ static inline double collapse_longest_step(const collapse *g, sph_index *shortes
     *shortest = 0;
     for (i = 0; i < g->s.n; i++) {
         const double speed = g->model.cleans ? fmax(g->a[SPEED][i], g->s.ch) : g->a[SPEED][i];
-        const double own = fmin(g->a[H][i] / speed, 0.8 * sqrt(g->a[H][i] / collapse_length_of(g->rate, VX, i)));
+        const double own =
+            fmin(g->a[H][i] / speed, 0.8 * sqrt(g->a[H][i] / collapse_length_of(g->rate, VX, i)));
         if (own < dt) {
             dt = own;
             *shortest = i;
@@ -443,9 +505,11 @@ static inline void collapse_swallow(collapse *g)
 static inline void collapse_mark(collapse *g, sph_index i) { g->a[ID][i] = -1 - g->a[ID][i]; }
 
 /* The gas within the radius of a sink about the densest particle */
-static inline sink_clump collapse_clump(const collapse *g, sph_index densest, sph_index *member, sph_index *members)
+static inline sink_clump collapse_clump(const collapse *g, sph_index densest, sph_index *member,
+                                        sph_index *members)
 {
-    const double reach = sph_kernel_support(COLLAPSE_KERNEL) * g->a[H][densest], radius = fmax(reach, g->model.radius);
+    const double reach = sph_kernel_support(COLLAPSE_KERNEL) * g->a[H][densest],
+                 radius = fmax(reach, g->model.radius);
     double x[3] = {0, 0, 0}, v[3] = {0, 0, 0}, spin[3] = {0, 0, 0}, axis;
     sink_clump clump;
     sph_index i, j, k, l;
@@ -494,9 +558,9 @@ static inline sink_clump collapse_clump(const collapse *g, sph_index densest, sp
         for (l = 0; l < k; l++) {
             double r2 = 0;
             for (c = 0; c < 3; c++) r2 += pow(g->a[X + c][i] - g->a[X + c][member[l]], 2);
-            clump.gravity -=
-                0.5 * g->model.m * g->model.m *
-                (sph_gravity_potential(COLLAPSE_KERNEL, sqrt(r2), g->a[H][i]) + sph_gravity_potential(COLLAPSE_KERNEL, sqrt(r2), g->a[H][member[l]]));
+            clump.gravity -= 0.5 * g->model.m * g->model.m *
+                             (sph_gravity_potential(COLLAPSE_KERNEL, sqrt(r2), g->a[H][i]) +
+                              sph_gravity_potential(COLLAPSE_KERNEL, sqrt(r2), g->a[H][member[l]]));
         }
     }
     return clump;
@@ -553,7 +617,8 @@ static inline void collapse_back_up(collapse *g, int restore)
     const size_t n = (size_t)g->room, size = n * sizeof(double);
     int k;
     for (k = 0; k < ARRAYS + EVOLVED; k++) {
-        double *const now = k < ARRAYS ? g->a[k] : g->rate[k - ARRAYS], *const then = g->backup + (size_t)k * n;
+        double *const now = k < ARRAYS ? g->a[k] : g->rate[k - ARRAYS], *const then =
+                                                                            g->backup + (size_t)k * n;
         memcpy(restore ? now : then, restore ? then : now, size);
     }
 }
@@ -591,10 +656,12 @@ static inline int collapse_step(collapse *g, double dt)
         for (i = 0; i < g->s.n && !g->trouble[0]; i++)
             for (f = 0; f < EVOLVED; f++)
                 if (!isfinite(g->a[f][i])) {
-                    collapse_trouble(g, "%s of particle %ld is %g", collapse_evolved[f], (long)g->a[ID][i], g->a[f][i]);
+                    collapse_trouble(g, "%s of particle %ld is %g", collapse_evolved[f], (long)g->a[ID][i],
+                                     g->a[f][i]);
                     break;
                 }
-        if (!g->trouble[0] && g->s.fastest > g->model.fastest) collapse_trouble(g, "the fastest signal, %.3g, exceeds %.3g", g->s.fastest, g->model.fastest);
+        if (!g->trouble[0] && g->s.fastest > g->model.fastest)
+            collapse_trouble(g, "the fastest signal, %.3g, exceeds %.3g", g->s.fastest, g->model.fastest);
     }
     if (g->trouble[0]) {
         g->s = then;
@@ -631,7 +698,8 @@ static inline int collapse_transfer(collapse_file *file, void *p, size_t size)
 {
     const unsigned char *const byte = (const unsigned char *)p;
     size_t k;
-    if (size > 0 && (file->reads ? fread(p, 1, size, file->f) : fwrite(p, 1, size, file->f)) != size) return 0;
+    if (size > 0 && (file->reads ? fread(p, 1, size, file->f) : fwrite(p, 1, size, file->f)) != size)
+        return 0;
     for (k = 0; k < size; k++) file->hash = (file->hash ^ byte[k]) * 1099511628211u; /* FNV-1a */
     return 1;
 }
@@ -647,7 +715,8 @@ static inline int collapse_transfer_all(collapse_file *file, collapse *g, void *
     if (!collapse_transfer(file, &model, sizeof model) || memcmp(&model, &g->model, sizeof model) != 0)
         return !collapse_trouble(g, "it belongs to a run with other parameters");
     collapse_trouble(g, "it is cut short or damaged");
-    if (!collapse_transfer(file, &size, sizeof size) || (file->reads && size > (uint64_t)file->length)) return 0;
+    if (!collapse_transfer(file, &size, sizeof size) || (file->reads && size > (uint64_t)file->length))
+        return 0;
     if (!collapse_transfer(file, &g->s, sizeof g->s) || g->s.n < 1 || g->s.n > g->room) return 0;
     for (k = 0; k < ARRAYS; k++)
         if (!collapse_transfer(file, g->a[k], (size_t)g->s.n * sizeof(double))) return 0;
@@ -659,7 +728,9 @@ static inline int collapse_transfer_all(collapse_file *file, collapse *g, void *
     }
     if (!collapse_transfer(file, *more, *more_size)) return 0;
     hash = file->hash;
-    if (file->reads ? fread(&hash, sizeof hash, 1, file->f) != 1 || hash != file->hash : fwrite(&hash, sizeof hash, 1, file->f) != 1) return 0;
+    if (file->reads ? fread(&hash, sizeof hash, 1, file->f) != 1 || hash != file->hash
+                    : fwrite(&hash, sizeof hash, 1, file->f) != 1)
+        return 0;
     g->trouble[0] = '\0';
     return 1;
 }
@@ -668,24 +739,31 @@ static inline int collapse_save(collapse *g, const char *dir, const char *name, 
 {
     part_file to;
     collapse_file file = {NULL, 0, 14695981039346656037u, 0};
-    if (!part_file_open(&to, dir, name, "restart")) return !collapse_trouble(g, "cannot write %.60s/%.60s.restart: %s", dir, name, strerror(errno));
+    if (!part_file_open(&to, dir, name, "restart"))
+        return !collapse_trouble(g, "cannot write %.60s/%.60s.restart: %s", dir, name, strerror(errno));
     file.f = to.to;
     if (!collapse_transfer_all(&file, g, &more, &more_size)) {
         fclose(to.to);
         return !collapse_trouble(g, "cannot write %.60s/%.60s.restart: is the disk full?", dir, name);
     }
-    return part_file_close(&to) ? 1 : !collapse_trouble(g, "cannot write %.60s/%.60s.restart: %s", dir, name, strerror(errno));
+    return part_file_close(&to)
+               ? 1
+               : !collapse_trouble(g, "cannot write %.60s/%.60s.restart: %s", dir, name, strerror(errno));
 }
 /* 1: g, which is new, of the same model and of no fewer particles, is what was saved; *more is the caller's to free. 0: there is no such file. -1: `trouble` says what is wrong with it. */
-static inline int collapse_load(collapse *g, const char *dir, const char *name, void **more, size_t *more_size)
+static inline int collapse_load(collapse *g, const char *dir, const char *name, void **more,
+                                size_t *more_size)
 {
     char path[PART_FILE_PATH];
     collapse_file file = {NULL, 1, 14695981039346656037u, 0};
     int good;
     *more = NULL;
     *more_size = 0;
-    if (snprintf(path, sizeof path, "%s/%s.restart", dir, name) >= (int)sizeof path || !(file.f = fopen(path, "rb"))) return 0;
-    good = fseek(file.f, 0, SEEK_END) == 0 && (file.length = ftell(file.f)) >= 0 && fseek(file.f, 0, SEEK_SET) == 0;
+    if (snprintf(path, sizeof path, "%s/%s.restart", dir, name) >= (int)sizeof path ||
+        !(file.f = fopen(path, "rb")))
+        return 0;
+    good = fseek(file.f, 0, SEEK_END) == 0 && (file.length = ftell(file.f)) >= 0 &&
+           fseek(file.f, 0, SEEK_SET) == 0;
     if (!good) collapse_trouble(g, "it cannot be read");
     good = good && collapse_transfer_all(&file, g, more, more_size);
     fclose(file.f);

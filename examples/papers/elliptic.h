@@ -15,7 +15,8 @@
 #define ELLIPTIC_H
 
 #if defined(__clang__)
-#pragma clang diagnostic ignored "-Wpass-failed" /* the gradient is chosen at run time here: some loops then do not vectorise */
+#pragma clang diagnostic ignored \
+    "-Wpass-failed" /* the gradient is chosen at run time here: some loops then do not vectorise */
 #endif
 
 #include <math.h>
@@ -48,10 +49,10 @@ static inline sph_elliptic_options elliptic_with_gradient(int gradient)
 typedef struct cloud {
     int dim, n;
     double dx, h;
-    double jitter;                        /* largest displacement from the lattice along an axis */
-    double low[3], high[3];               /* the faces of the domain: particles on them are boundary particles */
-    double *x, *y, *z;                    /* those beyond dim are 0 */
-    double *depth;                        /* distance from the boundary of the domain */
+    double jitter;          /* largest displacement from the lattice along an axis */
+    double low[3], high[3]; /* the faces of the domain: particles on them are boundary particles */
+    double *x, *y, *z;      /* those beyond dim are 0 */
+    double *depth;          /* distance from the boundary of the domain */
     double *V, *m, *u, *value, *diagonal; /* m = 1 until it is set */
     unsigned char *status;
     sph_index *start, *index;
@@ -86,7 +87,8 @@ static inline void cloud_size(cloud *c, int dim, int n)
     size_t a, size;
     int i;
     if (n > c->capacity) {
-        for (a = 0; a < sizeof arrays / sizeof *arrays; a++) *arrays[a] = (double *)elliptic_memory(*arrays[a], (size_t)n * sizeof(double));
+        for (a = 0; a < sizeof arrays / sizeof *arrays; a++)
+            *arrays[a] = (double *)elliptic_memory(*arrays[a], (size_t)n * sizeof(double));
         c->status = (unsigned char *)elliptic_memory(c->status, (size_t)n);
         c->start = (sph_index *)elliptic_memory(c->start, ((size_t)n + 1) * sizeof *c->start);
         c->capacity = n;
@@ -107,7 +109,8 @@ static inline void cloud_size(cloud *c, int dim, int n)
 
 static inline void cloud_close(cloud *c)
 {
-    void *const arrays[] = {c->x, c->y, c->z, c->depth, c->V, c->m, c->u, c->value, c->diagonal, c->status, c->start, c->index, c->row, c->work};
+    void *const arrays[] = {c->x,     c->y,        c->z,      c->depth, c->V,     c->m,   c->u,
+                            c->value, c->diagonal, c->status, c->start, c->index, c->row, c->work};
     size_t a;
     for (a = 0; a < sizeof arrays / sizeof *arrays; a++) free(arrays[a]);
 }
@@ -120,15 +123,21 @@ static inline sph_list cloud_list(const cloud *c)
     l.index = c->index;
     return l;
 }
+static inline sph_cloud cloud_all(const cloud *c) { return cloud_all(c); }
 /* axis 0, 1, 2 */
-static inline double *cloud_axis(const cloud *c, int axis) { return axis == 0 ? c->x : axis == 1 ? c->y : c->z; }
+static inline double *cloud_axis(const cloud *c, int axis)
+{
+    return axis == 0 ? c->x : axis == 1 ? c->y : c->z;
+}
 
 static inline void cloud_depths(cloud *c)
 {
     int i, a;
     for (i = 0; i < c->n; i++) {
         c->depth[i] = HUGE_VAL;
-        for (a = 0; a < c->dim; a++) c->depth[i] = fmin(c->depth[i], fmin(cloud_axis(c, a)[i] - c->low[a], c->high[a] - cloud_axis(c, a)[i]));
+        for (a = 0; a < c->dim; a++)
+            c->depth[i] =
+                fmin(c->depth[i], fmin(cloud_axis(c, a)[i] - c->low[a], c->high[a] - cloud_axis(c, a)[i]));
     }
 }
 
@@ -183,7 +192,8 @@ static inline void cloud_perturb(cloud *c, double amplitude, pcg32 *g)
     int i, a;
     for (i = 0; i < c->n; i++)
         if (c->depth[i] > 1e-9 * c->dx)
-            for (a = 0; a < c->dim; a++) cloud_axis(c, a)[i] += amplitude * c->dx * (2 * pcg32_uniform(g) - 1);
+            for (a = 0; a < c->dim; a++)
+                cloud_axis(c, a)[i] += amplitude * c->dx * (2 * pcg32_uniform(g) - 1);
     c->jitter = amplitude * c->dx;
     cloud_depths(c);
 }
@@ -204,61 +214,70 @@ static inline void cloud_neighbours(cloud *c, double h)
     int64_t pairs;
     c->h = h;
     elliptic_expect(sph_grid_build(c->dim, cloud_points(c), radius, c->work, c->work_size, &grid));
-    elliptic_expect(sph_grid_lists(c->dim, &grid, cloud_points(c), SPH_GATHER, R, R, SPH_LIST_SORTED, c->start, NULL, 0, &pairs));
+    elliptic_expect(
+        sph_grid_count(c->dim, &grid, cloud_points(c), SPH_GATHER, R, R, SPH_LIST_SORTED, c->start, &pairs));
     if ((size_t)pairs > c->pair_capacity) {
         c->pair_capacity = (size_t)pairs;
         c->index = (sph_index *)elliptic_memory(c->index, c->pair_capacity * sizeof *c->index);
         c->row = (double *)elliptic_memory(c->row, c->pair_capacity * sizeof *c->row);
     }
-    elliptic_expect(sph_grid_lists(c->dim, &grid, cloud_points(c), SPH_GATHER, R, R, SPH_LIST_SORTED, c->start, c->index, pairs, &pairs));
+    elliptic_expect(sph_grid_lists(c->dim, &grid, cloud_points(c), SPH_GATHER, R, R, SPH_LIST_SORTED,
+                                   c->start, c->index, pairs, &pairs));
 }
 
 /* The sweeps fold for a constant dimension, so there is one copy for each. */
 SPH_FN sph_index cloud_rows_in(int dim, cloud *c, int scheme, sph_elliptic_options o)
 {
-    const sph_points x = cloud_points(c);
-    const sph_scalars h = sph_scalars_same(&c->h), V = sph_scalars_array(c->V), m = sph_scalars_array(c->m);
+    const sph_cloud all = cloud_all(c);
+    const sph_scalars m = sph_scalars_array(c->m);
     sph_row_out out = {0};
     out.row = c->row;
     out.diagonal = c->diagonal;
     out.status = c->status;
-    if (scheme == SCHEME_B) return sph_elliptic_rows_brookshaw(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, out);
-    if (scheme == SCHEME_CB) return sph_elliptic_rows_brookshaw_corrected(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, out);
-    if (scheme == SCHEME_S) return sph_elliptic_rows_schwaiger(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, out);
-    return sph_elliptic_rows_msph(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, out);
+    if (scheme == SCHEME_B) return sph_elliptic_rows_brookshaw(ELLIPTIC_KERNEL, dim, all, m, o, out);
+    if (scheme == SCHEME_CB)
+        return sph_elliptic_rows_brookshaw_corrected(ELLIPTIC_KERNEL, dim, all, m, o, out);
+    if (scheme == SCHEME_S) return sph_elliptic_rows_schwaiger(ELLIPTIC_KERNEL, dim, all, m, o, out);
+    return sph_elliptic_rows_msph(ELLIPTIC_KERNEL, dim, all, m, o, out);
 }
 SPH_FN sph_index cloud_apply_in(int dim, cloud *c, int scheme, sph_elliptic_options o)
 {
-    const sph_points x = cloud_points(c);
-    const sph_scalars h = sph_scalars_same(&c->h), V = sph_scalars_array(c->V), m = sph_scalars_array(c->m);
-    const sph_scalars u = sph_scalars_array(c->u), none = sph_scalars_array(NULL);
-    if (scheme == SCHEME_B) return sph_elliptic_brookshaw(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, u, none, c->value, c->status);
-    if (scheme == SCHEME_CB) return sph_elliptic_brookshaw_corrected(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, u, none, c->value, c->status);
-    if (scheme == SCHEME_S) return sph_elliptic_schwaiger(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, u, none, c->value, c->status);
-    return sph_elliptic_msph(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, c->n), m, o, u, none, c->value, c->status);
+    const sph_cloud all = cloud_all(c);
+    const sph_scalars m = sph_scalars_array(c->m), u = sph_scalars_array(c->u);
+    const sph_scalar_out out = sph_scalar_out_array(c->value, c->status);
+    if (scheme == SCHEME_B) return sph_elliptic_brookshaw(ELLIPTIC_KERNEL, dim, all, m, o, u, out);
+    if (scheme == SCHEME_CB) return sph_elliptic_brookshaw_corrected(ELLIPTIC_KERNEL, dim, all, m, o, u, out);
+    if (scheme == SCHEME_S) return sph_elliptic_schwaiger(ELLIPTIC_KERNEL, dim, all, m, o, u, out);
+    return sph_elliptic_msph(ELLIPTIC_KERNEL, dim, all, m, o, u, out);
 }
 
 /* div(m grad u) as rows, or of c->u into c->value. Both return how many particles are not ok (c->status tells). */
 static inline int cloud_rows(cloud *c, int scheme, sph_elliptic_options o)
 {
-    const sph_index bad = c->dim == 1 ? cloud_rows_in(1, c, scheme, o) : c->dim == 2 ? cloud_rows_in(2, c, scheme, o) : cloud_rows_in(3, c, scheme, o);
+    const sph_index bad = c->dim == 1   ? cloud_rows_in(1, c, scheme, o)
+                          : c->dim == 2 ? cloud_rows_in(2, c, scheme, o)
+                                        : cloud_rows_in(3, c, scheme, o);
     elliptic_expect(bad);
     return (int)bad;
 }
 static inline int cloud_apply(cloud *c, int scheme, sph_elliptic_options o)
 {
-    const sph_index bad = c->dim == 1 ? cloud_apply_in(1, c, scheme, o) : c->dim == 2 ? cloud_apply_in(2, c, scheme, o) : cloud_apply_in(3, c, scheme, o);
+    const sph_index bad = c->dim == 1   ? cloud_apply_in(1, c, scheme, o)
+                          : c->dim == 2 ? cloud_apply_in(2, c, scheme, o)
+                                        : cloud_apply_in(3, c, scheme, o);
     elliptic_expect(bad);
     return (int)bad;
 }
 
 /* A value that the paper shows in an image, or not at all, against the one that this toolkit had when it was checked against an independent implementation. */
-static inline void elliptic_regression(report *r, const char *item, const char *at, const char *quantity, double known, double measured)
+static inline void elliptic_regression(report *r, const char *item, const char *at, const char *quantity,
+                                       double known, double measured)
 {
     const double tolerance = 1e-6 * fmax(fabs(known), 1e-4);
     char criterion[REPORT_CRITERION];
     snprintf(criterion, sizeof criterion, "own regression %.9g: rel <= 1e-06", known);
-    report_number_row(r, item, at, quantity, (double)NAN, measured, criterion, NULL, fabs(measured - known) <= tolerance ? REPORT_MATCH : REPORT_DIFFERS);
+    report_number_row(r, item, at, quantity, (double)NAN, measured, criterion, NULL,
+                      fabs(measured - known) <= tolerance ? REPORT_MATCH : REPORT_DIFFERS);
 }
 
 #endif

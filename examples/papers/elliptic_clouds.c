@@ -34,14 +34,18 @@
 enum { DIRICHLET, MIXED, SMOOTH, FLUXES, PROBLEMS };
 static const char *const problem_name[PROBLEMS] = {"Dirichlet", "mixed", "smooth", "smooth with fluxes"};
 enum { UNIFORM, JITTER_10, JITTER_25, DISCS, GRADED, CLOUDS };
-static const char *const cloud_name[CLOUDS] = {"uniform", "jitter 10 %", "jitter 25 %", "Poisson discs", "graded discs"};
+static const char *const cloud_name[CLOUDS] = {"uniform", "jitter 10 %", "jitter 25 %", "Poisson discs",
+                                               "graded discs"};
 enum { B, CB, M, M16, M_TRACE, METHODS };
 static const char *const method_name[METHODS] = {"B", "CB", "M", "M (16)", "M / trace"};
 enum { MOST_LEVELS = 4, TERMS = 100 };
 
 /* m = 1 + x / 2 + 0.3 y^2 + 0.2 z; u = sin(2 x + 1/2) cos(1.5 y) + 0.4 x y z + z^2 / 2, in 2D with z = 0 */
 static double mobility(sph_vec p) { return 1 + 0.5 * p.x + 0.3 * p.y * p.y + 0.2 * p.z; }
-static double solution(sph_vec p) { return sin(2 * p.x + 0.5) * cos(1.5 * p.y) + 0.4 * p.x * p.y * p.z + 0.5 * p.z * p.z; }
+static double solution(sph_vec p)
+{
+    return sin(2 * p.x + 0.5) * cos(1.5 * p.y) + 0.4 * p.x * p.y * p.z + 0.5 * p.z * p.z;
+}
 static sph_vec solution_gradient(sph_vec p)
 {
     sph_vec g;
@@ -85,22 +89,29 @@ static void data_of(scatter *s, int problem, data *d)
     for (a = 0; a < 3; a++) d->normal[a] = elliptic_vector(c->n);
     for (i = 0; i < c->n; i++) {
         const sph_vec p = {c->x[i], c->y[i], c->z[i]};
-        const int smooth = problem >= SMOOTH, face = p.y == 0 ? 0 : p.x == 1 ? 1 : p.y == 1 ? 2 : 3; /* in 2D: the order of the paper's psi */
+        const int smooth = problem >= SMOOTH, face = p.y == 0   ? 0
+                                                     : p.x == 1 ? 1
+                                                     : p.y == 1 ? 2
+                                                                : 3; /* in 2D: the order of the paper's psi */
         c->m[i] = smooth ? mobility(p) : 1;
         if (i < s->inner) {
-            d->exact[i] = smooth                 ? solution(p)
-                          : problem == DIRICHLET ? elliptic_series_dirichlet(p.x, p.y, 1, 1, elliptic_psi_dirichlet, TERMS)
-                                                 : elliptic_series_mixed(p.x, p.y, 1, 1, elliptic_psi_mixed, TERMS);
+            d->exact[i] = smooth ? solution(p)
+                          : problem == DIRICHLET
+                              ? elliptic_series_dirichlet(p.x, p.y, 1, 1, elliptic_psi_dirichlet, TERMS)
+                              : elliptic_series_mixed(p.x, p.y, 1, 1, elliptic_psi_mixed, TERMS);
             d->b[i] = smooth ? source(c->dim, p) : 0;
             continue;
         }
-        for (a = 0; a < c->dim; a++) d->normal[a][i] = cloud_axis(c, a)[i] == 0 ? -1 : cloud_axis(c, a)[i] == 1 ? 1 : 0;
+        for (a = 0; a < c->dim; a++)
+            d->normal[a][i] = cloud_axis(c, a)[i] == 0 ? -1 : cloud_axis(c, a)[i] == 1 ? 1 : 0;
         d->alpha[i] = problem == DIRICHLET || problem == SMOOTH || face == 0;
         d->beta[i] = 1 - d->alpha[i];
         if (!smooth) d->b[i] = problem == DIRICHLET ? elliptic_psi_dirichlet[face] : elliptic_psi_mixed[face];
         else {
             const sph_vec g = solution_gradient(p);
-            d->b[i] = d->alpha[i] > 0 ? solution(p) : c->m[i] * (d->normal[0][i] * g.x + d->normal[1][i] * g.y + d->normal[2][i] * g.z);
+            d->b[i] = d->alpha[i] > 0
+                          ? solution(p)
+                          : c->m[i] * (d->normal[0][i] * g.x + d->normal[1][i] * g.y + d->normal[2][i] * g.z);
         }
     }
 }
@@ -146,22 +157,28 @@ static double solve_problem(scatter *s, int problem, int method)
 }
 
 /* What the order is at least, on uniform particles, for the schemes that are exact for linear fields everywhere; 0: nothing is known */
-static double order_of(int problem, int kind, int method) { return kind != UNIFORM || method < M ? 0 : problem == SMOOTH ? 2 : 1; }
+static double order_of(int problem, int kind, int method)
+{
+    return kind != UNIFORM || method < M ? 0 : problem == SMOOTH ? 2 : 1;
+}
 
 /* rows in s->c.row that are not those of an M-matrix; *deep: those of them out of reach of the boundary */
 static int rows_lost(const scatter *s, int *deep)
 {
     unsigned char *const monotone = (unsigned char *)elliptic_memory(NULL, (size_t)s->c.n);
-    const int lost = (int)sph_rows_monotone(0, s->inner, s->c.n, cloud_list(&s->c), s->c.row, s->c.diagonal, monotone);
+    const int lost = (int)sph_rows_monotone(sph_cloud_range(cloud_all(&s->c), 0, s->inner), s->c.row,
+                                            s->c.diagonal, monotone);
     int i;
     elliptic_expect(lost);
     *deep = 0;
-    for (i = 0; i < s->inner; i++) *deep += !monotone[i] && s->c.depth[i] > s->h[i] * sph_kernel_support(ELLIPTIC_KERNEL);
+    for (i = 0; i < s->inner; i++)
+        *deep += !monotone[i] && s->c.depth[i] > s->h[i] * sph_kernel_support(ELLIPTIC_KERNEL);
     free(monotone);
     return lost;
 }
 
-static void convergence(report *r, FILE *csv, progress *bar, scatter *s, int dim, int kind, const int *sides, int levels)
+static void convergence(report *r, FILE *csv, progress *bar, scatter *s, int dim, int kind, const int *sides,
+                        int levels)
 {
     double error[PROBLEMS][METHODS][MOST_LEVELS];
     char item[32], setting[64], title[96];
@@ -178,26 +195,31 @@ static void convergence(report *r, FILE *csv, progress *bar, scatter *s, int dim
             for (i = 0; i < s->c.n; i++) s->c.m[i] = 1;
             rows_of(s, method);
             lost = rows_lost(s, &deep);
-            snprintf(setting, sizeof setting, "%s, N = %d, %d particles", method_name[method], sides[k], s->inner);
+            snprintf(setting, sizeof setting, "%s, N = %d, %d particles", method_name[method], sides[k],
+                     s->inner);
             if (method <= CB) report_range(r, item, setting, "rows not monotone", (double)NAN, lost, 0, 0);
             else report_info(r, item, setting, "rows not monotone", lost);
             report_info(r, item, setting, "their share", (double)lost / s->inner);
-            if (kind == UNIFORM) report_range(r, item, setting, "out of reach of the boundary", (double)NAN, deep, 0, 0);
+            if (kind == UNIFORM)
+                report_range(r, item, setting, "out of reach of the boundary", (double)NAN, deep, 0, 0);
             else report_info(r, item, setting, "out of reach of the boundary", deep);
             for (i = 0; i < s->inner; i++) mean += (scatter_trace(s, i) - 1) / s->inner;
             report_info(r, item, setting, "mean of trace - 1", mean);
             for (problem = first; problem <= last; problem++) {
                 error[problem][method][k] = solve_problem(s, problem, method);
-                fprintf(csv, "%d,%s,%s,%s,%d,%.9g,%.6g,%.6g\n", dim, cloud_name[kind], problem_name[problem], method_name[method], sides[k],
-                        error[problem][method][k], (double)lost / s->inner, mean);
+                fprintf(csv, "%d,%s,%s,%s,%d,%.9g,%.6g,%.6g\n", dim, cloud_name[kind], problem_name[problem],
+                        method_name[method], sides[k], error[problem][method][k], (double)lost / s->inner,
+                        mean);
             }
             progress_update(bar, (method + 1.0) / METHODS);
         }
         for (problem = first; problem <= last && problem < SMOOTH; problem++) {
             double(*const e)[MOST_LEVELS] = error[problem];
             snprintf(setting, sizeof setting, "%s, N = %d", problem_name[problem], sides[k]);
-            report_range(r, item, setting, "|CB - B| / B of the errors", (double)NAN, fabs(e[CB][k] - e[B][k]) / e[B][k], 0, 1e-6);
-            report_range(r, item, setting, "|M / trace - M| / M", (double)NAN, fabs(e[M_TRACE][k] - e[M][k]) / e[M][k], 0, 1e-6);
+            report_range(r, item, setting, "|CB - B| / B of the errors", (double)NAN,
+                         fabs(e[CB][k] - e[B][k]) / e[B][k], 0, 1e-6);
+            report_range(r, item, setting, "|M / trace - M| / M", (double)NAN,
+                         fabs(e[M_TRACE][k] - e[M][k]) / e[M][k], 0, 1e-6);
         }
     }
     for (problem = first; problem <= last; problem++)
@@ -205,13 +227,15 @@ static void convergence(report *r, FILE *csv, progress *bar, scatter *s, int dim
             const double order = order_of(problem, kind, method);
             double size[MOST_LEVELS], logs[MOST_LEVELS], slope;
             for (k = 0; k < levels; k++) {
-                snprintf(setting, sizeof setting, "%s, %s, N = %d", problem_name[problem], method_name[method], sides[k]);
+                snprintf(setting, sizeof setting, "%s, %s, N = %d", problem_name[problem],
+                         method_name[method], sides[k]);
                 report_info(r, item, setting, "relative L2 error", error[problem][method][k]);
                 size[k] = log(sides[k]);
                 logs[k] = -log(error[problem][method][k]);
             }
             slope = statistics_slope(size, logs, levels);
-            snprintf(setting, sizeof setting, "%s, %s, least squares", problem_name[problem], method_name[method]);
+            snprintf(setting, sizeof setting, "%s, %s, least squares", problem_name[problem],
+                     method_name[method]);
             if (order > 0) report_range(r, item, setting, "order", (double)NAN, slope, order - 0.3, HUGE_VAL);
             else report_info(r, item, setting, "order", slope);
         }
@@ -232,7 +256,10 @@ int main(int argc, char **argv)
     scatter s = {0};
     progress bar;
     FILE *csv;
-    options_parse(argc, argv, "The elliptic operator on particles in all states of disorder: true errors, orders, monotone rows.", specs, 4);
+    options_parse(
+        argc, argv,
+        "The elliptic operator on particles in all states of disorder: true errors, orders, monotone rows.",
+        specs, 4);
     report_open(&r, "elliptic_clouds", out);
     figure_folder(figures);
     csv = figure_open(figures, "elliptic_clouds_errors");

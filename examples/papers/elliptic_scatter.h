@@ -17,7 +17,8 @@
 #include "elliptic_system.h"
 
 #ifdef __clang__
-#pragma clang diagnostic ignored "-Wpass-failed" /* loops that are too much for its vectoriser, in many copies here */
+#pragma clang diagnostic ignored \
+    "-Wpass-failed" /* loops that are too much for its vectoriser, in many copies here */
 #endif
 
 typedef struct scatter {
@@ -51,7 +52,15 @@ static inline void scatter_close(scatter *s)
     free(s->h);
 }
 
-static inline sph_points scatter_points(const scatter *s) { return sph_points_periodic(cloud_points(&s->c), s->box[0], s->box[1], s->box[2]); }
+static inline sph_points scatter_points(const scatter *s)
+{
+    return sph_points_periodic(cloud_points(&s->c), s->box[0], s->box[1], s->box[2]);
+}
+static inline sph_cloud scatter_cloud(const scatter *s)
+{
+    return sph_cloud_of(scatter_points(s), cloud_list(&s->c), sph_scalars_array(s->h),
+                        sph_scalars_array(s->c.V));
+}
 
 /* N^dim particles in the middle of the cells of the unit square or cube, and 2 dim N^(dim - 1) in the middle of the outer faces of cells, as in section 5
    of the paper. V = dx^dim */
@@ -114,17 +123,20 @@ static inline void scatter_put(scatter *s, scatter_buckets *b, int i, const doub
     b->first[bucket] = i;
 }
 /* Is a particle closer to p than distance? distance <= 1 / side */
-static inline int scatter_occupied(const scatter *s, const scatter_buckets *b, const double p[3], double distance)
+static inline int scatter_occupied(const scatter *s, const scatter_buckets *b, const double p[3],
+                                   double distance)
 {
     const int nz = s->c.dim > 2;
     int k, a, j;
     for (k = 0; k < (nz ? 27 : 9); k++) {
-        const double step = 1.0 / b->side, q[3] = {p[0] + (k % 3 - 1) * step, p[1] + (k / 3 % 3 - 1) * step, nz ? p[2] + (k / 9 - 1) * step : 0};
+        const double step = 1.0 / b->side, q[3] = {p[0] + (k % 3 - 1) * step, p[1] + (k / 3 % 3 - 1) * step,
+                                                   nz ? p[2] + (k / 9 - 1) * step : 0};
         int outside = 0;
         for (a = 0; a < s->c.dim; a++) outside |= q[a] < 0 || q[a] > 1;
         for (j = outside ? -1 : b->first[scatter_bucket(b, s->c.dim, q)]; j >= 0; j = b->next[j]) {
             double square = 0;
-            for (a = 0; a < s->c.dim; a++) square += (p[a] - cloud_axis(&s->c, a)[j]) * (p[a] - cloud_axis(&s->c, a)[j]);
+            for (a = 0; a < s->c.dim; a++)
+                square += (p[a] - cloud_axis(&s->c, a)[j]) * (p[a] - cloud_axis(&s->c, a)[j]);
             if (square < distance * distance) return 1;
         }
     }
@@ -135,7 +147,8 @@ static inline int scatter_occupied(const scatter *s, const scatter_buckets *b, c
    in their faces */
 static inline void scatter_discs(scatter *s, int dim, int N, double grade, pcg32 *g)
 {
-    const double dx0 = dim == 2 ? 1.0 / (N * sqrt(1 + grade)) : 1.0 / N; /* the integral of spacing^-2 is N^2 */
+    const double dx0 =
+        dim == 2 ? 1.0 / (N * sqrt(1 + grade)) : 1.0 / N; /* the integral of spacing^-2 is N^2 */
     const double largest = dx0 * (1 + grade), close = dim == 2 ? 0.83 : 0.9;
     const int room = 2 * (dim == 2 ? N * N : N * N * N) + 64 + 8 * dim * (dim == 2 ? N : N * N);
     double *x, *V;
@@ -151,7 +164,8 @@ static inline void scatter_discs(scatter *s, int dim, int N, double grade, pcg32
     for (a = 0; a < dim; a++)
         for (end = 0; end < 2; end++) {
             /* along a face x = const the spacing is even; along the others (1 + grade x) is an exponential of the number of the particle */
-            const double there = a == 0 ? dx0 * (1 + grade * end) : dx0, length = a == 0 || grade == 0 ? 1 : log(1 + grade) / grade;
+            const double there = a == 0 ? dx0 * (1 + grade * end) : dx0,
+                         length = a == 0 || grade == 0 ? 1 : log(1 + grade) / grade;
             const int side = (int)floor(length / there + 0.5), count = dim == 2 ? side : side * side;
             for (i = 0; i < count; i++, n++) {
                 double p[3] = {0, 0, 0}, q = (i % side + 0.5) / side;
@@ -166,7 +180,8 @@ static inline void scatter_discs(scatter *s, int dim, int N, double grade, pcg32
     for (tries = 0; tries < 60 * (room - faces) && n < room; tries++) {
         const double p[3] = {pcg32_uniform(g), pcg32_uniform(g), dim > 2 ? pcg32_uniform(g) : 0};
         const double spacing = dx0 * (1 + grade * p[0]);
-        if (!(pcg32_uniform(g) < pow(1 + grade * p[0], -dim)) || scatter_occupied(s, &b, p, close * spacing)) continue;
+        if (!(pcg32_uniform(g) < pow(1 + grade * p[0], -dim)) || scatter_occupied(s, &b, p, close * spacing))
+            continue;
         scatter_put(s, &b, n++, p, spacing);
     }
     free(b.first);
@@ -203,13 +218,14 @@ static inline void scatter_neighbours(scatter *s, double factor)
     }
     R = sph_scalars_array(radius);
     elliptic_expect(sph_grid_build(c->dim, x, largest, c->work, c->work_size, &grid));
-    elliptic_expect(sph_grid_lists(c->dim, &grid, x, SPH_LARGER, R, R, SPH_LIST_SORTED, c->start, NULL, 0, &pairs));
+    elliptic_expect(sph_grid_count(c->dim, &grid, x, SPH_LARGER, R, R, SPH_LIST_SORTED, c->start, &pairs));
     if ((size_t)pairs > c->pair_capacity) {
         c->pair_capacity = (size_t)pairs;
         c->index = (sph_index *)elliptic_memory(c->index, c->pair_capacity * sizeof *c->index);
         c->row = (double *)elliptic_memory(c->row, c->pair_capacity * sizeof *c->row);
     }
-    elliptic_expect(sph_grid_lists(c->dim, &grid, x, SPH_LARGER, R, R, SPH_LIST_SORTED, c->start, c->index, pairs, &pairs));
+    elliptic_expect(sph_grid_lists(c->dim, &grid, x, SPH_LARGER, R, R, SPH_LIST_SORTED, c->start, c->index,
+                                   pairs, &pairs));
     free(radius);
 }
 
@@ -217,10 +233,11 @@ static inline void scatter_neighbours(scatter *s, double factor)
 static inline void scatter_volumes(scatter *s)
 {
     const double one = 1;
-    const sph_scalars h = sph_scalars_array(s->h), m = sph_scalars_same(&one);
+    const sph_scalars m = sph_scalars_same(&one);
     int i;
-    if (s->c.dim == 2) elliptic_expect(sph_density_summation(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(scatter_points(s), cloud_list(&s->c), h, sph_scalars_none()), 0, s->c.n), m, s->c.V));
-    else elliptic_expect(sph_density_summation(ELLIPTIC_KERNEL, 3, sph_cloud_range(sph_cloud_of(scatter_points(s), cloud_list(&s->c), h, sph_scalars_none()), 0, s->c.n), m, s->c.V));
+    if (s->c.dim == 2)
+        elliptic_expect(sph_density_summation(ELLIPTIC_KERNEL, 2, scatter_cloud(s), m, s->c.V));
+    else elliptic_expect(sph_density_summation(ELLIPTIC_KERNEL, 3, scatter_cloud(s), m, s->c.V));
     for (i = 0; i < s->c.n; i++) s->c.V[i] = 1 / s->c.V[i];
 }
 
@@ -229,9 +246,7 @@ enum { SCATTER_PLAIN, SCATTER_FULL, SCATTER_TRACE };
 
 SPH_FN sph_index scatter_rows_in(int dim, int variant, int harmonic, scatter *s, int scheme)
 {
-    const sph_points x = scatter_points(s);
-    const sph_list list = cloud_list(&s->c);
-    const sph_scalars h = sph_scalars_array(s->h), V = sph_scalars_array(s->c.V), m = sph_scalars_array(s->c.m);
+    const sph_scalars m = sph_scalars_array(s->c.m);
     sph_elliptic_options o = sph_elliptic_defaults();
     sph_row_out out = {0};
     if (variant == SCATTER_FULL) o.gradient = SPH_GRADIENT_FULL;
@@ -240,19 +255,27 @@ SPH_FN sph_index scatter_rows_in(int dim, int variant, int harmonic, scatter *s,
     out.row = s->c.row;
     out.diagonal = s->c.diagonal;
     out.status = s->c.status;
-    if (scheme == SCHEME_B) return sph_elliptic_rows_brookshaw(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), 0, s->c.n), m, o, out);
-    if (scheme == SCHEME_CB) return sph_elliptic_rows_brookshaw_corrected(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), 0, s->c.n), m, o, out);
-    return sph_elliptic_rows_msph(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), 0, s->c.n), m, o, out);
+    if (scheme == SCHEME_B)
+        return sph_elliptic_rows_brookshaw(ELLIPTIC_KERNEL, dim, scatter_cloud(s), m, o, out);
+    if (scheme == SCHEME_CB)
+        return sph_elliptic_rows_brookshaw_corrected(ELLIPTIC_KERNEL, dim, scatter_cloud(s), m, o, out);
+    return sph_elliptic_rows_msph(ELLIPTIC_KERNEL, dim, scatter_cloud(s), m, o, out);
 }
 /* full: the gradient (16), else (15); harmonic: that mean of m, else the arithmetic. Constants in each call, so that the loops fold. */
 static inline void scatter_rows(scatter *s, int scheme, int variant, int harmonic)
 {
     const int dim = s->c.dim;
     sph_index bad; /* folds for constant arguments, so there is one copy for each */
-    if (variant == SCATTER_TRACE) bad = dim == 2 ? scatter_rows_in(2, SCATTER_TRACE, 0, s, scheme) : scatter_rows_in(3, SCATTER_TRACE, 0, s, scheme);
-    else if (variant == SCATTER_FULL) bad = dim == 2 ? scatter_rows_in(2, SCATTER_FULL, 0, s, scheme) : scatter_rows_in(3, SCATTER_FULL, 0, s, scheme);
+    if (variant == SCATTER_TRACE)
+        bad = dim == 2 ? scatter_rows_in(2, SCATTER_TRACE, 0, s, scheme)
+                       : scatter_rows_in(3, SCATTER_TRACE, 0, s, scheme);
+    else if (variant == SCATTER_FULL)
+        bad = dim == 2 ? scatter_rows_in(2, SCATTER_FULL, 0, s, scheme)
+                       : scatter_rows_in(3, SCATTER_FULL, 0, s, scheme);
     else if (dim == 3) bad = scatter_rows_in(3, SCATTER_PLAIN, 0, s, scheme);
-    else bad = harmonic ? scatter_rows_in(2, SCATTER_PLAIN, 1, s, scheme) : scatter_rows_in(2, SCATTER_PLAIN, 0, s, scheme);
+    else
+        bad = harmonic ? scatter_rows_in(2, SCATTER_PLAIN, 1, s, scheme)
+                       : scatter_rows_in(2, SCATTER_PLAIN, 0, s, scheme);
     elliptic_expect(bad);
 }
 
@@ -287,21 +310,24 @@ static inline double scatter_trace(const scatter *s, int i)
     }
     return sum / (2 * s->c.dim);
 }
-SPH_FN sph_index scatter_conditions_in(int dim, scatter *s, int first, double *const normal[3], const double *alpha, const double *beta)
+SPH_FN sph_index scatter_conditions_in(int dim, scatter *s, int first, double *const normal[3],
+                                       const double *alpha, const double *beta)
 {
-    sph_diagonal n;
+    const sph_boundary boundary = {.normal = sph_vectors_separate(normal[0], normal[1], normal[2]),
+                                   .alpha = sph_scalars_array(alpha),
+                                   .beta = sph_scalars_array(beta)};
     sph_row_out out = {0};
-    n.x = sph_scalars_array(normal[0]);
-    n.y = sph_scalars_array(normal[1]);
-    n.z = sph_scalars_array(normal[2]);
     out.row = s->c.row;
     out.diagonal = s->c.diagonal;
-    return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(scatter_points(s), cloud_list(&s->c), sph_scalars_array(s->h), sph_scalars_array(s->c.V)), first, s->c.n), sph_scalars_array(s->c.m), sph_elliptic_defaults(), n, sph_scalars_array(alpha), sph_scalars_array(beta), out);
+    return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, sph_cloud_range(scatter_cloud(s), first, s->c.n),
+                                      sph_scalars_array(s->c.m), sph_elliptic_defaults(), boundary, out);
 }
 /* alpha u + beta m du/dn for the particles from `first` on that have one of them */
-static inline void scatter_conditions(scatter *s, int first, double *const normal[3], const double *alpha, const double *beta)
+static inline void scatter_conditions(scatter *s, int first, double *const normal[3], const double *alpha,
+                                      const double *beta)
 {
-    elliptic_expect(s->c.dim == 2 ? scatter_conditions_in(2, s, first, normal, alpha, beta) : scatter_conditions_in(3, s, first, normal, alpha, beta));
+    elliptic_expect(s->c.dim == 2 ? scatter_conditions_in(2, s, first, normal, alpha, beta)
+                                  : scatter_conditions_in(3, s, first, normal, alpha, beta));
 }
 
 /* sqrt(sum V (u - exact)^2 / sum V exact^2) over the inner particles: the relative L2 norm */

@@ -77,7 +77,7 @@ SPH_FN void anisotropic_in(int dim, problem *p)
     M.z = sph_scalars_array(p->k[2]);
     out.row = p->c.row;
     out.diagonal = p->c.diagonal;
-    elliptic_expect(sph_elliptic_rows_anisotropic(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(cloud_points(&p->c), cloud_list(&p->c), sph_scalars_same(&p->c.h), sph_scalars_array(p->c.V)), 0, p->c.n), M, out));
+    elliptic_expect(sph_elliptic_rows_anisotropic(ELLIPTIC_KERNEL, dim, cloud_all(&p->c), M, out));
 }
 
 enum { ANISOTROPIC = SCHEMES };
@@ -128,7 +128,8 @@ static void watch(void *context, int iteration, double residual)
     (void)residual;
     progress_update((progress *)context, fmin(0.99, iteration / 400.0));
 }
-static sparse_result solve(const sparse *A, const double *b, double *u, sparse_method method, double tolerance, int restart, int most, double *history)
+static sparse_result solve(const sparse *A, const double *b, double *u, sparse_method method,
+                           double tolerance, int restart, int most, double *history)
 {
     sparse_options o = sparse_defaults();
     sparse_preconditioner P;
@@ -152,7 +153,8 @@ static sparse_result solve(const sparse *A, const double *b, double *u, sparse_m
 static void must(sparse_result r)
 {
     if (r.converged) return;
-    fprintf(stderr, "elliptic_spe10: %s after %d iterations, residual %.2g\n", sparse_status_text(r.status), r.iterations, r.residual);
+    fprintf(stderr, "elliptic_spe10: %s after %d iterations, residual %.2g\n", sparse_status_text(r.status),
+            r.iterations, r.residual);
     exit(1);
 }
 
@@ -182,12 +184,16 @@ static void compare(report *r, const problem *p, const char *what, int bounded)
     char setting[128], measured[64];
     snprintf(setting, sizeof setting, "%s, %s", p->name, what);
     snprintf(measured, sizeof measured, "[%.3g, 1 - %.3g]", e.least_u, 1 - e.most_u);
-    if (bounded) report_claim(r, item, setting, "range of u", "", measured, "0 <= u <= 1", e.least_u >= -1e-9 && e.most_u <= 1 + 1e-9);
+    if (bounded)
+        report_claim(r, item, setting, "range of u", "", measured, "0 <= u <= 1",
+                     e.least_u >= -1e-9 && e.most_u <= 1 + 1e-9);
     else report_row(r, item, setting, "range of u", NULL, measured, NULL, NULL, REPORT_INFO);
     report_info(r, item, setting, "true (95) against TPFA, %", 100 * e.true_95);
     report_info(r, item, setting, "largest relative error of a cell, %", 100 * e.largest);
-    report_not_reproduced(r, item, setting, "error in the tables' metric, 100/N (95)", p->dim == 2 ? 0.06 : 0.3, e.printed,
-                          p->real ? "norm and mean of mobilities unsaid; of the size of the tables' metric only" : "a made-up field");
+    report_not_reproduced(
+        r, item, setting, "error in the tables' metric, 100/N (95)", p->dim == 2 ? 0.06 : 0.3, e.printed,
+        p->real ? "norm and mean of mobilities unsaid; of the size of the tables' metric only"
+                : "a made-up field");
 }
 
 static void map(const char *folder, const char *name, const problem *p, int layer)
@@ -197,15 +203,15 @@ static void map(const char *folder, const char *name, const problem *p, int laye
     int i;
     fprintf(file, "i,j,log10_k,u,relative_error\n");
     for (i = layer * n[0] * n[1]; i < (layer + 1) * n[0] * n[1]; i++) {
-        fprintf(file, "%d,%d,%.5g,%.6g,%.5g\n", i % n[0] + 1, i / n[0] % n[1] + 1, log10(p->field.k[0][i]), p->c.u[i],
-                fabs(p->c.u[i] - p->tpfa[i]) / fabs(p->tpfa[i]));
+        fprintf(file, "%d,%d,%.5g,%.6g,%.5g\n", i % n[0] + 1, i / n[0] % n[1] + 1, log10(p->field.k[0][i]),
+                p->c.u[i], fabs(p->c.u[i] - p->tpfa[i]) / fabs(p->tpfa[i]));
     }
     figure_close(file);
 }
 
 /* Figures 11, 12: residuals of GMRES without restarts for three matrices and three preconditioners, and their condition numbers. Schwaiger's matrix is M-SPH's (checked), so that its curves are, too. */
-static void histories(report *r, const char *folder, problem *p, const sparse *tpfa, const double *b_tpfa, const sparse *msph, const double *b, double apart,
-                      int most)
+static void histories(report *r, const char *folder, problem *p, const sparse *tpfa, const double *b_tpfa,
+                      const sparse *msph, const double *b, double apart, int most)
 {
     static const char *const method_name[] = {"none", "Jacobi", "ILU(0)"};
     static const sparse_method methods[] = {SPARSE_NONE, SPARSE_JACOBI, SPARSE_ILU0};
@@ -220,13 +226,16 @@ static void histories(report *r, const char *folder, problem *p, const sparse *t
             sparse_result s;
             int six;
             history[k] = elliptic_vector(most + 1);
-            s = solve(which ? msph : tpfa, which ? b : b_tpfa, u, methods[method], 1e-10, 0, most, history[k]);
+            s = solve(which ? msph : tpfa, which ? b : b_tpfa, u, methods[method], 1e-10, 0, most,
+                      history[k]);
             reached[k] = s.iterations;
             for (six = 0; six < s.iterations && history[k][six] > 1e-6; six++) {}
-            snprintf(setting, sizeof setting, "%s, %s, %s", p->name, which ? "M-SPH = Schwaiger" : "TPFA", method_name[method]);
+            snprintf(setting, sizeof setting, "%s, %s, %s", p->name, which ? "M-SPH = Schwaiger" : "TPFA",
+                     method_name[method]);
             if (history[k][six] <= 1e-6) snprintf(text, sizeof text, "%d", six);
             else snprintf(text, sizeof text, "> %d (%.1e there)", most, history[k][s.iterations]);
-            report_row(r, item, setting, "iterations of full GMRES to 1e-6", NULL, text, NULL, NULL, REPORT_INFO);
+            report_row(r, item, setting, "iterations of full GMRES to 1e-6", NULL, text, NULL, NULL,
+                       REPORT_INFO);
         }
     snprintf(name, sizeof name, "elliptic_fig%d_%s", p->dim == 2 ? 11 : 12, p->name);
     for (i = 0; name[i]; i++)
@@ -252,9 +261,11 @@ static void histories(report *r, const char *folder, problem *p, const sparse *t
         a = sparse_condition_estimate(tpfa, &o);
         m = sparse_condition_estimate(msph, &o);
         if (a.converged) report_info(r, item, p->name, "condition estimate (1-norm), TPFA", a.condition);
-        if (m.converged) report_info(r, item, p->name, "condition estimate (1-norm), M-SPH = Schwaiger", m.condition);
+        if (m.converged)
+            report_info(r, item, p->name, "condition estimate (1-norm), M-SPH = Schwaiger", m.condition);
         snprintf(text, sizeof text, "matrices differ by %.1e at most", apart);
-        report_claim(r, item, p->name, "condition numbers of M-SPH and Schwaiger's scheme", "similar", text, "the same matrix to 1e-10", apart <= 1e-10);
+        report_claim(r, item, p->name, "condition numbers of M-SPH and Schwaiger's scheme", "similar", text,
+                     "the same matrix to 1e-10", apart <= 1e-10);
     }
 }
 
@@ -266,7 +277,8 @@ static double schwaiger_apart(problem *p, const sparse *msph)
     int64_t k;
     matrix(p, SCHEME_S, SPH_MOBILITY_ARITHMETIC, &S, b);
     if (S.start[S.n] != msph->start[msph->n]) return HUGE_VAL;
-    for (k = 0; k < S.start[S.n]; k++) apart = fmax(apart, fabs(S.value[k] - msph->value[k])); /* rows are scaled: their diagonal is 1 */
+    for (k = 0; k < S.start[S.n]; k++)
+        apart = fmax(apart, fabs(S.value[k] - msph->value[k])); /* rows are scaled: their diagonal is 1 */
     sparse_free(&S);
     free(b);
     return apart;
@@ -278,10 +290,11 @@ static void run(report *r, problem *p, const char *figures, int full)
         double f;
         int mean;
         const char *what;
-    } variants[] = {{0.5005, SPH_MOBILITY_ARITHMETIC, "f = 0.5005, arithmetic"},
-                    {0.5005, SPH_MOBILITY_HARMONIC, "f = 0.5005, harmonic"},
-                    {1.001, SPH_MOBILITY_HARMONIC, "f = 1.001, harmonic"},
-                    {1.001, SPH_MOBILITY_ARITHMETIC, "f = 1.001, arithmetic"}}; /* the last is what is drawn */
+    } variants[] = {
+        {0.5005, SPH_MOBILITY_ARITHMETIC, "f = 0.5005, arithmetic"},
+        {0.5005, SPH_MOBILITY_HARMONIC, "f = 0.5005, harmonic"},
+        {1.001, SPH_MOBILITY_HARMONIC, "f = 1.001, harmonic"},
+        {1.001, SPH_MOBILITY_ARITHMETIC, "f = 1.001, arithmetic"}}; /* the last is what is drawn */
     const elliptic_box box = box_of(p);
     const int anisotropic = p->field.k[2] != p->field.k[0] && p->dim == 3;
     double *b_tpfa, *b;
@@ -291,7 +304,8 @@ static void run(report *r, problem *p, const char *figures, int full)
     clock_t begin;
     size_t v;
     p->cells = elliptic_cells(p->field.n);
-    snprintf(title, sizeof title, "%dD, %d x %d x %d cells: %s", p->dim, p->field.n[0], p->field.n[1], p->field.n[2], p->field.source);
+    snprintf(title, sizeof title, "%dD, %d x %d x %d cells: %s", p->dim, p->field.n[0], p->field.n[1],
+             p->field.n[2], p->field.source);
     report_section(r, title);
     report_info(r, "medium", p->name, "largest / smallest permeability", elliptic_contrast(&p->field));
     particles(p);
@@ -318,15 +332,20 @@ static void run(report *r, problem *p, const char *figures, int full)
         snprintf(setting, sizeof setting, "%s, %s", p->name, variants[v].what);
         report_info(r, "cost", setting, "rows, microseconds of CPU per particle", 1e6 * assembly / p->c.n);
         report_info(r, "cost", setting, "GMRES + ILU(0) to 1e-9: iterations", s.iterations);
-        report_info(r, "cost", setting, "GMRES + ILU(0): seconds of CPU", (double)(clock() - begin) / CLOCKS_PER_SEC);
+        report_info(r, "cost", setting, "GMRES + ILU(0): seconds of CPU",
+                    (double)(clock() - begin) / CLOCKS_PER_SEC);
         if (last) {
             const double apart = schwaiger_apart(p, &msph);
-            report_range(r, "identity", p->name, "largest difference of Schwaiger's rows and M-SPH's", (double)NAN, apart, 0, 1e-10);
+            report_range(r, "identity", p->name, "largest difference of Schwaiger's rows and M-SPH's",
+                         (double)NAN, apart, 0, 1e-10);
             snprintf(name, sizeof name, "elliptic_fig10_%dd_%s", p->dim, p->real ? "spe10" : p->name);
             for (begin = 0; name[begin]; begin++)
                 if (name[begin] == ' ') name[begin] = '_';
             map(figures, name, p, p->dim == 2 ? 0 : p->field.n[2] / 2);
-            histories(r, figures, p, &tpfa, b_tpfa, &msph, b, apart, p->dim == 2 ? HISTORY : full ? HISTORY / 2 : HISTORY / 8);
+            histories(r, figures, p, &tpfa, b_tpfa, &msph, b, apart,
+                      p->dim == 2 ? HISTORY
+                      : full      ? HISTORY / 2
+                                  : HISTORY / 8);
         }
         sparse_free(&msph);
     }
@@ -360,15 +379,18 @@ int main(int argc, char **argv)
         {"perm", "spe_perm.dat: Kx, Ky, Kz of the whole model", OPTION_TEXT, &perm, 0, 0},
         {"layer", "text of 60 x 220 numbers: Kx of layer 85", OPTION_TEXT, &layer, 0, 0},
         {"block", "60^3 float32: Kx of i, j, k = 1 to 60", OPTION_TEXT, &block, 0, 0},
-        {"side", "cells along a side of the made-up block in 3D (default: 40, or 60 with -full)", OPTION_INT, &side, 12, 100},
+        {"side", "cells along a side of the made-up block in 3D (default: 40, or 60 with -full)", OPTION_INT,
+         &side, 12, 100},
         {"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
         {"figures", "folder of the figures' data", OPTION_TEXT, &figures, 0, 0},
         {"full", "all variants in 3D, longer histories", OPTION_FLAG, &full, 0, 0},
     };
     static report r;
     char message[ELLIPTIC_MESSAGE] = "";
-    options_parse(argc, argv, "SPE10 and figures 9 to 12 of the elliptic paper: M-SPH and Schwaiger's scheme against two-point fluxes.", specs,
-                  sizeof specs / sizeof *specs);
+    options_parse(argc, argv,
+                  "SPE10 and figures 9 to 12 of the elliptic paper: M-SPH and Schwaiger's scheme against "
+                  "two-point fluxes.",
+                  specs, sizeof specs / sizeof *specs);
     if (side == 0) side = full ? 60 : 40;
     report_open(&r, "elliptic_spe10", out);
     figure_folder(figures);
@@ -379,14 +401,18 @@ int main(int argc, char **argv)
             memset(&p, 0, sizeof p);
             p.dim = dim;
             p.real = path != NULL;
-            p.name = path ? "SPE10" : kind == ELLIPTIC_LOGNORMAL ? "lognormal surrogate" : "channel surrogate";
+            p.name = path                         ? "SPE10"
+                     : kind == ELLIPTIC_LOGNORMAL ? "lognormal surrogate"
+                                                  : "channel surrogate";
             if (path ? elliptic_spe10_read(path, dim, &p.field, message)
-                     : elliptic_surrogate_make((elliptic_surrogate)kind, dim == 2 ? 60 : side, dim == 2 ? 60 : side, dim == 2 ? 1 : side, 85, &p.field,
+                     : elliptic_surrogate_make((elliptic_surrogate)kind, dim == 2 ? 60 : side,
+                                               dim == 2 ? 60 : side, dim == 2 ? 1 : side, 85, &p.field,
                                                message)) {
                 fprintf(stderr, "elliptic_spe10: %s\n", message);
                 return 2;
             }
-            if (!path) printf("\nNo file of SPE10 was named (-perm, -layer, -block): a made-up medium instead.\n");
+            if (!path)
+                printf("\nNo file of SPE10 was named (-perm, -layer, -block): a made-up medium instead.\n");
             run(&r, &p, figures, full);
         }
     }

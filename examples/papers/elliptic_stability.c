@@ -39,7 +39,12 @@ static growth growth_of(cloud *c, int scheme, int gradient, double tau, FILE *fi
                 double re = 0, im = 0, size;
                 k.x = (2.0 * a / (WAVES - 1) - 1) * MATH_PI / c->dx;
                 k.y = (2.0 * b / (WAVES - 1) - 1) * MATH_PI / c->dx;
-                elliptic_expect(sph_rows_growth(2, i, cloud_points(c), cloud_list(c), c->row, tau, k, &re, &im));
+                elliptic_expect(
+                    sph_rows_growth(2,
+                                    sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c),
+                                                                 sph_scalars_none(), sph_scalars_none()),
+                                                    i, i + 1),
+                                    c->row, tau, k, &re, &im));
                 size = sqrt(re * re + im * im);
                 if (inside) {
                     s.inside = fmax(s.inside, size);
@@ -51,7 +56,8 @@ static growth growth_of(cloud *c, int scheme, int gradient, double tau, FILE *fi
                     hit += size > 1 + 1e-6;
                 }
                 if (figure && count++ % 307 == 0)
-                    fprintf(figure, "%s,%s,%s,%.6g,%.6g,%d\n", layout, elliptic_scheme_name[scheme], elliptic_gradient_name[gradient], re, im, inside);
+                    fprintf(figure, "%s,%s,%s,%.6g,%.6g,%d\n", layout, elliptic_scheme_name[scheme],
+                            elliptic_gradient_name[gradient], re, im, inside);
             }
     }
     s.unstable = (double)hit / (double)outer;
@@ -77,32 +83,47 @@ static void figure5(report *r, cloud *c, const char *figures)
             cloud_neighbours(c, f[k] * c->dx);
             for (scheme = SCHEME_CB; scheme <= SCHEME_M; scheme++)
                 for (gradient = 0; gradient < GRADIENTS; gradient++) {
-                    const growth s = growth_of(c, scheme, gradient, 0.25 * c->dx * c->dx, k == 0 ? out : NULL, layout);
-                    snprintf(setting, sizeof setting, "f = %g, %s, %s %s", f[k], layout, elliptic_scheme_name[scheme], elliptic_gradient_name[gradient]);
-                    if (k == 0) report_range(r, "Figure 5", setting, "max |lambda|, interior", (double)NAN, s.inside, 0, jittered ? 1 + 1e-6 : 1 + 1e-12);
-                    else if (!jittered) report_range(r, "Figure 5", setting, "max |lambda|, interior", (double)NAN, s.inside, 0, 1 + 1e-12);
+                    const growth s =
+                        growth_of(c, scheme, gradient, 0.25 * c->dx * c->dx, k == 0 ? out : NULL, layout);
+                    snprintf(setting, sizeof setting, "f = %g, %s, %s %s", f[k], layout,
+                             elliptic_scheme_name[scheme], elliptic_gradient_name[gradient]);
+                    if (k == 0)
+                        report_range(r, "Figure 5", setting, "max |lambda|, interior", (double)NAN, s.inside,
+                                     0, jittered ? 1 + 1e-6 : 1 + 1e-12);
+                    else if (!jittered)
+                        report_range(r, "Figure 5", setting, "max |lambda|, interior", (double)NAN, s.inside,
+                                     0, 1 + 1e-12);
                     else report_info(r, "Figure 5", setting, "max |lambda|, interior", s.inside);
                     report_info(r, "Figure 5", setting, "least Re lambda, interior", s.least_re);
                     report_info(r, "Figure 5", setting, "max |Im lambda|, interior", s.most_im);
                     report_info(r, "Figure 5", setting, "max |lambda|, incomplete support", s.boundary);
-                    report_info(r, "Figure 5", setting, "share of waves and particles with |lambda| > 1, incomplete support", s.unstable);
+                    report_info(r, "Figure 5", setting,
+                                "share of waves and particles with |lambda| > 1, incomplete support",
+                                s.unstable);
                     worst = fmax(worst, s.inside);
                     worst_im = fmax(worst_im, s.most_im);
                     unstable = fmax(unstable, s.boundary);
                 }
             snprintf(setting, sizeof setting, "f = %g, %s", f[k], layout);
-            snprintf(text, sizeof text, "interior: max |lambda| %.6f, max |Im| %.2g; incomplete support: max |lambda| %.3f", worst, worst_im, unstable);
+            snprintf(text, sizeof text,
+                     "interior: max |lambda| %.6f, max |Im| %.2g; incomplete support: max |lambda| %.3f",
+                     worst, worst_im, unstable);
             if (!jittered) {
-                report_claim(r, "Section 4.3", setting, "lambda with full support", "real, |lambda| <= 1 for all schemes", text, "to 1e-12",
+                report_claim(r, "Section 4.3", setting, "lambda with full support",
+                             "real, |lambda| <= 1 for all schemes", text, "to 1e-12",
                              worst <= 1 + 1e-12 && worst_im < 1e-12);
-                report_claim_fails(r, "Section 4.3", setting, "lambda of all particles", "|lambda| <= 1 for all schemes", text,
-                                   "it holds where the support is full; boundary particles are excepted for perturbed particles only");
+                report_claim_fails(r, "Section 4.3", setting, "lambda of all particles",
+                                   "|lambda| <= 1 for all schemes", text,
+                                   "it holds where the support is full; boundary particles are excepted for "
+                                   "perturbed particles only");
             } else if (k == 0)
-                report_claim(r, "Section 4.3", setting, "|lambda| <= 1", "almost everywhere, perhaps not at the boundary", text, "in the interior, to 1e-6",
-                             worst <= 1 + 1e-6);
+                report_claim(r, "Section 4.3", setting, "|lambda| <= 1",
+                             "almost everywhere, perhaps not at the boundary", text,
+                             "in the interior, to 1e-6", worst <= 1 + 1e-6);
             else
                 report_claim_fails(r, "Section 4.3", setting, "|lambda| <= 1", "almost everywhere", text,
-                                   "with four or so neighbours disorder makes rows of larger diagonal: a smaller tau is needed");
+                                   "with four or so neighbours disorder makes rows of larger diagonal: a "
+                                   "smaller tau is needed");
         }
     figure_close(out);
 }
@@ -113,8 +134,10 @@ static void printed_tau(report *r, cloud *c)
     char text[64];
     cloud_lattice(c, 2, 21, 2, 0.05);
     cloud_neighbours(c, 1.2 * c->dx);
-    snprintf(text, sizeof text, "max |lambda| = %.4g, interior", growth_of(c, SCHEME_M, 0, 0.25, NULL, "").inside);
-    report_claim_fails(r, "Section 4.3", "f = 1.2, uniform, M (15)", "tau", "0.25", text, "0.25 dx^2 is meant, or dx = 1");
+    snprintf(text, sizeof text, "max |lambda| = %.4g, interior",
+             growth_of(c, SCHEME_M, 0, 0.25, NULL, "").inside);
+    report_claim_fails(r, "Section 4.3", "f = 1.2, uniform, M (15)", "tau", "0.25", text,
+                       "0.25 dx^2 is meant, or dx = 1");
 }
 
 /* ---------------------------------------------------------------- figure 6: |xi| in random neighbourhoods */
@@ -153,7 +176,12 @@ static xi_statistics xi_of(cloud *c, double h, int n, int draws, uint64_t stream
             c->V[i] = 1; /* cancels */
         }
         c->V[0] = 1;
-        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c), sph_scalars_same(&h), sph_scalars_array(c->V)), 0, 1), sph_elliptic_defaults(), out));
+        elliptic_expect(
+            sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2,
+                                  sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c),
+                                                               sph_scalars_same(&h), sph_scalars_array(c->V)),
+                                                  0, 1),
+                                  sph_elliptic_defaults(), out));
         s.mean += xi / draws;
         square += xi * xi / draws;
         s.violated_93 += least > 0 ? 0 : 1.0 / draws;
@@ -182,7 +210,8 @@ static void figure6(report *r, cloud *c, const char *figures, int full)
         for (k = 0; k < count; k++) {
             const int n = full ? k + 4 : some[k];
             const xi_statistics s = xi_of(c, hs[a], n, 50, (uint64_t)(n + 1000 * a));
-            fprintf(out, "%g,%d,%.9g,%.9g,%g,%g\n", hs[a], n, s.mean, s.deviation, s.violated_92, s.violated_93);
+            fprintf(out, "%g,%d,%.9g,%.9g,%g,%g\n", hs[a], n, s.mean, s.deviation, s.violated_92,
+                    s.violated_93);
             if (s.violated_93 > 0) last_violated = n;
             if (n >= 20) {
                 x[used] = log((double)n);
@@ -198,11 +227,16 @@ static void figure6(report *r, cloud *c, const char *figures, int full)
             report_info(r, "Figure 6", setting, "share with (93) violated", s.violated_93);
         }
         snprintf(setting, sizeof setting, "h = %g, 20 to 500 neighbours", hs[a]);
-        report_range(r, "Figure 6", setting, "exponent of mean |xi| in n (-1/2: N is a random sum)", (double)NAN, statistics_slope(x, mean, used), -0.6, -0.4);
-        report_range(r, "Figure 6", setting, "exponent of its deviation", (double)NAN, statistics_slope(x, deviation, used), -0.7, -0.3);
-        report_range(r, "Figure 6", setting, "mean of |xi| sqrt(n)", (double)NAN, coefficient / used, 0.9 * factor[a], 1.1 * factor[a]);
+        report_range(r, "Figure 6", setting, "exponent of mean |xi| in n (-1/2: N is a random sum)",
+                     (double)NAN, statistics_slope(x, mean, used), -0.6, -0.4);
+        report_range(r, "Figure 6", setting, "exponent of its deviation", (double)NAN,
+                     statistics_slope(x, deviation, used), -0.7, -0.3);
+        report_range(r, "Figure 6", setting, "mean of |xi| sqrt(n)", (double)NAN, coefficient / used,
+                     0.9 * factor[a], 1.1 * factor[a]);
         snprintf(text, sizeof text, "no violation of (93) in 50 draws beyond n = %d", last_violated);
-        report_claim(r, "Section 4.5", setting, "(92), (93)", "fulfilled in statistical sense for many neighbours", text, "at most 300", last_violated <= 300);
+        report_claim(r, "Section 4.5", setting, "(92), (93)",
+                     "fulfilled in statistical sense for many neighbours", text, "at most 300",
+                     last_violated <= 300);
     }
     figure_close(out);
     if (full) /* the same with less noise */
@@ -220,16 +254,17 @@ static void figure6(report *r, cloud *c, const char *figures, int full)
 
 typedef struct signs {
     double violated_92, violated_93, not_monotone, strict, failed; /* numbers of cell-centred particles */
-    double least;                                                  /* smallest 1 - xi . e of those that have rows */
-    double disagree;                                               /* (93) holds, but the row is not that of an M-matrix */
-    double heterogeneous;                                          /* not monotone with a random m */
+    double least;         /* smallest 1 - xi . e of those that have rows */
+    double disagree;      /* (93) holds, but the row is not that of an M-matrix */
+    double heterogeneous; /* not monotone with a random m */
 } signs;
 
 /* means over the draws; one draw without jitter */
 static signs signs_of(cloud *c, int N, double f, double jitter, int draws)
 {
     signs s = {0, 0, 0, 0, 0, HUGE_VAL, 0, 0};
-    double *const least = (double *)elliptic_memory(NULL, 2 * (size_t)(N * N + 4 * N) * sizeof(double)), *const most = least + N * N + 4 * N;
+    double *const least = (double *)elliptic_memory(NULL, 2 * (size_t)(N * N + 4 * N) * sizeof(double)),
+                  *const most = least + N * N + 4 * N;
     unsigned char *const monotone = (unsigned char *)elliptic_memory(NULL, (size_t)(N * N + 4 * N));
     const int dof = N * N;
     const double share = 1.0 / draws;
@@ -245,9 +280,10 @@ static signs signs_of(cloud *c, int N, double f, double jitter, int draws)
         cloud_neighbours(c, f * c->dx);
         out.sign_least = least;
         out.sign_most = most;
-        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V)), 0, c->n), sph_elliptic_defaults(), out));
+        elliptic_expect(
+            sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, cloud_all(c), sph_elliptic_defaults(), out));
         cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
-        count = sph_rows_monotone(0, dof, c->n, cloud_list(c), c->row, c->diagonal, monotone);
+        count = sph_rows_monotone(sph_cloud_range(cloud_all(c), 0, dof), c->row, c->diagonal, monotone);
         elliptic_expect(count);
         s.not_monotone += share * count;
         for (i = 0; i < dof; i++) {
@@ -265,7 +301,7 @@ static signs signs_of(cloud *c, int N, double f, double jitter, int draws)
         }
         for (i = 0; i < c->n; i++) c->m[i] = exp(4 * (2 * pcg32_uniform(&g) - 1)); /* a contrast of 3000 */
         cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
-        count = sph_rows_monotone(0, dof, c->n, cloud_list(c), c->row, c->diagonal, NULL);
+        count = sph_rows_monotone(sph_cloud_range(cloud_all(c), 0, dof), c->row, c->diagonal, NULL);
         elliptic_expect(count);
         s.heterogeneous += share * count;
     }
@@ -283,16 +319,22 @@ static void monotonicity(report *r, cloud *c, int draws)
     double disagree = 0, strict = 0, heterogeneous = 0, rows = 0;
     char text[160];
     int k, jittered;
-    report_section(r, "Section 4.5: signs and monotone rows, 40 x 40 cells with boundary particles on their faces");
+    report_section(
+        r, "Section 4.5: signs and monotone rows, 40 x 40 cells with boundary particles on their faces");
     for (jittered = 0; jittered < 2; jittered++)
         for (k = 0; k < LAYOUTS; k++) {
             const signs s = signs_of(c, 40, layouts[k], jittered ? 0.1 : 0, jittered ? draws : 1);
-            snprintf(setting, sizeof setting, "f = %g, %s", layouts[k], jittered ? "10 % perturbed (mean)" : "uniform");
+            snprintf(setting, sizeof setting, "f = %g, %s", layouts[k],
+                     jittered ? "10 % perturbed (mean)" : "uniform");
             report_info(r, "(92)", setting, "particles of 1600 where it is violated", s.violated_92);
             report_info(r, "(93)", setting, "particles of 1600 where it is violated", s.violated_93);
-            if (jittered) report_info(r, "Section 4.5", setting, "rows of 1600 that are not monotone", s.not_monotone);
-            else elliptic_regression(r, "Section 4.5", setting, "rows of 1600 that are not monotone", known[k], s.not_monotone);
-            report_info(r, "Section 4.5", setting, "particles of 1600 without rows (neighbours too few or on a line)", s.failed);
+            if (jittered)
+                report_info(r, "Section 4.5", setting, "rows of 1600 that are not monotone", s.not_monotone);
+            else
+                elliptic_regression(r, "Section 4.5", setting, "rows of 1600 that are not monotone", known[k],
+                                    s.not_monotone);
+            report_info(r, "Section 4.5", setting,
+                        "particles of 1600 without rows (neighbours too few or on a line)", s.failed);
             report_info(r, "Section 4.5", setting, "least 1 - xi . e", s.least);
             disagree += s.disagree;
             strict += s.strict;
@@ -300,12 +342,16 @@ static void monotonicity(report *r, cloud *c, int draws)
             rows += 1600;
         }
     snprintf(text, sizeof text, "%g rows where (93) holds and the row is not monotone", disagree);
-    report_claim(r, "Lemma 3", "all of the above", "(93) makes transmissibilities positive", "sufficient", text, "none", disagree <= 0);
+    report_claim(r, "Lemma 3", "all of the above", "(93) makes transmissibilities positive", "sufficient",
+                 text, "none", disagree <= 0);
     snprintf(text, sizeof text, "the same rows are monotone with a random m (%g others)", heterogeneous);
-    report_claim(r, "Theorem 4", "all of the above, m from 0.02 to 55", "scalar heterogeneous m", "monotone", text, "no difference", heterogeneous <= 0);
+    report_claim(r, "Theorem 4", "all of the above, m from 0.02 to 55", "scalar heterogeneous m", "monotone",
+                 text, "no difference", heterogeneous <= 0);
     snprintf(text, sizeof text, "%g of %g rows", strict, rows);
-    report_claim_fails(r, "Definition 7", "all of the above", "strictly diagonally dominant rows", "asked of an M-matrix", text,
-                       "rows of an operator sum to 0: dominance is weak, and irreducible once a Dirichlet row is reached");
+    report_claim_fails(
+        r, "Definition 7", "all of the above", "strictly diagonally dominant rows", "asked of an M-matrix",
+        text,
+        "rows of an operator sum to 0: dominance is weak, and irreducible once a Dirichlet row is reached");
 }
 
 /* ---------------------------------------------------------------- the inverse, whose sign is what monotone means */
@@ -350,7 +396,7 @@ static double inverse_least(cloud *c, int N, double f, double jitter, pcg32 *g, 
     if (jitter > 0) cloud_perturb(c, jitter, g);
     cloud_neighbours(c, f * c->dx);
     cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
-    count = sph_rows_monotone(0, N * N, c->n, cloud_list(c), c->row, c->diagonal, NULL);
+    count = sph_rows_monotone(sph_cloud_range(cloud_all(c), 0, N * N), c->row, c->diagonal, NULL);
     elliptic_expect(count);
     *others = (int)count;
     n = c->n;
@@ -359,7 +405,8 @@ static double inverse_least(cloud *c, int N, double f, double jitter, pcg32 *g, 
     for (i = 0; i < n * n; i++) a[i] = 0;
     for (i = 0; i < n; i++) {
         a[i * n + i] = i < N * N && c->diagonal[i] == 0 ? 0 : 1; /* 0: no row */
-        for (p = c->start[i]; p < c->start[i + 1] && i < N * N && c->diagonal[i] != 0; p++) a[i * n + c->index[p]] += c->row[p] / c->diagonal[i];
+        for (p = c->start[i]; p < c->start[i + 1] && i < N * N && c->diagonal[i] != 0; p++)
+            a[i * n + c->index[p]] += c->row[p] / c->diagonal[i];
     }
     if (invert_dense(n, a, b))
         for (i = 0; i < n * n; i++) {
@@ -374,7 +421,8 @@ static void inverses(report *r, cloud *c, const int draws)
 {
     char text[160];
     int k, jittered, N, draw;
-    report_section(r, "Section 4.5: sign of the inverse of the whole matrix, N x N cells, N = 2 to 8, Dirichlet rows on the boundary");
+    report_section(r, "Section 4.5: sign of the inverse of the whole matrix, N x N cells, N = 2 to 8, "
+                      "Dirichlet rows on the boundary");
     for (jittered = 0; jittered < 2; jittered++)
         for (k = 0; k < LAYOUTS; k++) {
             double worst_monotone = HUGE_VAL, worst = HUGE_VAL;
@@ -397,14 +445,21 @@ static void inverses(report *r, cloud *c, const int draws)
                         not_monotone_negative += least < -1e-12;
                     } else worst_monotone = fmin(worst_monotone, least);
                 }
-            snprintf(setting, sizeof setting, "f = %g, %s", layouts[k], jittered ? "10 % perturbed" : "uniform");
-            snprintf(text, sizeof text, "%d systems: %d singular, %d with a negative entry; rows not monotone in %d, %d of these with a negative entry",
+            snprintf(setting, sizeof setting, "f = %g, %s", layouts[k],
+                     jittered ? "10 % perturbed" : "uniform");
+            snprintf(text, sizeof text,
+                     "%d systems: %d singular, %d with a negative entry; rows not monotone in %d, %d of "
+                     "these with a negative entry",
                      systems, singular, negative, not_monotone, not_monotone_negative);
             if (worst_monotone < HUGE_VAL)
-                report_claim(r, "Section 4.5", setting, "A^-1 >= 0 if all rows are monotone", "M-matrix is monotone", text,
-                             "no entry below -1e-12 of the largest", worst_monotone >= -1e-12);
-            else report_row(r, "Section 4.5", setting, "A^-1 >= 0", NULL, text, NULL, "no system with monotone rows only", REPORT_INFO);
-            if (worst < HUGE_VAL) report_info(r, "Section 4.5", setting, "least entry of an inverse / its largest", worst);
+                report_claim(r, "Section 4.5", setting, "A^-1 >= 0 if all rows are monotone",
+                             "M-matrix is monotone", text, "no entry below -1e-12 of the largest",
+                             worst_monotone >= -1e-12);
+            else
+                report_row(r, "Section 4.5", setting, "A^-1 >= 0", NULL, text, NULL,
+                           "no system with monotone rows only", REPORT_INFO);
+            if (worst < HUGE_VAL)
+                report_info(r, "Section 4.5", setting, "least entry of an inverse / its largest", worst);
         }
 }
 
@@ -419,7 +474,9 @@ int main(int argc, char **argv)
     };
     static report r;
     cloud c = {0};
-    options_parse(argc, argv, "Figures 5 and 6 and the monotonicity of the paper on the elliptic operator, measured.", specs, 3);
+    options_parse(argc, argv,
+                  "Figures 5 and 6 and the monotonicity of the paper on the elliptic operator, measured.",
+                  specs, 3);
     report_open(&r, "elliptic_stability", out);
     figure_folder(figures);
     figure5(&r, &c, figures);

@@ -29,30 +29,34 @@ static inline double *elliptic_vector(int n)
     return v;
 }
 
-SPH_FN sph_index cloud_conditions_in(int dim, cloud *c, int first, double *const normal[3], const double *alpha, const double *beta)
+SPH_FN sph_index cloud_conditions_in(int dim, cloud *c, int first, double *const normal[3],
+                                     const double *alpha, const double *beta)
 {
-    sph_diagonal n;
+    const sph_boundary boundary = {.normal = sph_vectors_separate(normal[0], normal[1], normal[2]),
+                                   .alpha = sph_scalars_array(alpha),
+                                   .beta = sph_scalars_array(beta)};
     sph_row_out out = {0};
-    n.x = sph_scalars_array(normal[0]);
-    n.y = sph_scalars_array(normal[1]);
-    n.z = sph_scalars_array(normal[2]);
     out.row = c->row;
     out.diagonal = c->diagonal;
-    return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V)), first, c->n), sph_scalars_array(c->m), sph_elliptic_defaults(), n, sph_scalars_array(alpha), sph_scalars_array(beta), out);
+    return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, sph_cloud_range(cloud_all(c), first, c->n),
+                                      sph_scalars_array(c->m), sph_elliptic_defaults(), boundary, out);
 }
 /* alpha u + beta m du/dn for the particles from `first` on that have one of them */
-static inline void cloud_conditions(cloud *c, int first, double *const normal[3], const double *alpha, const double *beta)
+static inline void cloud_conditions(cloud *c, int first, double *const normal[3], const double *alpha,
+                                    const double *beta)
 {
-    elliptic_expect(c->dim == 2 ? cloud_conditions_in(2, c, first, normal, alpha, beta) : cloud_conditions_in(3, c, first, normal, alpha, beta));
+    elliptic_expect(c->dim == 2 ? cloud_conditions_in(2, c, first, normal, alpha, beta)
+                                : cloud_conditions_in(3, c, first, normal, alpha, beta));
 }
 /* dirichlet[i] for i >= first: 1 for u, 0 for the flux m du/dn through the face that particle i lies on (100) */
 static inline void cloud_box_conditions(cloud *c, int first, const unsigned char *dirichlet)
 {
-    double *const normal[3] = {elliptic_vector(c->n), elliptic_vector(c->n), elliptic_vector(c->n)}, *const alpha = elliptic_vector(c->n),
-                  *const beta = elliptic_vector(c->n);
+    double *const normal[3] = {elliptic_vector(c->n), elliptic_vector(c->n), elliptic_vector(c->n)},
+                  *const alpha = elliptic_vector(c->n), *const beta = elliptic_vector(c->n);
     int i, a;
     for (i = first; i < c->n; i++) {
-        for (a = 0; a < c->dim; a++) normal[a][i] = cloud_axis(c, a)[i] == c->low[a] ? -1 : cloud_axis(c, a)[i] == c->high[a] ? 1 : 0;
+        for (a = 0; a < c->dim; a++)
+            normal[a][i] = cloud_axis(c, a)[i] == c->low[a] ? -1 : cloud_axis(c, a)[i] == c->high[a] ? 1 : 0;
         alpha[i] = dirichlet[i];
         beta[i] = !dirichlet[i];
     }
@@ -65,14 +69,16 @@ static inline void cloud_box_conditions(cloud *c, int first, const unsigned char
 /* The matrix of c->row and c->diagonal, without what is 0 */
 static inline void cloud_matrix(const cloud *c, sparse *A, double *b)
 {
-    const int64_t room = sph_csr_size(0, c->n, cloud_list(c));
+    const int64_t room = sph_csr_size(cloud_all(c));
     sph_index *const start = (sph_index *)elliptic_memory(NULL, ((size_t)c->n + 1) * sizeof *start);
     int i;
     A->n = c->n;
     A->start = (int64_t *)elliptic_memory(NULL, ((size_t)c->n + 1) * sizeof *A->start);
     A->index = (int *)elliptic_memory(NULL, (size_t)room * sizeof *A->index);
     A->value = (double *)elliptic_memory(NULL, (size_t)room * sizeof *A->value);
-    elliptic_expect(sph_csr_assemble(0, c->n, c->n, cloud_list(c), c->row, c->diagonal, 1, start, A->index, A->value, room, NULL));
+    elliptic_expect(sph_csr_assemble(
+        cloud_all(c), c->row, c->diagonal, 1,
+        (sph_csr){.start = start, .column = A->index, .value = A->value, .capacity = room}, NULL));
     for (i = 0; i <= c->n; i++) A->start[i] = start[i];
     free(start);
     if (sparse_scale_rows(A, b) != 0) {
@@ -85,7 +91,10 @@ static inline void cloud_matrix(const cloud *c, sparse *A, double *b)
 static inline int elliptic_solved(const sparse *A, const double *b, const double *u, sparse_result r)
 {
     const double data = sparse_norm(A->n, b);
-    return r.converged || r.residual * data <= 1e-13 * (data + 2 * sparse_norm(A->n, u)); /* |A| is near 2: rows are scaled to a diagonal of 1 */
+    return r.converged ||
+           r.residual * data <=
+               1e-13 *
+                   (data + 2 * sparse_norm(A->n, u)); /* |A| is near 2: rows are scaled to a diagonal of 1 */
 }
 /* u is the first guess, too */
 static inline void elliptic_solve(const sparse *A, const double *b, double *u)
@@ -101,7 +110,8 @@ static inline void elliptic_solve(const sparse *A, const double *b, double *u)
     if (!elliptic_solved(A, b, u, r)) r = sparse_gmres(A, &P, b, u, &o);
     sparse_preconditioner_free(&P);
     if (!elliptic_solved(A, b, u, r)) {
-        fprintf(stderr, "elliptic: %s, residual %.2g after %d iterations\n", sparse_status_text(r.status), r.residual, r.iterations);
+        fprintf(stderr, "elliptic: %s, residual %.2g after %d iterations\n", sparse_status_text(r.status),
+                r.residual, r.iterations);
         exit(1);
     }
 }

@@ -20,8 +20,8 @@ static const double pi = 3.14159265358979323846;
 static const double order_slack = 0.3;
 
 /* least-squares order of an error over sizes; at_least > 0: what is derived */
-static void report_order(report *r, const char *item, const char *setting, const char *quantity, int levels, const int *size, const double *error,
-                         double at_least)
+static void report_order(report *r, const char *item, const char *setting, const char *quantity, int levels,
+                         const int *size, const double *error, double at_least)
 {
     double x[MOST_LEVELS], y[MOST_LEVELS], slope;
     int k;
@@ -30,7 +30,8 @@ static void report_order(report *r, const char *item, const char *setting, const
         y[k] = -log(error[k]);
     }
     slope = statistics_slope(x, y, levels);
-    if (at_least > 0) report_range(r, item, setting, quantity, (double)NAN, slope, at_least - order_slack, HUGE_VAL);
+    if (at_least > 0)
+        report_range(r, item, setting, quantity, (double)NAN, slope, at_least - order_slack, HUGE_VAL);
     else report_info(r, item, setting, quantity, slope);
 }
 
@@ -76,7 +77,8 @@ typedef struct projection {
 
 static void gradient_of(const scatter *s, const double *f, double *gx, double *gy)
 {
-    elliptic_expect(sph_gradient_cspm(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(scatter_points(s), cloud_list(&s->c), sph_scalars_array(s->h), sph_scalars_array(s->c.V)), 0, s->c.n), sph_scalars_array(f), gx, gy, NULL, NULL, NULL));
+    elliptic_expect(sph_gradient_cspm(ELLIPTIC_KERNEL, 2, scatter_cloud(s), sph_scalars_array(f),
+                                      (sph_derivative_out){.gx = gx, .gy = gy}));
 }
 static void divergence_of(const projection *q, const double *ux, const double *uy, double *out)
 {
@@ -107,7 +109,8 @@ static void projection_open(projection *q, scatter *s, int scale_traces)
     sparse_put(&build, n, 0);
     sparse_end_row(&build);
     elliptic_made(sparse_finish(&build, &q->A), "matrix of the projection");
-    elliptic_made(sparse_preconditioner_make(&q->P, SPARSE_ILU0, &q->A), "incomplete factorisation of the projection");
+    elliptic_made(sparse_preconditioner_make(&q->P, SPARSE_ILU0, &q->A),
+                  "incomplete factorisation of the projection");
 }
 static void projection_close(projection *q)
 {
@@ -128,7 +131,8 @@ static void project(projection *q, double *ux, double *uy)
     divergence_of(q, ux, uy, q->b);
     q->b[n] = 0;
     for (i = 0; i <= n; i++) q->p[i] = 0;
-    if (!sparse_bicgstab(&q->A, &q->P, q->b, q->p, &o).converged && !sparse_gmres(&q->A, &q->P, q->b, q->p, &o).converged) {
+    if (!sparse_bicgstab(&q->A, &q->P, q->b, q->p, &o).converged &&
+        !sparse_gmres(&q->A, &q->P, q->b, q->p, &o).converged) {
         fprintf(stderr, "elliptic_uses: the pressure did not converge\n");
         exit(1);
     }
@@ -139,7 +143,8 @@ static void project(projection *q, double *ux, double *uy)
     }
 }
 /* sqrt(sum V (ax - bx)^2 + ...) */
-static double distance(const scatter *s, const double *ax, const double *ay, const double *bx, const double *by)
+static double distance(const scatter *s, const double *ax, const double *ay, const double *bx,
+                       const double *by)
 {
     double sum = 0;
     int i;
@@ -153,14 +158,17 @@ static double distance(const scatter *s, const double *ax, const double *ay, con
 static double projection_symbol(const scatter *s)
 {
     const sph_vec wave = {2 * pi, 2 * pi, 0};
-    double *const wx = elliptic_vector(s->c.start[s->c.n]), *const wy = elliptic_vector(s->c.start[s->c.n]), symbol = 0, re = 0, im = 0;
+    double *const wx = elliptic_vector(s->c.start[s->c.n]), *const wy = elliptic_vector(s->c.start[s->c.n]),
+                  symbol = 0, re = 0, im = 0;
     int p;
-    elliptic_expect(sph_gradient_rows_cspm(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(scatter_points(s), cloud_list(&s->c), sph_scalars_array(s->h), sph_scalars_array(s->c.V)), 0, s->c.n), wx, wy, NULL, NULL, NULL));
+    elliptic_expect(sph_gradient_rows_cspm(ELLIPTIC_KERNEL, 2, scatter_cloud(s),
+                                           (sph_gradient_row_out){.x = wx, .y = wy}));
     for (p = s->c.start[0]; p < s->c.start[1]; p++) {
         const sph_vec e = scatter_separation(s, 0, s->c.index[p]);
         symbol += wx[p] * sin(wave.x * e.x) * cos(wave.y * e.y);
     }
-    elliptic_expect(sph_rows_growth(2, 0, scatter_points(s), cloud_list(&s->c), s->c.row, 1, wave, &re, &im)); /* re = 1 - lambda */
+    elliptic_expect(sph_rows_growth(2, sph_cloud_range(scatter_cloud(s), 0, 0 + 1), s->c.row, 1, wave, &re,
+                                    &im)); /* re = 1 - lambda */
     free(wx);
     free(wy);
     return 1 - 2 * symbol * symbol / (1 - re);
@@ -171,7 +179,8 @@ static void projection_map(const char *folder, const scatter *s, const double *b
     FILE *const file = figure_open(folder, "elliptic_uses_projection");
     int i;
     fprintf(file, "x,y,before,after\n");
-    for (i = 0; i < s->c.n; i++) fprintf(file, "%.6g,%.6g,%.6g,%.6g\n", s->c.x[i], s->c.y[i], before[i], after[i]);
+    for (i = 0; i < s->c.n; i++)
+        fprintf(file, "%.6g,%.6g,%.6g,%.6g\n", s->c.x[i], s->c.y[i], before[i], after[i]);
     figure_close(file);
 }
 
@@ -189,7 +198,8 @@ static void projections(report *r, const char *folder, scatter *s, int levels)
                 double *v[6], norm, before, twice;
                 periodic_lattice(s, sides[k], state == LATTICE ? 0 : state == LATTICE_10 ? 0.1 : 0.25);
                 projection_open(&q, s, scaled);
-                for (i = 0; i < 6; i++) v[i] = elliptic_vector(s->c.n); /* vortex, velocity, divergence before and after */
+                for (i = 0; i < 6; i++)
+                    v[i] = elliptic_vector(s->c.n); /* vortex, velocity, divergence before and after */
                 for (i = 0; i < s->c.n; i++) {
                     const double x = 2 * pi * s->c.x[i], y = 2 * pi * s->c.y[i];
                     v[0][i] = sin(x) * cos(y);
@@ -198,7 +208,8 @@ static void projections(report *r, const char *folder, scatter *s, int levels)
                     v[3][i] = v[1][i] - cos(x) * sin(y);
                 }
                 norm = distance(s, v[0], v[1], NULL, NULL);
-                snprintf(setting, sizeof setting, "%s, %s, N = %d", state_name[state], scaled ? "M / trace" : "M", sides[k]);
+                snprintf(setting, sizeof setting, "%s, %s, N = %d", state_name[state],
+                         scaled ? "M / trace" : "M", sides[k]);
                 divergence_of(&q, v[2], v[3], v[4]);
                 before = distance(s, v[4], NULL, NULL, NULL);
                 report_info(r, "projection", setting, "divergence before (exact 2 pi)", before);
@@ -206,15 +217,20 @@ static void projections(report *r, const char *folder, scatter *s, int levels)
                 divergence_of(&q, v[2], v[3], v[5]);
                 left[k] = distance(s, v[5], NULL, NULL, NULL) / before;
                 velocity[k] = distance(s, v[2], v[3], v[0], v[1]) / norm;
-                if (state == LATTICE) report_relative(r, "projection", setting, "divergence after / before", fabs(projection_symbol(s)), left[k], 1e-6);
+                if (state == LATTICE)
+                    report_relative(r, "projection", setting, "divergence after / before",
+                                    fabs(projection_symbol(s)), left[k], 1e-6);
                 else report_info(r, "projection", setting, "divergence after / before", left[k]);
                 report_info(r, "projection", setting, "|u - v| / |v|", velocity[k]);
-                report_info(r, "projection", setting, "mu / divergence before", fabs(q.p[s->c.n]) / (s->c.dx * s->c.dx) / before);
+                report_info(r, "projection", setting, "mu / divergence before",
+                            fabs(q.p[s->c.n]) / (s->c.dx * s->c.dx) / before);
                 if (state == LATTICE_25 && !scaled && k == 1) projection_map(folder, s, v[4], v[5]);
                 project(&q, v[2], v[3]);
                 divergence_of(&q, v[2], v[3], v[5]);
                 twice = distance(s, v[5], NULL, NULL, NULL) / before;
-                if (state == LATTICE) report_relative(r, "projection", setting, "projected twice", pow(projection_symbol(s), 2), twice, 1e-4);
+                if (state == LATTICE)
+                    report_relative(r, "projection", setting, "projected twice", pow(projection_symbol(s), 2),
+                                    twice, 1e-4);
                 else report_info(r, "projection", setting, "projected twice", twice);
                 for (i = 0; i < s->c.n; i++) {
                     v[2][i] = v[0][i];
@@ -222,15 +238,20 @@ static void projections(report *r, const char *folder, scatter *s, int levels)
                 }
                 project(&q, v[2], v[3]);
                 change[k] = distance(s, v[2], v[3], v[0], v[1]) / norm;
-                if (state == LATTICE) report_range(r, "projection", setting, "vortex alone: |change| / |v|", (double)NAN, change[k], 0, 1e-10);
+                if (state == LATTICE)
+                    report_range(r, "projection", setting, "vortex alone: |change| / |v|", (double)NAN,
+                                 change[k], 0, 1e-10);
                 else report_info(r, "projection", setting, "vortex alone: |change| / |v|", change[k]);
                 for (i = 0; i < 6; i++) free(v[i]);
                 projection_close(&q);
             }
             snprintf(setting, sizeof setting, "%s, %s, order", state_name[state], scaled ? "M / trace" : "M");
-            report_order(r, "projection", setting, "divergence after / before", levels, sides, left, state == LATTICE ? 2 : 0);
-            report_order(r, "projection", setting, "|u - v|", levels, sides, velocity, state == LATTICE ? 2 : 0);
-            if (state != LATTICE) report_order(r, "projection", setting, "vortex alone: |change|", levels, sides, change, 0);
+            report_order(r, "projection", setting, "divergence after / before", levels, sides, left,
+                         state == LATTICE ? 2 : 0);
+            report_order(r, "projection", setting, "|u - v|", levels, sides, velocity,
+                         state == LATTICE ? 2 : 0);
+            if (state != LATTICE)
+                report_order(r, "projection", setting, "vortex alone: |change|", levels, sides, change, 0);
         }
 }
 
@@ -249,7 +270,10 @@ static const char *const disc_method[DISC_METHODS] = {"M", "M / trace", "least s
 
 static double disc_solution(double x, double y) { return x * x - y * y + sin(2 * x + y); }
 static double disc_source(double x, double y) { return -5 * sin(2 * x + y); }
-static double disc_rim(double x, double y) { return disc_solution(x, y) + x * (2 * x + 2 * cos(2 * x + y)) + y * (-2 * y + cos(2 * x + y)); }
+static double disc_rim(double x, double y)
+{
+    return disc_solution(x, y) + x * (2 * x + 2 * cos(2 * x + y)) + y * (-2 * y + cos(2 * x + y));
+}
 
 static void disc_put(scatter *s, int *n, double x, double y)
 {
@@ -272,7 +296,9 @@ static void disc_cloud(scatter *s, int kind, int N)
         disc_put(s, &n, 0, 0);
         for (k = 1; k < N; k++) {
             const int count = (int)floor(2 * pi * k + 0.5);
-            for (i = 0; i < count; i++) disc_put(s, &n, k * dx * cos(2 * pi * i / count + 2.4 * k), k * dx * sin(2 * pi * i / count + 2.4 * k));
+            for (i = 0; i < count; i++)
+                disc_put(s, &n, k * dx * cos(2 * pi * i / count + 2.4 * k),
+                         k * dx * sin(2 * pi * i / count + 2.4 * k));
         }
     }
     s->inner = n;
@@ -287,7 +313,8 @@ static void disc_rows(scatter *s, int method, double *b)
     scatter_neighbours(s, method == DISC_WLS ? 1.6 : 1.2);
     scatter_volumes(s);
     if (method != DISC_WLS) {
-        double *const zero = elliptic_vector(c->n), *const one = elliptic_vector(c->n), *const normal[3] = {c->x, c->y, zero};
+        double *const zero = elliptic_vector(c->n), *const one = elliptic_vector(c->n),
+                      *const normal[3] = {c->x, c->y, zero};
         for (i = 0; i < c->n; i++) one[i] = 1;
         scatter_rows(s, SCHEME_M, method == DISC_M_TRACE ? SCATTER_TRACE : SCATTER_PLAIN, 0);
         scatter_conditions(s, s->inner, normal, one, one);
@@ -300,13 +327,16 @@ static void disc_rows(scatter *s, int method, double *b)
         out.row = c->row;
         out.diagonal = c->diagonal;
         out.factor = elliptic_vector(c->n);
-        elliptic_expect(sph_derivative_rows_wls(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, s->inner), sph_jet_laplacian(2), out));
+        elliptic_expect(sph_derivative_rows_wls(
+            ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, s->inner),
+            sph_jet_laplacian(2), out));
         for (i = s->inner; i < c->n; i++) { /* every rim particle has a derivative of its own */
             sph_jet d = sph_jet_laplacian(2);
             d.hessian.xx = d.hessian.yy = 0;
             d.gradient.x = c->x[i];
             d.gradient.y = c->y[i];
-            elliptic_expect(sph_derivative_rows_wls(ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), i, i + 1), d, out));
+            elliptic_expect(sph_derivative_rows_wls(
+                ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), i, i + 1), d, out));
             c->diagonal[i] += out.factor[i];
         }
         for (i = 0; i < c->n; i++) b[i] *= out.factor[i];
@@ -341,7 +371,8 @@ static void disc(report *r, const char *folder, scatter *s, int levels)
                 s->inner = s->c.n; /* the rim is unknown, too */
                 error[k] = scatter_error(s, s->c.u, exact);
                 sparse_free(&A);
-                snprintf(setting, sizeof setting, "%s, %s, dx = 1/%d", disc_name[kind], disc_method[method], sides[k]);
+                snprintf(setting, sizeof setting, "%s, %s, dx = 1/%d", disc_name[kind], disc_method[method],
+                         sides[k]);
                 report_info(r, "disc", setting, "relative L2 error", error[k]);
                 if (kind == CUT && k == 1) {
                     drawn[method] = elliptic_vector(s->c.n);
@@ -351,14 +382,16 @@ static void disc(report *r, const char *folder, scatter *s, int levels)
                 free(exact);
             }
             snprintf(setting, sizeof setting, "%s, %s, least squares", disc_name[kind], disc_method[method]);
-            report_order(r, "disc", setting, "order", levels, sides, error, kind == CUT || method == DISC_WLS ? 1 : 0);
+            report_order(r, "disc", setting, "order", levels, sides, error,
+                         kind == CUT || method == DISC_WLS ? 1 : 0);
         }
     {
         FILE *const file = figure_open(folder, "elliptic_uses_disc");
         disc_cloud(s, CUT, sides[1]);
         fprintf(file, "x,y,exact,msph,wls\n");
         for (i = 0; i < s->c.n; i++)
-            fprintf(file, "%.6g,%.6g,%.8g,%.8g,%.8g\n", s->c.x[i], s->c.y[i], disc_solution(s->c.x[i], s->c.y[i]), drawn[DISC_M][i], drawn[DISC_WLS][i]);
+            fprintf(file, "%.6g,%.6g,%.8g,%.8g,%.8g\n", s->c.x[i], s->c.y[i],
+                    disc_solution(s->c.x[i], s->c.y[i]), drawn[DISC_M][i], drawn[DISC_WLS][i]);
         figure_close(file);
     }
     for (method = 0; method < DISC_METHODS; method++) free(drawn[method]);
@@ -488,7 +521,7 @@ static void slab_implicit(scatter *s, double ratio, double theta, int count)
 static double slab_time_step(const scatter *s)
 {
     double dt;
-    elliptic_expect(sph_rows_time_step(0, s->inner, s->c.n, cloud_list(&s->c), s->c.row, &dt));
+    elliptic_expect(sph_rows_time_step(sph_cloud_range(cloud_all(&s->c), 0, s->inner), s->c.row, &dt));
     return dt;
 }
 static void slab_start(scatter *s, double ratio)
@@ -515,7 +548,8 @@ static double slab_sharp_step(const scatter *s, int N)
     for (a = 0; a <= waves; a++)
         for (b = 0; b <= waves; b++) {
             const sph_vec wave = {pi / s->c.dx * a / waves, pi / s->c.dx * b / waves, 0};
-            elliptic_expect(sph_rows_growth(2, i, scatter_points(s), cloud_list(&s->c), s->c.row, 1, wave, &re, &im));
+            elliptic_expect(
+                sph_rows_growth(2, sph_cloud_range(scatter_cloud(s), i, i + 1), s->c.row, 1, wave, &re, &im));
             worst = fmax(worst, 1 - re);
         }
     return 2 / worst;
@@ -547,15 +581,21 @@ static void slab_limits(report *r, scatter *s)
             bound = slab_time_step(s);
             sharp = slab_sharp_step(s, N);
             snprintf(setting, sizeof setting, "ratio %g, %s", ratios[k], stencil_name[stencil]);
-            report_info(r, "limit", setting, "sph_rows_time_step / (dx^2 / 4 k)", bound * 4 * ratios[k] / (s->c.dx * s->c.dx));
-            if (stencil == AXES) report_relative(r, "limit", setting, "worst wave's step / sph_rows_time_step", 1, sharp / bound, 1e-9);
-            else report_range(r, "limit", setting, "worst wave's step / sph_rows_time_step", (double)NAN, sharp / bound, 1, HUGE_VAL);
-            report_range(r, "limit", setting, "largest |u|, 400 steps of 1.0 sph_rows_time_step", (double)NAN, slab_largest(s, ratios[k], bound), 0, 2);
-            report_range(r, "limit", setting, "largest |u|, 400 steps of 0.99 of the worst wave's", (double)NAN, slab_largest(s, ratios[k], 0.99 * sharp), 0,
-                         2);
+            report_info(r, "limit", setting, "sph_rows_time_step / (dx^2 / 4 k)",
+                        bound * 4 * ratios[k] / (s->c.dx * s->c.dx));
+            if (stencil == AXES)
+                report_relative(r, "limit", setting, "worst wave's step / sph_rows_time_step", 1,
+                                sharp / bound, 1e-9);
+            else
+                report_range(r, "limit", setting, "worst wave's step / sph_rows_time_step", (double)NAN,
+                             sharp / bound, 1, HUGE_VAL);
+            report_range(r, "limit", setting, "largest |u|, 400 steps of 1.0 sph_rows_time_step", (double)NAN,
+                         slab_largest(s, ratios[k], bound), 0, 2);
+            report_range(r, "limit", setting, "largest |u|, 400 steps of 0.99 of the worst wave's",
+                         (double)NAN, slab_largest(s, ratios[k], 0.99 * sharp), 0, 2);
             /* 1 - 1.1 * 2 = -1.2 per step: 1e-6 * 1.2^400 = 5e25 */
-            report_range(r, "limit", setting, "largest |u|, 400 steps of 1.1 of the worst wave's", (double)NAN, slab_largest(s, ratios[k], 1.1 * sharp), 1e6,
-                         HUGE_VAL);
+            report_range(r, "limit", setting, "largest |u|, 400 steps of 1.1 of the worst wave's",
+                         (double)NAN, slab_largest(s, ratios[k], 1.1 * sharp), 1e6, HUGE_VAL);
         }
 }
 
@@ -585,13 +625,16 @@ static void slab(report *r, scatter *s, int full, progress *bar)
                             slab_explicit(s, ratios[q], slab_begin, (slab_end - slab_begin) / count, count);
                         } else slab_implicit(s, ratios[q], stepping == EULER ? 1 : 0.5, sides[k]);
                         error[k] = slab_error(s, ratios[q]);
-                        snprintf(setting, sizeof setting, "ratio %g, %s, %s, %s, N = %d", ratios[q], stencil_name[stencil], mean_name[mean],
-                                 stepping_name[stepping], sides[k]);
+                        snprintf(setting, sizeof setting, "ratio %g, %s, %s, %s, N = %d", ratios[q],
+                                 stencil_name[stencil], mean_name[mean], stepping_name[stepping], sides[k]);
                         report_info(r, "slab", setting, "relative L2 error", error[k]);
                     }
-                    snprintf(setting, sizeof setting, "ratio %g, %s, %s, %s", ratios[q], stencil_name[stencil], mean_name[mean], stepping_name[stepping]);
+                    snprintf(setting, sizeof setting, "ratio %g, %s, %s, %s", ratios[q],
+                             stencil_name[stencil], mean_name[mean], stepping_name[stepping]);
                     report_order(r, "slab", setting, "order", used, sides, error, order);
-                    progress_update(bar, (stepping + 1.0 + STEPPINGS * (mean + 2.0 * (stencil + (double)STENCILS * q))) / (2 * STENCILS * 2 * STEPPINGS));
+                    progress_update(
+                        bar, (stepping + 1.0 + STEPPINGS * (mean + 2.0 * (stencil + (double)STENCILS * q))) /
+                                 (2 * STENCILS * 2 * STEPPINGS));
                 }
 }
 static void slab_figure(const char *folder, scatter *s)
@@ -606,12 +649,16 @@ static void slab_figure(const char *folder, scatter *s)
         for (mean = 0; mean < 2; mean++) {
             slab_cloud(s, N, AXES, mean, ratios[q]);
             slab_start(s, ratios[q]);
-            slab_implicit(s, ratios[q], 1, 200); /* Crank-Nicolson keeps ringing at the jump with arithmetic means: they do not fit the exact beginning */
-            for (k = 0; k <= N; k++) u[mean][k] = s->c.u[k == 0 ? s->inner : k == N ? s->inner + SLAB_ROWS : SLAB_ROWS * (k - 1)];
+            slab_implicit(
+                s, ratios[q], 1,
+                200); /* Crank-Nicolson keeps ringing at the jump with arithmetic means: they do not fit the exact beginning */
+            for (k = 0; k <= N; k++)
+                u[mean][k] = s->c.u[k == 0 ? s->inner : k == N ? s->inner + SLAB_ROWS : SLAB_ROWS * (k - 1)];
         }
         for (k = 0; k <= N; k++) {
             const double x = -1 + 2.0 * k / N;
-            fprintf(file, "%g,%.6g,%.8g,%.8g,%.8g\n", ratios[q], x, slab_exact(ratios[q], x, slab_end), u[0][k], u[1][k]);
+            fprintf(file, "%g,%.6g,%.8g,%.8g,%.8g\n", ratios[q], x, slab_exact(ratios[q], x, slab_end),
+                    u[0][k], u[1][k]);
         }
     }
     figure_close(file);
@@ -630,7 +677,9 @@ int main(int argc, char **argv)
     static report r;
     scatter s = {0};
     progress bar;
-    options_parse(argc, argv, "Uses of the elliptic operator: pressure projection, Robin conditions on a circle, heat through a jump of the conductivity.",
+    options_parse(argc, argv,
+                  "Uses of the elliptic operator: pressure projection, Robin conditions on a circle, heat "
+                  "through a jump of the conductivity.",
                   specs, 4);
     report_open(&r, "elliptic_uses", out);
     figure_folder(figures);

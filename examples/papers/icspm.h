@@ -28,7 +28,10 @@ enum { LEVELS = 8, LARGEST = 1281 };
 static inline int icspm_size(int level) { return 10 * (1 << level) + 1; }
 
 /* h / max volume: 2 for CSPM and ICSPM, k^2 for BIM */
-static inline double icspm_c(int method, int level) { return method == BIM ? (level + 1.0) * (level + 1.0) : 2.0; }
+static inline double icspm_c(int method, int level)
+{
+    return method == BIM ? (level + 1.0) * (level + 1.0) : 2.0;
+}
 
 /* Particles on a line in ascending order, with their neighbours. */
 typedef struct line {
@@ -69,7 +72,8 @@ static inline void line_open(line *s, int largest)
 
 static inline void line_close(line *s)
 {
-    void *const arrays[] = {s->x, s->V, s->f, s->value, s->diagonal, s->factor, s->conditioning, s->status, s->start, s->work, s->index, s->row, s->band};
+    void *const arrays[] = {s->x,      s->V,     s->f,    s->value, s->diagonal, s->factor, s->conditioning,
+                            s->status, s->start, s->work, s->index, s->row,      s->band};
     size_t a;
     for (a = 0; a < sizeof arrays / sizeof *arrays; a++) free(arrays[a]);
 }
@@ -90,13 +94,20 @@ static inline sph_list line_list(const line *s)
     l.index = s->index;
     return l;
 }
+static inline sph_cloud line_cloud(const line *s)
+{
+    return sph_cloud_of(line_points(s), line_list(s), sph_scalars_same(&s->h), sph_scalars_array(s->V));
+}
 
 /* Lists for one radius into start and, if it is not null, index; returns the number of entries. */
-static inline int64_t line_lists(int dim, const sph_grid *grid, sph_points points, double radius, sph_index *start, sph_index *index, int64_t capacity)
+static inline int64_t line_lists(int dim, const sph_grid *grid, sph_points points, double radius,
+                                 sph_index *start, sph_index *index, int64_t capacity)
 {
     const sph_scalars R = sph_scalars_same(&radius);
     int64_t pairs;
-    line_expect(sph_grid_lists(dim, grid, points, SPH_GATHER, R, R, 0, start, index, capacity, &pairs));
+    if (index)
+        line_expect(sph_grid_lists(dim, grid, points, SPH_GATHER, R, R, 0, start, index, capacity, &pairs));
+    else line_expect(sph_grid_count(dim, grid, points, SPH_GATHER, R, R, 0, start, &pairs));
     return pairs;
 }
 
@@ -123,7 +134,8 @@ static inline double line_volumes(line *s)
     double largest = 0;
     int i;
     for (i = 0; i < s->n; i++) {
-        const double left = i > 0 ? 0.5 * (s->x[i] - s->x[i - 1]) : 0, right = i + 1 < s->n ? 0.5 * (s->x[i + 1] - s->x[i]) : 0;
+        const double left = i > 0 ? 0.5 * (s->x[i] - s->x[i - 1]) : 0,
+                     right = i + 1 < s->n ? 0.5 * (s->x[i + 1] - s->x[i]) : 0;
         s->V[i] = left + right;
         if (s->V[i] > largest) largest = s->V[i];
     }
@@ -150,15 +162,17 @@ static inline void line_uniform(line *s, int n, double c)
 /* f'' by a method into s->value, status into s->status, kappa (ICSPM) into s->conditioning; returns how many particles are not ok. */
 static inline int line_second_derivative(line *s, int method)
 {
-    const sph_scalars h = sph_scalars_same(&s->h), V = sph_scalars_array(s->V), f = sph_scalars_array(s->f);
+    const sph_scalars f = sph_scalars_array(s->f);
     sph_derivative_out out = {0};
     sph_index bad;
     out.hxx = s->value;
     out.conditioning = s->conditioning;
     out.status = s->status;
-    if (method == CSPM) bad = sph_derivatives_cspm(ICSPM_KERNEL, 1, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), h, V), 0, s->n), f, 0, out);
-    else if (method == ICSPM) bad = sph_derivatives_icspm(ICSPM_KERNEL, 1, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), h, V), 0, s->n), f, 0, 0, out);
-    else bad = sph_second_derivative_bim(ICSPM_KERNEL, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), h, V), 0, s->n), f, 0, s->n - 1, s->value, s->status);
+    if (method == CSPM) bad = sph_derivatives_cspm(ICSPM_KERNEL, 1, line_cloud(s), f, 0, out);
+    else if (method == ICSPM) bad = sph_derivatives_icspm(ICSPM_KERNEL, 1, line_cloud(s), f, 0, 0, out);
+    else
+        bad = sph_second_derivative_bim(ICSPM_KERNEL, line_cloud(s), f, 0, s->n - 1,
+                                        sph_scalar_out_array(s->value, s->status));
     line_expect(bad);
     return (int)bad;
 }
@@ -184,16 +198,17 @@ static inline double line_direct_error(line *s, int method)
 /* stencil rows of the second derivative into s->row, s->diagonal, s->factor */
 static inline void line_rows(line *s, int method)
 {
-    const sph_scalars h = sph_scalars_same(&s->h), V = sph_scalars_array(s->V);
     sph_row_out out = {0};
     int i, p;
     out.row = s->row;
     out.diagonal = s->diagonal;
     out.factor = s->factor;
-    if (method == CSPM) line_expect(sph_derivative_rows_cspm(ICSPM_KERNEL, 1, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), h, V), 0, s->n), sph_jet_laplacian(1), out));
-    else if (method == ICSPM) line_expect(sph_derivative_rows_icspm(ICSPM_KERNEL, 1, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), h, V), 0, s->n), sph_jet_laplacian(1), out));
+    if (method == CSPM)
+        line_expect(sph_derivative_rows_cspm(ICSPM_KERNEL, 1, line_cloud(s), sph_jet_laplacian(1), out));
+    else if (method == ICSPM)
+        line_expect(sph_derivative_rows_icspm(ICSPM_KERNEL, 1, line_cloud(s), sph_jet_laplacian(1), out));
     else {
-        line_expect(sph_second_derivative_rows_bim(ICSPM_KERNEL, sph_cloud_range(sph_cloud_of(line_points(s), line_list(s), h, V), 0, s->n), 0, s->n - 1, s->row, NULL));
+        line_expect(sph_second_derivative_rows_bim(ICSPM_KERNEL, line_cloud(s), 0, s->n - 1, s->row, NULL));
         for (i = 0; i < s->n; i++) {
             s->factor[i] = 1;
             s->diagonal[i] = 0;

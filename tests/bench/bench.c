@@ -118,19 +118,21 @@ static sph_index sort(const cloud *c, cloud *sorted)
 /* Criterion and dimension are constants here, as a host would write them. */
 static sph_index lists(cloud *c, int count_only, int threads)
 {
-    sph_index *const index = count_only ? 0 : c->index;
     use_threads(threads);
+#define LISTS(dim, criterion) \
+    (count_only ? sph_grid_count(dim, &grid, points(c), criterion, R, R, 0, c->start, &c->pairs) \
+                : sph_grid_lists(dim, &grid, points(c), criterion, R, R, 0, c->start, c->index, c->capacity, &c->pairs))
     if (c->own_radius) {
 #if BENCH_VARIABLE
         const sph_scalars R = sph_scalars_array(c->own_radius);
-        if (c->dim == 3) return sph_grid_lists(3, &grid, points(c), SPH_LARGER, R, R, 0, c->start, index, c->capacity, &c->pairs);
+        if (c->dim == 3) return LISTS(3, SPH_LARGER);
 #endif
     } else {
         const sph_scalars R = sph_scalars_same(&c->radius);
 #if BENCH_2D
-        if (c->dim == 2) return sph_grid_lists(2, &grid, points(c), SPH_GATHER, R, R, 0, c->start, index, c->capacity, &c->pairs);
+        if (c->dim == 2) return LISTS(2, SPH_GATHER);
 #endif
-        if (c->dim == 3) return sph_grid_lists(3, &grid, points(c), SPH_GATHER, R, R, 0, c->start, index, c->capacity, &c->pairs);
+        if (c->dim == 3) return LISTS(3, SPH_GATHER);
     }
     return SPH_ERROR_DIM; /* not built */
 }
@@ -187,24 +189,26 @@ SPH_FN sph_index apply_range(int which, int dim, sph_index first, sph_index last
 {
     const sph_points x = sph_points_separate(c->n, c->x, c->y, c->z);
     const sph_scalars h = sph_scalars_same(&c->h), V = sph_scalars_array(c->V), f = sph_scalars_array(c->f);
-    sph_list list;
-    list.start = c->start;
-    list.index = c->index;
+    const sph_list list = {c->start, c->index};
+    const sph_cloud targets = sph_cloud_range(sph_cloud_of(x, list, h, V), first, last);
     switch (which) {
     case DENSITY:
-        return sph_density_summation(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), first, last), V, o->g[0]);
-    case GRADIENT:
-        return sph_gradient_cspm(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), first, last), f, o->g[0], o->g[1], o->g[2], 0, 0);
+        return sph_density_summation(KERNEL, dim, targets, V, o->g[0]);
+    case GRADIENT: {
+        const sph_derivative_out g = {.gx = o->g[0], .gy = o->g[1], .gz = o->g[2]};
+        return sph_gradient_cspm(KERNEL, dim, targets, f, g);
+    }
     case BROOKSHAW:
-        return sph_laplacian_brookshaw(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), first, last), f, o->g[0]);
+        return sph_laplacian_brookshaw(KERNEL, dim, targets, f, o->g[0]);
     case ROWS:
-        return sph_laplacian_rows_brookshaw(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), first, last), o->row);
+        return sph_laplacian_rows_brookshaw(KERNEL, dim, targets, o->row);
     case APPLY:
         return apply_rows(first, last, c, o->row, o->g[0]);
 #if !SPH_CHECK && !defined(_OPENMP)
     case ICSPM: {
-        const sph_derivative_out d = {o->g[0], o->g[1], o->g[2], o->g[3], o->g[4], o->g[5], o->g[6], o->g[7], o->g[8], o->g[9], 0, 1, 0};
-        return sph_derivatives_icspm(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), first, last), f, SPH_R(0), 0, d);
+        const sph_derivative_out d = {o->g[0], o->g[1], o->g[2], o->g[3], o->g[4], o->g[5], o->g[6],
+                                      o->g[7], o->g[8], o->g[9], 0,       1,       0};
+        return sph_derivatives_icspm(KERNEL, dim, targets, f, SPH_R(0), 0, d);
     }
     case ACCELERATION: /* pressure alone */
     case FLUID: {      /* with artificial viscosity, density rate and heating */
@@ -215,23 +219,21 @@ SPH_FN sph_index apply_range(int which, int dim, sph_index first, sph_index last
         fluid.alpha = fluid.eta = SPH_R(0.1);
         fluid.beta = SPH_R(0);
         fluid.viscosity = SPH_VISCOSITY_NONE;
-        if (which == ACCELERATION) return sph_fluid_rates_monaghan(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), first, last), fluid, a, 0, 0);
+        if (which == ACCELERATION) return sph_fluid_rates_monaghan(KERNEL, dim, targets, fluid, a, 0, 0);
         fluid.viscosity = SPH_VISCOSITY_MONAGHAN;
-        return sph_fluid_rates_monaghan(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), first, last), fluid, a, o->g[3], o->g[4]);
+        return sph_fluid_rates_monaghan(KERNEL, dim, targets, fluid, a, o->g[3], o->g[4]);
     }
     case MSPH_ROWS: {
-        sph_row_out r = {0, 0, 0, 0, 0};
-        r.row = o->row;
-        r.diagonal = o->g[0];
-        return sph_elliptic_rows_msph(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, V), first, last), V, sph_elliptic_defaults(), r);
+        const sph_row_out r = {.row = o->row, .diagonal = o->g[0]};
+        return sph_elliptic_rows_msph(KERNEL, dim, targets, V, sph_elliptic_defaults(), r);
     }
     case MHD: /* as many components as dimensions */
     case MHD_CLEANED: {
         sph_mhd s;
         sph_mhd_out r;
-        s.gas.m = s.gas.rho = s.gas.omega = s.P = s.u = s.cs = s.alpha = s.alpha_B = V;
-        s.v = s.B = sph_vectors_separate(c->f, c->f, dim > 2 ? c->f : 0);
-        s.psi = sph_scalars_array(0);
+        s.gas.m = s.gas.rho = s.gas.omega = s.p = s.u = s.cs = s.alpha = s.alpha_B = V;
+        s.v = s.field = sph_vectors_separate(c->f, c->f, dim > 2 ? c->f : 0);
+        s.psi = sph_scalars_none();
         s.ch = s.alpha_u = s.tensile = SPH_R(1);
         s.sigma = SPH_R(0.3);
         s.beta = SPH_R(2);
@@ -242,9 +244,9 @@ SPH_FN sph_index apply_range(int which, int dim, sph_index first, sph_index last
         r.div_B = o->g[8];
         r.div_v = o->g[9];
         r.v_sig = o->g[10];
-        if (which == MHD) return sph_mhd_rates(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), first, last), s, r);
+        if (which == MHD) return sph_mhd_rates(KERNEL, dim, targets, s, r);
         s.psi = f;
-        return sph_mhd_rates(KERNEL, dim, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), first, last), s, r);
+        return sph_mhd_rates(KERNEL, dim, targets, s, r);
     }
 #endif
     default:

@@ -41,27 +41,34 @@ SPH_FN sph_vector_out into(const cloud &c, int first)
 SPH_FN sph_index range(int what, const cloud &c, sph_index first, sph_index last)
 {
     const sph_points x = sph_points_separate(c.n, c.a[X], c.a[Y], c.a[Z]);
-    const sph_scalars h = sph_scalars_same(c.h), m = sph_scalars_array(c.a[M]), volume = sph_scalars_array(c.a[V]), u = sph_scalars_array(c.a[U]);
-    sph_list list;
-    list.start = c.start;
-    list.index = c.index;
+    const sph_scalars m = sph_scalars_array(c.a[M]), u = sph_scalars_array(c.a[U]);
+    const sph_list list = {c.start, c.index};
+    const sph_cloud all = sph_cloud_of(x, list, sph_scalars_same(c.h), sph_scalars_array(c.a[V]));
+    const sph_cloud targets = sph_cloud_range(all, first, last);
     switch (what) {
-    case DENSITY: return sph_density_summation(KERNEL, DIM, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), first, last), m, c.a[OUT]);
-    case GRADIENT: return sph_gradient_cspm(KERNEL, DIM, sph_cloud_range(sph_cloud_of(x, list, h, volume), first, last), u, c.a[OUT], c.a[OUT + 1], c.a[OUT + 2], nullptr, nullptr);
+    case DENSITY: return sph_density_summation(KERNEL, DIM, targets, m, c.a[OUT]);
+    case GRADIENT: {
+        sph_derivative_out g{};
+        g.gx = c.a[OUT];
+        g.gy = c.a[OUT + 1];
+        g.gz = c.a[OUT + 2];
+        return sph_gradient_cspm(KERNEL, DIM, targets, u, g);
+    }
     case MSPH:
-        return sph_elliptic_msph(KERNEL, DIM, sph_cloud_range(sph_cloud_of(x, list, h, volume), first, last), sph_scalars_array(c.a[RHO]), sph_elliptic_defaults(), u, sph_scalars_array(nullptr), c.a[OUT], nullptr);
+        return sph_elliptic_msph(KERNEL, DIM, targets, sph_scalars_array(c.a[RHO]), sph_elliptic_defaults(),
+                                 u, sph_scalar_out_array(c.a[OUT], nullptr));
     default: {
         sph_mhd s;
         sph_mhd_out o;
         s.gas.m = m;
         s.gas.rho = sph_scalars_array(c.a[RHO]);
         s.gas.omega = sph_scalars_array(c.a[OMEGA]);
-        s.P = sph_scalars_array(c.a[P]);
+        s.p = sph_scalars_array(c.a[P]);
         s.u = u;
         s.cs = sph_scalars_array(c.a[CS]);
         s.alpha = s.alpha_B = sph_scalars_array(c.a[ALPHA]);
         s.v = vectors(c, VX);
-        s.B = vectors(c, BX);
+        s.field = vectors(c, BX);
         s.psi = sph_scalars_array(c.a[PSI]);
         s.ch = s.alpha_u = s.tensile = s.sigma = SPH_R(1);
         s.beta = SPH_R(2);
@@ -72,7 +79,7 @@ SPH_FN sph_index range(int what, const cloud &c, sph_index first, sph_index last
         o.div_B = c.a[OUT + 8];
         o.div_v = c.a[OUT + 9];
         o.v_sig = c.a[OUT + 10];
-        return sph_mhd_rates(KERNEL, DIM, sph_cloud_range(sph_cloud_of(x, list, h, sph_scalars_none()), first, last), s, o);
+        return sph_mhd_rates(KERNEL, DIM, targets, s, o);
     }
     }
 }

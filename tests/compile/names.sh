@@ -17,7 +17,8 @@ cat > "$scratch/use.c" << 'END'
 sph_index use(sph_points x, sph_list list, sph_real h, sph_scalars V, sph_scalars f, sph_real *gx, sph_real *gy, sph_real *gz);
 sph_index use(sph_points x, sph_list list, sph_real h, sph_scalars V, sph_scalars f, sph_real *gx, sph_real *gy, sph_real *gz)
 {
-    return sph_gradient_cspm(SPH_WENDLAND_C2, 3, sph_cloud_of(x, list, sph_scalars_same(&h), V), f, gx, gy, gz, 0, 0);
+    const sph_cloud all = sph_cloud_of(x, list, sph_scalars_same(&h), V);
+    return sph_gradient_cspm(SPH_WENDLAND_C2, 3, all, f, (sph_derivative_out){.gx = gx, .gy = gy, .gz = gz});
 }
 END
 size_of() { size "$1" | awk 'NR == 2 { print $1 + $2 + $3 }'; }
@@ -56,6 +57,23 @@ for cc in gcc clang; do
         check "$cc $level: a gradient costs $use bytes, $budget are allowed" test "$use" -le $budget
         printf '    sph.h, %-24s %14s %20s %16s %20s\n' "$cc $level" "$alone" "$use" "$(seconds $cc -std=c99 $level -I. -c "$scratch/alone.c" -o "$scratch/alone.o")" \
             "$(seconds $cc -std=c99 $level -I. -c "$scratch/use.c" -o "$scratch/use.o")"
+    done
+done
+
+# ---------------------------------------------------------------- a host's own short macros
+
+# hosts define such names before they include anything: #define N 41
+{
+    cat "$scratch/without.c"
+    for letter in A B C D E F G H I J K L M N O P Q R S T U V W X Y Z; do echo "#define $letter 41"; done
+    echo '#include "sph.h"'
+} > "$scratch/capitals.c"
+for cc in "gcc -std=c99" "clang -std=c99" "g++ -x c++ -std=c++11" "clang++ -x c++ -std=c++11"; do
+    usable "every capital letter a macro, $cc" "$empty" '' "$cc" || continue
+    for single in 0 1; do
+        # shellcheck disable=SC2086
+        check "every capital letter a macro, $cc, SPH_SINGLE=$single" $cc -DSPH_SINGLE=$single -I. -fsyntax-only \
+            "$scratch/capitals.c"
     done
 done
 

@@ -7,28 +7,44 @@
 
 {
     echo '#include "sph_ops.h"'
-    echo 'SPH_FN sph_row_out rows(sph_real *row) { sph_row_out r = {0}; r.row = row; return r; }'
-    echo 'SPH_FN sph_vector_out vector(sph_real *x, sph_real *y, sph_real *z) { sph_vector_out v; v.x = x; v.y = y; v.z = z; return v; }'
-    echo 'SPH_FN sph_fluid fluid(sph_scalars h, sph_scalars V, sph_scalars f) { sph_fluid s; s.m = s.rho = V; s.p = s.c = f; s.v.x = s.v.y = s.v.z = f; s.viscosity = SPH_VISCOSITY_MONAGHAN;'
-    echo 's.alpha = s.eta = sph_kernel_support(SPH_CUBIC_SPLINE); s.beta = 0; (void)h; return s; }'
+    cat << 'END'
+SPH_FN sph_elliptic_options sourced(sph_scalars source)
+{
+    sph_elliptic_options o = sph_elliptic_defaults();
+    o.source = source;
+    return o;
+}
+SPH_FN sph_fluid fluid(sph_scalars V, sph_scalars f)
+{
+    sph_fluid s = {.m = V, .rho = V, .p = f, .c = f, .v = {f, f, f}, .viscosity = SPH_VISCOSITY_MONAGHAN};
+    s.alpha = s.eta = sph_kernel_support(SPH_CUBIC_SPLINE);
+    return s;
+}
+END
     for dim in 1 2 3; do
-        for sweep in 'shepard|sph_shepard_sum(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), a)' \
-            'interpolate|sph_interpolate_shepard(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), f, a, s)' \
-            'difference|sph_gradient_difference(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), f, a, b, c)' \
-            'gradient|sph_gradient_cspm(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), f, a, b, c, 0, s)' \
-            'brookshaw|sph_laplacian_brookshaw(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), f, a)' \
-            'brookshawrows|sph_laplacian_rows_brookshaw(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), a)' \
-            'tilecspm|sph_derivatives_cspm(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), f, 0, out)' \
-            'tileicspm|sph_derivatives_icspm(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), f, 0, 0, out)' \
-            'tilewls|sph_derivatives_wls(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, V), f, 0, out)' \
-            'msph|sph_elliptic_msph(SPH_CUBIC_SPLINE, D, sph_cloud_of(x, l, h, V), f, sph_elliptic_defaults(), f, V, a, s)' \
-            'msphrows|sph_elliptic_rows_msph(SPH_CUBIC_SPLINE, D, sph_cloud_of(x, l, h, V), f, sph_elliptic_defaults(), rows(b))' \
-            'fluid|sph_fluid_rates_colagrossi(SPH_WENDLAND_C2, D, sph_cloud_of(x, l, h, sph_scalars_none()), fluid(h, V, f), vector(a, b, c), out.gx, out.gy)'; do
+        for sweep in 'shepard|sph_shepard_sum(SPH_WENDLAND_C2, D, x, a)' \
+            'interpolate|sph_interpolate_shepard(SPH_WENDLAND_C2, D, x, f, sph_scalar_out_array(a, s))' \
+            'difference|sph_gradient_difference(SPH_WENDLAND_C2, D, x, f, sph_vector_out_separate(a, b, c))' \
+            'gradient|sph_gradient_cspm(SPH_WENDLAND_C2, D, x, f,
+                (sph_derivative_out){.gx = a, .gy = b, .gz = c, .stride = 1, .status = s})' \
+            'brookshaw|sph_laplacian_brookshaw(SPH_WENDLAND_C2, D, x, f, a)' \
+            'brookshawrows|sph_laplacian_rows_brookshaw(SPH_WENDLAND_C2, D, x, a)' \
+            'tilecspm|sph_derivatives_cspm(SPH_WENDLAND_C2, D, x, f, 0, out)' \
+            'tileicspm|sph_derivatives_icspm(SPH_WENDLAND_C2, D, x, f, 0, 0, out)' \
+            'tilewls|sph_derivatives_wls(SPH_WENDLAND_C2, D, x, f, 0, out)' \
+            'msph|sph_elliptic_msph(SPH_CUBIC_SPLINE, D, x, f, sourced(x.volume), f,
+                sph_scalar_out_array(a, s))' \
+            'msphrows|sph_elliptic_rows_msph(SPH_CUBIC_SPLINE, D, x, f, sph_elliptic_defaults(),
+                (sph_row_out){.row = b})' \
+            'fluid|sph_fluid_rates_colagrossi(SPH_WENDLAND_C2, D, x, fluid(x.volume, f),
+                sph_vector_out_separate(a, b, c), out.gx, out.gy)'; do
             name=sweep_${sweep%%|*}_$dim
-            arguments='sph_points x, sph_list l, sph_scalars h, sph_scalars V, sph_scalars f, sph_real *a, sph_real *b, sph_real *c, unsigned char *s, sph_derivative_out out'
+            arguments='sph_cloud x, sph_scalars f, sph_real *a, sph_real *b, sph_real *c, unsigned char *s,
+                sph_derivative_out out'
             case $name in sweep_tile*) echo '#if 1' ;; *) echo '#ifndef TILES_ALONE' ;; esac
             echo "sph_index $name($arguments);"
-            echo "sph_index $name($arguments) { (void)f, (void)a, (void)b, (void)c, (void)s, (void)out; return $(printf '%s' "${sweep#*|}" | sed "s/D,/$dim,/"); }"
+            echo "sph_index $name($arguments) { (void)f, (void)a, (void)b, (void)c, (void)s, (void)out;"
+            echo "return $(printf '%s' "${sweep#*|}" | sed "s/D,/$dim,/"); }"
             echo '#endif'
         done
     done

@@ -162,6 +162,8 @@ static void check_cloud(void)
     const sph_points points = sph_points_separate((sph_index)MOST, x, y, 0);
     const sph_real radius = sph_kernel_support(KERNEL) * length, volume = SPACING * SPACING;
     const sph_list list = {start, list_index};
+    const sph_cloud all = sph_cloud_of(points, list, sph_scalars_same(&length), sph_scalars_same(&volume));
+    const sph_derivative_out gradient = {ax, ay, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0};
     sph_real worst = SPH_R(0);
     int i, j;
     n = MOST;
@@ -186,7 +188,7 @@ static void check_cloud(void)
         }
         check("the neighbours are those of all pairs", same && at == start[i + 1]);
     }
-    check("corrected gradient", sph_gradient_cspm(KERNEL, 2, sph_cloud_range(sph_cloud_of(points, list, sph_scalars_same(&length), sph_scalars_same(&volume)), 0, (sph_index)n), sph_scalars_array(field), ax, ay, 0, 0, 0) == 0);
+    check("corrected gradient", sph_gradient_cspm(KERNEL, 2, all, sph_scalars_array(field), gradient) == 0);
     for (i = 0; i < n; i++) {
         const sph_real ex = magnitude(ax[i] - SPH_R(2)), ey = magnitude(ay[i] + SPH_R(3)), e = ex > ey ? ex : ey;
         check("the corrected gradient of a linear field", e < SPH_R(300) * SPH_EPSILON);
@@ -199,7 +201,8 @@ static void check_cloud(void)
 
 /* Lengths in units of the column's width A, times of sqrt(A / g), density of water 1. Walls are particles that stand still and whose density obeys the same equation
    (Dalrymple & Knio 2001; Crespo, Gomez-Gesteira, Dalrymple 2007, CMC 5, 173). */
-static const sph_real sound = SPH_R(20), mass = SPACING * SPACING;
+static const sph_real mass = SPACING * SPACING;
+static const sph_tait water = {SPH_R(1), SPH_R(20), SPH_R(7), SPH_R(0)};
 
 static void fill_tank(void)
 {
@@ -220,7 +223,7 @@ static void fill_tank(void)
     for (i = 0; i < n; i++) {
         vx[i] = vy[i] = SPH_R(0);
         /* at rest under its weight */
-        rho[i] = sph_density_tait(i < WATER ? SPH_R(2) - y[i] : SPH_R(0), SPH_R(1), sound, SPH_R(7), SPH_R(0));
+        rho[i] = sph_density_tait(i < WATER ? SPH_R(2) - y[i] : SPH_R(0), water);
     }
 }
 
@@ -229,7 +232,8 @@ static int tank_rates(sph_points points, sph_real dt)
 {
     const sph_list list = {start, list_index};
     const sph_real one = SPH_R(1);
-    const sph_scalars H = sph_scalars_same(&length);
+    const sph_cloud all = sph_cloud_of(points, list, sph_scalars_same(&length), sph_scalars_none());
+    const sph_cloud targets = sph_cloud_range(all, 0, (sph_index)WATER);
     const sph_vector_out a = sph_vector_out_separate(ax, ay, 0);
     sph_fluid fluid;
     sph_gas gas;
@@ -238,19 +242,19 @@ static int tank_rates(sph_points points, sph_real dt)
     fluid.rho = gas.rho = sph_scalars_array(rho);
     gas.omega = sph_scalars_same(&one);
     fluid.p = sph_scalars_array(p);
-    fluid.c = sph_scalars_same(&sound);
+    fluid.c = sph_scalars_same(&water.c);
     fluid.v = sph_vectors_separate(vx, vy, 0);
     fluid.viscosity = SPH_VISCOSITY_MONAGHAN;
     fluid.alpha = SPH_R(0.1);
     fluid.beta = SPH_R(0);
     fluid.eta = SPH_R(0.1);
-    if (!search(points) || sph_divergence_difference(KERNEL, 2, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), 0, (sph_index)n), gas, fluid.v, divergence) != 0) return 0;
+    if (!search(points) || sph_divergence_difference(KERNEL, 2, all, gas, fluid.v, divergence) != 0) return 0;
     for (i = 0; i < n; i++) {
         rho[i] -= dt * rho[i] * divergence[i];
-        p[i] = sph_pressure_tait(rho[i], SPH_R(1), sound, SPH_R(7), SPH_R(0));
+        p[i] = sph_pressure_tait(rho[i], water);
         if (i >= WATER && p[i] < SPH_R(0)) p[i] = SPH_R(0); /* a wall pushes, it does not pull */
     }
-    return sph_fluid_rates_monaghan(KERNEL, 2, sph_cloud_range(sph_cloud_of(points, list, H, sph_scalars_none()), 0, (sph_index)WATER), fluid, a, 0, 0) == 0;
+    return sph_fluid_rates_monaghan(KERNEL, 2, targets, fluid, a, 0, 0) == 0;
 }
 
 /* kinetic and potential, per mass of a particle */
@@ -265,7 +269,7 @@ static sph_real energy(void)
 static void check_dam_break(void)
 {
     const sph_points points = sph_points_separate((sph_index)MOST, x, y, 0);
-    const sph_real dt = sph_time_step_sound(length, sound, SPH_R(2)), end = SPH_R(1.2);
+    const sph_real dt = sph_time_step_sound(length, water.c, SPH_R(2)), end = SPH_R(1.2);
     sph_real t, before, after, front = SPH_R(0), top = SPH_R(0), lightest = SPH_R(1), heaviest = SPH_R(1);
     int i, well, inside = 1;
     fill_tank();

@@ -19,13 +19,13 @@ typedef struct cloud {
     sph_index start[MOST + 1], index[MOST * MOST];
 } cloud;
 
-static sph_points points(const cloud *c) { return sph_points_separate(c->n, c->x[0], c->x[1], c->x[2]); }
-static sph_list list(const cloud *c)
+static sph_cloud all(const cloud *c)
 {
     sph_list l;
     l.start = c->start;
     l.index = c->index;
-    return l;
+    return sph_cloud_of(sph_points_separate(c->n, c->x[0], c->x[1], c->x[2]), l, sph_scalars_array(c->h),
+                        sph_scalars_array(c->V));
 }
 
 static void make(cloud *c, fuzz_input *in)
@@ -305,9 +305,9 @@ static void check_rows(const cloud *c, int method, const outputs *o)
     out.diagonal = diagonal;
     out.factor = factor;
     out.status = status;
-    if (method == CSPM) answer = sph_derivative_rows_cspm(c->k, c->dim, sph_cloud_range(sph_cloud_of(points(c), list(c), sph_scalars_array(c->h), sph_scalars_array(c->V)), 0, c->n), d, out);
-    else if (method == ICSPM) answer = sph_derivative_rows_icspm(c->k, c->dim, sph_cloud_range(sph_cloud_of(points(c), list(c), sph_scalars_array(c->h), sph_scalars_array(c->V)), 0, c->n), d, out);
-    else answer = sph_derivative_rows_wls(c->k, c->dim, sph_cloud_range(sph_cloud_of(points(c), list(c), sph_scalars_array(c->h), sph_scalars_array(c->V)), 0, c->n), d, out);
+    if (method == CSPM) answer = sph_derivative_rows_cspm(c->k, c->dim, all(c), d, out);
+    else if (method == ICSPM) answer = sph_derivative_rows_icspm(c->k, c->dim, all(c), d, out);
+    else answer = sph_derivative_rows_wls(c->k, c->dim, all(c), d, out);
     FUZZ_REQUIRE(answer >= 0);
     for (i = 0; i < c->n; i++) {
         long double want[UNKNOWNS], off[UNKNOWNS], sum = 0.0L, weights = 0.0L, largest = 0.0L, apart = 0.0L, allowed;
@@ -335,10 +335,19 @@ static void check_gradient(const cloud *c)
 {
     sph_real g[3][MOST], w[3][MOST * MOST], conditioning[MOST];
     unsigned char status[MOST], row_status[MOST];
+    sph_derivative_out out;
+    sph_gradient_row_out rows;
     sph_index i, p;
     int a;
-    FUZZ_REQUIRE(sph_gradient_cspm(c->k, c->dim, sph_cloud_range(sph_cloud_of(points(c), list(c), sph_scalars_array(c->h), sph_scalars_array(c->V)), 0, c->n), sph_scalars_array(c->f), g[0], g[1], g[2], conditioning, status) >= 0);
-    FUZZ_REQUIRE(sph_gradient_rows_cspm(c->k, c->dim, sph_cloud_range(sph_cloud_of(points(c), list(c), sph_scalars_array(c->h), sph_scalars_array(c->V)), 0, c->n), w[0], w[1], w[2], NULL, row_status) >= 0);
+    memset(&out, 0, sizeof out);
+    memset(&rows, 0, sizeof rows);
+    out.gx = g[0], out.gy = g[1], out.gz = g[2];
+    out.conditioning = conditioning;
+    out.status = status;
+    rows.x = w[0], rows.y = w[1], rows.z = w[2];
+    rows.status = row_status;
+    FUZZ_REQUIRE(sph_gradient_cspm(c->k, c->dim, all(c), sph_scalars_array(c->f), out) >= 0);
+    FUZZ_REQUIRE(sph_gradient_rows_cspm(c->k, c->dim, all(c), rows) >= 0);
     for (i = 0; i < c->n; i++) {
         equations K;
         long double x[UNKNOWNS], off[UNKNOWNS], cost;
@@ -369,7 +378,8 @@ static void check_gradient(const cloud *c)
 
 static void check_elliptic(const cloud *c, fuzz_input *in)
 {
-    typedef sph_index operator_of(sph_kernel, int, sph_cloud, sph_scalars, sph_elliptic_options, sph_scalars, sph_scalars, sph_real *, unsigned char *);
+    typedef sph_index operator_of(sph_kernel, int, sph_cloud, sph_scalars, sph_elliptic_options, sph_scalars,
+                                  sph_scalar_out);
     typedef sph_index rows_of(sph_kernel, int, sph_cloud, sph_scalars, sph_elliptic_options, sph_row_out);
     static operator_of *const operators[] = {sph_elliptic_brookshaw, sph_elliptic_brookshaw_corrected, sph_elliptic_schwaiger, sph_elliptic_msph};
     static rows_of *const rows[] = {sph_elliptic_rows_brookshaw, sph_elliptic_rows_brookshaw_corrected, sph_elliptic_rows_schwaiger, sph_elliptic_rows_msph};
@@ -391,12 +401,13 @@ static void check_elliptic(const cloud *c, fuzz_input *in)
     o.trace = fuzz_below(in, 2);
     o.potential = sph_scalars_array(c->f);
     for (i = 0; i < c->n; i++) u[i] = c->f[i];
-    answer = operators[which](c->k, c->dim, sph_cloud_of(points(c), list(c), sph_scalars_array(c->h), sph_scalars_array(c->V)), m, o, sph_scalars_array(u), sph_scalars_array(NULL), out, status);
+    answer =
+        operators[which](c->k, c->dim, all(c), m, o, sph_scalars_array(u), sph_scalar_out_array(out, status));
     FUZZ_REQUIRE(answer >= SPH_ERROR_PAIRS && answer <= c->n);
-    FUZZ_REQUIRE(rows[which](c->k, c->dim, sph_cloud_of(points(c), list(c), sph_scalars_array(c->h), sph_scalars_array(c->V)), m, o, r) == answer || answer >= 0);
+    FUZZ_REQUIRE(rows[which](c->k, c->dim, all(c), m, o, r) == answer || answer >= 0);
     if (answer < 0) return;
     for (p = 0; p < c->start[c->n]; p++) FUZZ_REQUIRE(isfinite(row[p]));
-    FUZZ_REQUIRE(sph_rows_apply(0, c->n, c->n, list(c), row, NULL, sph_scalars_array(u), applied) >= 0);
+    FUZZ_REQUIRE(sph_rows_apply(all(c), row, NULL, sph_scalars_array(u), applied) >= 0);
     for (i = 0; i < c->n; i++) {
         double size = 0;
         FUZZ_REQUIRE(isfinite(out[i]) && isfinite(diagonal[i]) && isfinite(conditioning[i]));
@@ -423,10 +434,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         memset(&o, 0, sizeof o);
         out = out_of(&o, c.dim);
         if (what == CSPM)
-            failed = sph_derivatives_cspm(c.k, c.dim, sph_cloud_range(sph_cloud_of(points(&c), list(&c), sph_scalars_array(c.h), sph_scalars_array(c.V)), 0, c.n), sph_scalars_array(c.f), SPH_R(0), out);
+            failed = sph_derivatives_cspm(c.k, c.dim, all(&c), sph_scalars_array(c.f), SPH_R(0), out);
         else if (what == ICSPM)
-            failed = sph_derivatives_icspm(c.k, c.dim, sph_cloud_range(sph_cloud_of(points(&c), list(&c), sph_scalars_array(c.h), sph_scalars_array(c.V)), 0, c.n), sph_scalars_array(c.f), SPH_R(0), 0, out);
-        else failed = sph_derivatives_wls(c.k, c.dim, sph_cloud_range(sph_cloud_of(points(&c), list(&c), sph_scalars_array(c.h), sph_scalars_array(c.V)), 0, c.n), sph_scalars_array(c.f), SPH_R(0), out);
+            failed = sph_derivatives_icspm(c.k, c.dim, all(&c), sph_scalars_array(c.f), SPH_R(0), 0, out);
+        else failed = sph_derivatives_wls(c.k, c.dim, all(&c), sph_scalars_array(c.f), SPH_R(0), out);
         FUZZ_REQUIRE(failed >= 0);
         check_derivatives(&c, what, &o, failed);
         check_rows(&c, what, &o);

@@ -4,11 +4,12 @@
 #     sh tests/fuzz/fuzz.sh [TARGET ...]
 #     FUZZER=afl sh tests/fuzz/fuzz.sh [TARGET ...]        AFL++ instead
 # What crashes is kept as $BUILD/fuzz/crash-TARGET-...; put it into tests/fuzz/corpus/TARGET once it is mended. TARGET-avx2 and -avx512 are the target with that inner loop of the search, where the processor
-# has it.
+# has it; TARGET-crowded with crowded cells already at four particles, TARGET-openmp with threads as well.
 . tests/check.sh
 seconds=${FUZZ_SECONDS:-60}
 work=$BUILD/fuzz
-all="kernels neighbors neighbors-avx2 neighbors-avx512 derivatives sweeps sparse spe10 restart commands"
+search="neighbors neighbors-avx2 neighbors-avx512 neighbors-crowded neighbors-openmp"
+all="kernels $search derivatives sweeps sparse spe10 restart commands"
 sanitize="-g -fsanitize=address,undefined -fno-sanitize-recover=all"
 optimise=-O1 # takes three times as long to compile
 [ "$seconds" -lt 30 ] && optimise=-O0
@@ -20,13 +21,16 @@ afl) compiler=afl-clang-fast ;;
 esac
 TMPDIR=$PWD/$scratch # what a target leaves behind when it is stopped
 case $BUILD in /*) TMPDIR=$scratch ;; esac
-export TMPDIR
+OMP_WAIT_POLICY=passive # threads are more than processors
+export TMPDIR OMP_WAIT_POLICY
 here=$($CC -march=native -dM -E -x c /dev/null 2> /dev/null)
 # path TARGET: the flags of its path, or fails, aloud, where the processor does not have it
 path() {
     case $1 in
     *-avx2) macros="__AVX2__ __BMI2__" flags="-mavx2 -mbmi2" ;;
     *-avx512) macros="__AVX512F__ __AVX512VL__" flags=-march=native ;;
+    *-crowded) macros='' flags=-DSPHI_CROWDED=4 ;;
+    *-openmp) macros='' flags="-fopenmp -DSPH_OPENMP=1 -DSPHI_CROWDED=4" ;;
     *) macros='' flags='' ;;
     esac
     for macro in $macros; do
@@ -57,18 +61,20 @@ export FUZZ_PROGRAMS
 started=
 for t in ${*:-$all}; do
     path "$t" || continue
-    source=tests/fuzz/${t%-avx*}.c corpus=tests/fuzz/corpus/${t%-avx*}
-    if compiles "$empty" "$CC" -fsanitize=address,undefined; then
+    source=tests/fuzz/${t%%-*}.c corpus=tests/fuzz/corpus/${t%%-*}
+    # shellcheck disable=SC2086
+    if compiles "$empty" "$CC" -fsanitize=address,undefined $flags; then
         for single in 0 1; do
             case $single$t in 1sparse | 1spe10 | 1restart | 1commands) continue ;; esac
             # shellcheck disable=SC2086
             check "$t, SPH_SINGLE=$single, compiles" $CC -std=c99 -I. -O0 $sanitize $flags -DSPH_SINGLE=$single "$source" tests/fuzz/replay.c -o "$scratch/$t" -lm
             check "$t, SPH_SINGLE=$single, replays $corpus" "$scratch/$t" "$corpus"/*
         done
-    else skip "replay of $t" "$CC has no sanitizers"; fi
+    else skip "replay of $t" "$CC has no sanitizers, or none of what $t needs"; fi
     mkdir -p "$work/corpus/$t" "$work/afl"
     rm -rf "$work"/crash-"$t"-* "$work/status-$t" "$work/afl/$t"
-    if compiles "$empty" "$compiler" -fsanitize=fuzzer-no-link,address,undefined; then
+    # shellcheck disable=SC2086
+    if compiles "$empty" "$compiler" -fsanitize=fuzzer-no-link,address,undefined $flags; then
         # shellcheck disable=SC2086
         check "$t with $compiler compiles" "$compiler" -std=c99 -I. -fsanitize=fuzzer $optimise $sanitize $flags "$source" -o "$work/$t" -lm
         if [ "$compiler" = clang ]; then
@@ -76,7 +82,7 @@ for t in ${*:-$all}; do
         else
             fuzz "$t" env AFL_NO_UI=1 AFL_SKIP_CPUFREQ=1 AFL_I_DONT_CARE_ABOUT_MISSING_CRASHES=1 afl-fuzz -V "$seconds" -t 20000 -m none -G 600 -i "$corpus" -o "$work/afl/$t" -- "$work/$t"
         fi
-    else skip "fuzzing of $t" "$compiler is not installed, or has no sanitizers"; fi
+    else skip "fuzzing of $t" "$compiler is not installed, or has no sanitizers, or none of what $t needs"; fi
 done
 wait
 for t in $started; do

@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * neighbors.c - fuzz target: the search of sph.h against all pairs, in memory of just the size that is asked for. All criteria and flags, periodic boxes, other targets than sources, lists for which there is
- * too little room, coordinates that are no numbers or near the end of the range. A pair whose distance is within 8 ulp of the radius (in a box, of the largest of radius, box length and coordinates) may be in
- * or out; all others must be as they are.
+ * neighbors.c - fuzz target: the search of sph.h against all pairs, in memory of just the size that is
+ * asked for, so that the sanitizer sees what is read or written beyond. All criteria and flags, periodic
+ * boxes, other targets than sources, room for too few, just enough or more than enough pairs, coordinates
+ * that are no numbers or near the end of the range. A pair whose distance is within 8 ulp of the radius (in
+ * a box, of the largest of radius, box length and coordinates) may be in or out; all others must be as they
+ * are. Whatever the room and, with -fopenmp -DSPH_OPENMP=1, the number of threads, the lists are the same.
+ * -DSPHI_CROWDED=4 makes cells of so few particles crowded ones.
  */
 #include "fuzz.h"
 
@@ -75,25 +79,69 @@ static void check_rows(const problem *p, const sph_index *start, const sph_index
     }
 }
 
-static void check_lists(const problem *p, const sph_grid *g, int64_t capacity)
+#if SPH_OPENMP /* what clang's library keeps to the end is no leak */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void) { return "leak:libomp"; }
+#endif
+
+static void threads(int count)
+{
+#if SPH_OPENMP
+    omp_set_num_threads(count);
+#else
+    (void)count;
+#endif
+}
+
+static sph_index lists(const problem *p, const sph_grid *g, sph_index *start, sph_index *index, int64_t room,
+                       int64_t *pairs)
+{
+    return sph_grid_lists(p->dim, g, p->targets, p->criterion, p->target_radius, p->source_radius, p->flags,
+                          start, index, room, pairs);
+}
+
+/* with just this room and so many threads */
+static void check_room(const problem *p, const sph_grid *g, int count, int64_t room, const sph_index *start,
+                       const sph_index *index, int64_t pairs)
+{
+    const size_t n = (size_t)p->targets.n;
+    sph_index *const s = (sph_index *)fuzz_memory(n + 1, sizeof *s);
+    sph_index *const q = (sph_index *)fuzz_memory((size_t)room, sizeof *q);
+    int64_t found = -1;
+    sph_index answer;
+    threads(count);
+    answer = lists(p, g, s, q, room, &found);
+    FUZZ_REQUIRE(found == pairs && answer == (pairs > room ? SPH_ERROR_CAPACITY : 0));
+    FUZZ_REQUIRE(answer != 0 || memcmp(s, start, (n + 1) * sizeof *s) == 0);
+    FUZZ_REQUIRE(answer != 0 || memcmp(q, index, (size_t)pairs * sizeof *q) == 0);
+    free(s);
+    free(q);
+}
+
+/* few: room for so many; share: room for 128 + so many 256ths of the pairs */
+static void check_lists(const problem *p, const sph_grid *g, int count, int64_t few, int64_t share)
 {
     const size_t n = p->targets.n > 0 ? (size_t)p->targets.n : 0;
-    sph_index *const start = (sph_index *)fuzz_memory(n + 1, sizeof *start), *const some = (sph_index *)fuzz_memory((size_t)capacity, sizeof *some), *index;
+    sph_index *const start = (sph_index *)fuzz_memory(n + 1, sizeof *start), *index;
     int64_t pairs = -1, again = -1;
-    sph_index answer = sph_grid_lists(p->dim, g, p->targets, p->criterion, p->target_radius, p->source_radius, p->flags, start, 0, 0, &pairs);
-    if (answer < 0) FUZZ_REQUIRE(pairs == -1);
+    sph_index answer;
+    threads(1);
+    answer = sph_grid_count(p->dim, g, p->targets, p->criterion, p->target_radius, p->source_radius, p->flags,
+                            start, &pairs);
+    if (answer < 0) FUZZ_REQUIRE(pairs == 0);
     else {
         FUZZ_REQUIRE(answer == 0 && pairs >= 0 && pairs <= (int64_t)p->targets.n * p->sources.n);
-        answer = sph_grid_lists(p->dim, g, p->targets, p->criterion, p->target_radius, p->source_radius, p->flags, start, some, capacity, &again);
-        FUZZ_REQUIRE(again == pairs && answer == (pairs > capacity ? SPH_ERROR_CAPACITY : 0));
-        if (answer == 0) check_rows(p, start, some, pairs);
         index = (sph_index *)fuzz_memory((size_t)pairs, sizeof *index);
-        FUZZ_REQUIRE(sph_grid_lists(p->dim, g, p->targets, p->criterion, p->target_radius, p->source_radius, p->flags, start, index, pairs, &again) == 0 && again == pairs);
+        FUZZ_REQUIRE(lists(p, g, start, index, pairs, &again) == 0 && again == pairs);
         check_rows(p, start, index, pairs);
+        check_room(p, g, count, few, start, index, pairs);
+        check_room(p, g, count, pairs * (128 + share) / 256, start, index, pairs);
+        check_room(p, g, count, pairs > 0 ? pairs - 1 : 0, start, index, pairs);
+        check_room(p, g, count, pairs, start, index, pairs);
+        check_room(p, g, count, pairs + 65536, start, index, pairs); /* far apart: threads close the gaps */
         free(index);
     }
     free(start);
-    free(some);
 }
 
 /* the order is a permutation, and permuting by it and renumbering gives the same lists of the same particles */
@@ -118,15 +166,38 @@ static void check_order(const problem *p, sph_grid *g)
 typedef struct cloud {
     sph_real *x[3];
 } cloud;
-static sph_points cloud_new(cloud *c, fuzz_input *in, int dim, sph_index n, size_t stride, int tame, double scale)
+/* Particles that follow each other are of one block: a lattice of any spacing, 0 as well, where all are in
+   one place. The rows of one block are longer than those of another, so that the share of one thread is
+   used up before the room is. */
+static void cloud_blocks(cloud *c, fuzz_input *in, int dim, sph_index n, size_t stride, double scale)
 {
+    sph_index i = 0, q;
+    int a;
+    while (i < n) {
+        const int most = 1 + fuzz_below(in, MOST), side = 1 + fuzz_below(in, 6);
+        const double spacing = fuzz_below(in, 9) / 32.0;
+        double corner[3];
+        for (a = 0; a < dim; a++) corner[a] = fuzz_tame(in);
+        for (q = 0; q < most && i < n; q++, i++) {
+            const int cell[3] = {q % side, q / side % side, q / side / side};
+            for (a = 0; a < dim; a++)
+                c->x[a][(size_t)i * stride] = SPH_R(scale * (corner[a] + spacing * cell[a]));
+        }
+    }
+}
+static sph_points cloud_new(cloud *c, fuzz_input *in, int dim, sph_index n, int tame, int blocks,
+                            double scale)
+{
+    const size_t stride = (size_t)(1 + fuzz_below(in, 3));
     const size_t count = n > 0 ? ((size_t)n - 1) * stride + 1 : 0;
     sph_index i;
     int a;
     for (a = 0; a < 3; a++) {
         c->x[a] = (sph_real *)fuzz_memory(a < dim ? count : 0, sizeof(sph_real));
-        for (i = 0; a < dim && i < n; i++) c->x[a][(size_t)i * stride] = SPH_R(scale * (tame ? fuzz_tame(in) : fuzz_number(in)));
+        for (i = 0; !blocks && a < dim && i < n; i++)
+            c->x[a][(size_t)i * stride] = SPH_R(scale * (tame ? fuzz_tame(in) : fuzz_number(in)));
     }
+    if (blocks) cloud_blocks(c, in, dim, n, stride, scale);
     return sph_points_strided(n, c->x[0], c->x[1], c->x[2], stride);
 }
 static void cloud_free(cloud *c)
@@ -141,7 +212,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const int how = (int)fuzz_byte(&in), tame = (how & 3) != 0, periodic = (how >> 2) & 7, each = (how >> 5) & 3, foreign = how >> 7;
     const double scale = (how & 3) == 3 ? fuzz_scale(&in, SPH_SINGLE ? 10 : 100) : 1.0;
     const sph_index n = (sph_index)fuzz_below(&in, MOST + 1), m = (sph_index)fuzz_below(&in, MOST + 1);
-    const int64_t capacity = fuzz_below(&in, 64);
+    const int64_t few = fuzz_below(&in, 64);
+    const int shape = (int)fuzz_byte(&in), blocks = shape & 1, count = 1 + (shape >> 1) % 8;
+    const int64_t share = (int64_t)fuzz_byte(&in);
     sph_real *const R = (sph_real *)fuzz_memory(2 * MOST, sizeof *R), *const S = R + MOST, box[3] = {SPH_R(0), SPH_R(0), SPH_R(0)}, reach, skin;
     size_t bytes;
     void *work;
@@ -158,21 +231,31 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (c = 0; c < 3; c++)
         if (periodic >> c & 1) box[c] = SPH_R(scale * (tame ? 0.5 + 3 * fuzz_unit(&in) : fuzz_number(&in)));
     for (i = 0; i < 2 * MOST; i++) R[i] = SPH_R((each > 1 ? 0.03 + 4 * fuzz_unit(&in) : 1) * (double)reach);
-    p.sources = sph_points_periodic(cloud_new(&a, &in, p.dim, n, (size_t)(1 + fuzz_below(&in, 3)), tame, scale), box[0], box[1], box[2]);
+    p.sources = cloud_new(&a, &in, p.dim, n, tame, blocks, scale);
+    p.sources = sph_points_periodic(p.sources, box[0], box[1], box[2]);
     p.targets = p.sources;
-    if (foreign) p.targets = cloud_new(&b, &in, p.dim, m, (size_t)(1 + fuzz_below(&in, 3)), tame, scale);
+    if (foreign) p.targets = cloud_new(&b, &in, p.dim, m, tame, blocks, scale);
     else if (m < n) p.targets.n = m; /* the first of them */
     p.target_radius = each ? sph_scalars_array(R) : sph_scalars_same(R);
     p.source_radius = each ? sph_scalars_array(S) : sph_scalars_same(R);
+    if (p.criterion == SPH_GATHER) p.source_radius = sph_scalars_array(0); /* not read */
+    if (p.criterion == SPH_SCATTER) p.target_radius = sph_scalars_array(0);
 
     bytes = sph_grid_workspace(p.dim, n);
-    FUZZ_REQUIRE((bytes > 0) == (n > 0));
+    FUZZ_REQUIRE(bytes > 0);
     work = fuzz_memory(bytes, 1);
+    threads(1);
     answer = (int)sph_grid_build(p.dim, p.sources, reach, work, bytes, &g);
     FUZZ_REQUIRE(answer <= 0 && answer >= SPH_ERROR_RADIUS);
     if (answer == 0) {
-        check_lists(&p, &g, capacity);
+        void *const other = fuzz_memory(bytes, 1); /* built by other threads: the same order */
+        sph_grid h;
+        threads(count);
+        FUZZ_REQUIRE(sph_grid_build(p.dim, p.sources, reach, other, bytes, &h) == 0);
+        FUZZ_REQUIRE(memcmp(sph_grid_order(&g), sph_grid_order(&h), (size_t)n * sizeof(sph_index)) == 0);
+        check_lists(&p, &h, count, few, share);
         check_order(&p, &g);
+        free(other);
     }
     skin = SPH_R(tame ? fuzz_unit(&in) : fuzz_number(&in));
     answer = sph_rebuild_due(p.dim, p.sources, p.targets, skin);

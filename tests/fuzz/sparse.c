@@ -19,7 +19,9 @@ static void check_assembly(fuzz_input *in)
     sph_real *const diagonal = (sph_real *)fuzz_memory((size_t)n, sizeof *diagonal), *row, *value;
     sph_index first = (sph_index)fuzz_below(in, n + 1), last = (sph_index)fuzz_below(in, n + 1), answer, i, p;
     int64_t size, capacity, entries = -7;
+    sph_cloud cloud;
     sph_list list;
+    sph_csr matrix;
     int a, rows;
     if (good && first > last) {
         const sph_index swap = first;
@@ -43,13 +45,20 @@ static void check_assembly(fuzz_input *in)
     }
     list.start = start;
     list.index = index;
-    size = sph_csr_size(first, last, list);
+    cloud = sph_cloud_of(sph_points_separate((sph_index)n, NULL, NULL, NULL), list, sph_scalars_none(),
+                         sph_scalars_none());
+    cloud = sph_cloud_range(cloud, first, last);
+    size = sph_csr_size(cloud);
     capacity = fuzz_below(in, 4) ? (size > 0 ? size : 0) : fuzz_below(in, 32);
     rows = last > first ? last - first : 0;
     begin = (sph_index *)fuzz_memory((size_t)rows + 1, sizeof *begin);
     column = (sph_index *)fuzz_memory((size_t)capacity, sizeof *column);
     value = (sph_real *)fuzz_memory((size_t)capacity, sizeof *value);
-    answer = sph_csr_assemble(first, last, (sph_index)n, list, row, diagonal, drop, begin, column, value, capacity, &entries);
+    matrix.start = begin;
+    matrix.column = column;
+    matrix.value = value;
+    matrix.capacity = capacity;
+    answer = sph_csr_assemble(cloud, row, diagonal, drop, matrix, &entries);
     FUZZ_REQUIRE(answer <= 0 && answer >= SPH_ERROR_PAIRS);
     if (good && n > 1) FUZZ_REQUIRE(answer == (capacity < size ? SPH_ERROR_CAPACITY : 0));
     if (answer == 0) {

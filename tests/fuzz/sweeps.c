@@ -12,10 +12,8 @@ enum { MOST = 12, OUTPUTS = 12 };
 
 typedef struct arguments {
     int k, dim, what;
-    sph_index first, last;
-    sph_points x;
-    sph_list list;
-    sph_scalars h, s[16]; /* fields of the particles */
+    sph_cloud cloud;
+    sph_scalars s[16]; /* fields of the particles */
     sph_real number[6];
     sph_real *out[OUTPUTS];
     unsigned char *status;
@@ -23,8 +21,9 @@ typedef struct arguments {
     sph_index answer;
 } arguments;
 
-#define FRAME sph_cloud_range(sph_cloud_of(a->x, a->list, a->h, a->s[0]), a->first, a->last)
-#define SWEEP (sph_kernel)a->k, a->dim, FRAME
+#define SWEEP (sph_kernel)a->k, a->dim, a->cloud
+#define SWEEP_ONE (sph_kernel)a->k, a->cloud /* where the dimension is known */
+#define LIST a->dim, a->cloud
 #define OUT(i) a->out[i]
 
 static sph_vectors vectors(const arguments *a, int from)
@@ -63,6 +62,20 @@ static sph_derivative_out derivative_out(const arguments *a)
     o.status = a->status;
     return o;
 }
+static sph_scalar_out scalar_out(const arguments *a) { return sph_scalar_out_array(OUT(0), a->status); }
+static sph_derivative_out gradient_out(const arguments *a)
+{
+    sph_derivative_out o = derivative_out(a);
+    o.conditioning = OUT(3);
+    return o;
+}
+static sph_gradient_row_out gradient_row_out(const arguments *a)
+{
+    sph_gradient_row_out o;
+    o.x = OUT(0), o.y = OUT(1), o.z = OUT(2), o.conditioning = OUT(3);
+    o.status = a->status;
+    return o;
+}
 static sph_row_out row_out(const arguments *a)
 {
     sph_row_out o;
@@ -81,6 +94,19 @@ static sph_elliptic_options elliptic(const arguments *a)
     o.potential = a->s[4];
     return o;
 }
+static sph_elliptic_options sourced(const arguments *a)
+{
+    sph_elliptic_options o = elliptic(a);
+    o.source = a->s[12];
+    return o;
+}
+static sph_boundary boundary(const arguments *a)
+{
+    sph_boundary b;
+    b.normal = vectors(a, 5);
+    b.alpha = a->s[8], b.beta = a->s[9];
+    return b;
+}
 static sph_jet jet(const arguments *a)
 {
     sph_jet d = sph_jet_laplacian(a->dim);
@@ -97,13 +123,36 @@ static sph_fluid fluid(const arguments *a)
     f.alpha = a->number[0], f.beta = a->number[1], f.eta = a->number[2];
     return f;
 }
+static sph_collision collision(const arguments *a)
+{
+    sph_collision c;
+    c.distance = a->number[0], c.restitution = a->number[1];
+    c.inverse_mass = a->s[1];
+    return c;
+}
+static sph_cleaning cleaning(const arguments *a)
+{
+    sph_cleaning c;
+    c.gas = gas(a);
+    c.field = vectors(a, 8);
+    c.psi = a->s[11], c.div_v = a->s[4];
+    c.ch = a->number[0], c.sigma = a->number[1];
+    return c;
+}
+static sph_cleaning_out cleaning_out(const arguments *a)
+{
+    sph_cleaning_out o;
+    o.rate_B = vector_out(a, 0);
+    o.rate_psi = OUT(3), o.div_B = OUT(4);
+    return o;
+}
 static sph_mhd mhd(const arguments *a)
 {
     sph_mhd s;
     s.gas = gas(a);
-    s.P = a->s[3], s.u = a->s[4], s.cs = a->s[1], s.alpha = a->s[0], s.alpha_B = a->s[1];
+    s.p = a->s[3], s.u = a->s[4], s.cs = a->s[1], s.alpha = a->s[0], s.alpha_B = a->s[1];
     s.v = vectors(a, 5);
-    s.B = vectors(a, 8);
+    s.field = vectors(a, 8);
     s.psi = a->s[11];
     s.ch = a->number[0], s.sigma = a->number[1], s.beta = a->number[2], s.alpha_u = a->number[3], s.tensile = a->number[4];
     return s;
@@ -129,6 +178,22 @@ static sph_vec gravity(const arguments *a)
     g.x = a->number[0], g.y = a->number[1], g.z = a->number[2];
     return g;
 }
+static sph_index right(const arguments *a) { return (sph_index)(a->what % MOST); } /* end of the domain */
+static sph_wall wall(const arguments *a)
+{
+    sph_wall w;
+    w.share = a->s[0], w.rho = a->s[1], w.p = a->s[3];
+    w.v = vectors(a, 5), w.velocity = vectors(a, 8), w.normal = vectors(a, 5);
+    w.gravity = gravity(a);
+    return w;
+}
+static sph_wall_out wall_out(const arguments *a)
+{
+    sph_wall_out o;
+    o.p = OUT(3), o.v = vector_out(a, 0);
+    o.status = a->status;
+    return o;
+}
 
 /* One X(call, outputs, pairs, flags) each: the first `pairs` outputs have a number for each pair, the others one for each target (ONE: one at all). VECTOR: of the first three as many as there are dimensions;
    VECTORS: of the first two times three; HESSIAN: of derivatives likewise; COUNTS: a->count; NO_COUNT: the answer is no number of targets that are not ok;
@@ -137,12 +202,12 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
 /* clang-format off */
 #define SWEEPS(X) \
     X(sph_shepard_sum(SWEEP, OUT(0)), 1, 0, PLAIN) \
-    X(sph_interpolate_shepard(SWEEP, a->s[3], OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_interpolate_shepard(SWEEP, a->s[3], scalar_out(a)), 1, 0, STATUS) \
     X(sph_density_summation(SWEEP, a->s[0], OUT(0)), 1, 0, PLAIN) \
     X(sph_density_number(SWEEP, a->s[0], OUT(0)), 1, 0, PLAIN) \
-    X(sph_gradient_difference(SWEEP, a->s[3], OUT(0), OUT(1), OUT(2)), 3, 0, VECTOR) \
-    X(sph_gradient_cspm(SWEEP, a->s[3], OUT(0), OUT(1), OUT(2), OUT(3), a->status), 4, 0, VECTOR | STATUS) \
-    X(sph_gradient_rows_cspm(SWEEP, OUT(0), OUT(1), OUT(2), OUT(3), a->status), 4, 3, VECTOR | STATUS) \
+    X(sph_gradient_difference(SWEEP, a->s[3], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_gradient_cspm(SWEEP, a->s[3], gradient_out(a)), 4, 0, VECTOR | STATUS) \
+    X(sph_gradient_rows_cspm(SWEEP, gradient_row_out(a)), 4, 3, VECTOR | STATUS) \
     X(sph_laplacian_brookshaw(SWEEP, a->s[3], OUT(0)), 1, 0, PLAIN) \
     X(sph_laplacian_kernel(SWEEP, a->s[3], OUT(0)), 1, 0, PLAIN) \
     X(sph_laplacian_rows_brookshaw(SWEEP, OUT(0)), 1, 1, PLAIN) \
@@ -153,47 +218,48 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_derivative_rows_cspm(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
     X(sph_derivative_rows_icspm(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
     X(sph_derivative_rows_wls(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
-    X(sph_second_derivative_bim((sph_kernel)a->k, FRAME, a->s[3], 0, (sph_index)(a->what % MOST), OUT(0), a->status), 1, 0, STATUS) \
-    X(sph_second_derivative_rows_bim((sph_kernel)a->k, FRAME, 0, (sph_index)(a->what % MOST), OUT(0), a->status), 1, 1, STATUS) \
-    X(sph_elliptic_brookshaw(SWEEP, a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
-    X(sph_elliptic_brookshaw_corrected(SWEEP, a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
-    X(sph_elliptic_schwaiger(SWEEP, a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
-    X(sph_elliptic_msph(SWEEP, a->s[1], elliptic(a), a->s[3], a->s[12], OUT(0), a->status), 1, 0, STATUS) \
+    X(sph_second_derivative_bim(SWEEP_ONE, a->s[3], 0, right(a), scalar_out(a)), 1, 0, STATUS) \
+    X(sph_second_derivative_rows_bim(SWEEP_ONE, 0, right(a), OUT(0), a->status), 1, 1, STATUS) \
+    X(sph_elliptic_brookshaw(SWEEP, a->s[1], sourced(a), a->s[3], scalar_out(a)), 1, 0, STATUS) \
+    X(sph_elliptic_brookshaw_corrected(SWEEP, a->s[1], sourced(a), a->s[3], scalar_out(a)), 1, 0, STATUS) \
+    X(sph_elliptic_schwaiger(SWEEP, a->s[1], sourced(a), a->s[3], scalar_out(a)), 1, 0, STATUS) \
+    X(sph_elliptic_msph(SWEEP, a->s[1], sourced(a), a->s[3], scalar_out(a)), 1, 0, STATUS) \
     X(sph_elliptic_rows_brookshaw(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
     X(sph_elliptic_rows_brookshaw_corrected(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
     X(sph_elliptic_rows_schwaiger(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
     X(sph_elliptic_rows_msph(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
     X(sph_elliptic_rows_msph_diagonal(SWEEP, diagonal(a, 1), elliptic(a), row_out(a)), 4, 1, STATUS) \
     X(sph_elliptic_rows_anisotropic(SWEEP, diagonal(a, 1), row_out(a)), 4, 1, STATUS) \
-    X(sph_elliptic_rows_boundary(SWEEP, a->s[1], elliptic(a), diagonal(a, 5), a->s[8], a->s[9], row_out(a)), 4, 1, STATUS | SOME) \
+    X(sph_elliptic_rows_boundary(SWEEP, a->s[1], elliptic(a), boundary(a), row_out(a)), 4, 1, STATUS | SOME) \
     X(sph_elliptic_diagnose(SWEEP, elliptic(a), report(a)), 8, 0, STATUS) \
-    X(sph_rows_apply(a->first, a->last, a->x.n, a->list, a->s[13].p, a->s[14].p, a->s[3], OUT(0)), 1, 0, PLAIN) \
-    X(sph_rows_monotone(a->first, a->last, a->x.n, a->list, a->s[13].p, a->s[14].p, a->status), 0, 0, STATUS | NO_COUNT) \
-    X(sph_rows_time_step(a->first, a->last, a->x.n, a->list, a->s[13].p, OUT(0)), 1, 0, ONE | NO_COUNT) \
+    X(sph_rows_apply(a->cloud, a->s[13].p, a->s[14].p, a->s[3], OUT(0)), 1, 0, PLAIN) \
+    X(sph_rows_monotone(a->cloud, a->s[13].p, a->s[14].p, a->status), 0, 0, STATUS | NO_COUNT) \
+    X(sph_rows_time_step(a->cloud, a->s[13].p, OUT(0)), 1, 0, ONE | NO_COUNT) \
     X(sph_fluid_rates_monaghan(SWEEP, fluid(a), vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
     X(sph_fluid_rates_colagrossi(SWEEP, fluid(a), vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
     X(sph_fluid_rates_hu_adams(SWEEP, fluid(a), vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
-    X(sph_viscous_mu_morris(SWEEP, a->s[0], a->s[1], vectors(a, 5), a->s[2], a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \
-    X(sph_viscous_mu_monaghan_cleary(SWEEP, a->s[0], a->s[1], vectors(a, 5), a->s[2], a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \
-    X(sph_velocity_xsph(SWEEP, a->s[0], a->s[1], vectors(a, 5), a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \
-    X(sph_wall_adami(SWEEP, a->s[0], a->s[1], a->s[3], vectors(a, 5), vectors(a, 8), gravity(a), vectors(a, 5), OUT(3), vector_out(a, 0), a->status), 4, 0, VECTOR | STATUS) \
-    X(sph_collision_count(a->dim, FRAME, a->number[0], a->s[1], vectors(a, 5), a->count), 0, 0, COUNTS) \
-    X(sph_collision_change_literal(a->dim, FRAME, a->number[0], a->s[1], a->number[1], vectors(a, 5), vector_out(a, 0)), 3, 0, VECTOR) \
-    X(sph_collision_acceleration_literal(a->dim, FRAME, a->number[0], a->s[1], a->number[1], vectors(a, 5), a->number[2], vector_out(a, 0)), 3, 0, VECTOR) \
-    X(sph_nearest_distance(a->dim, a->first, a->last, a->x, a->x, a->list, OUT(0), a->status), 1, 0, STATUS) \
-    X(sph_hexatic_order(FRAME, OUT(0), a->status), 1, 0, STATUS) \
-    X(sph_count_coincident(a->dim, FRAME, a->number[0]), 0, 0, NO_COUNT) \
+    X(sph_viscous_mu_morris(SWEEP, fluid(a), a->s[2], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_viscous_mu_monaghan_cleary(SWEEP, fluid(a), a->s[2], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_velocity_xsph(SWEEP, fluid(a), a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_wall_adami(SWEEP, wall(a), wall_out(a)), 4, 0, VECTOR | STATUS) \
+    X(sph_collision_count(LIST, collision(a), vectors(a, 5), a->count), 0, 0, COUNTS) \
+    X(sph_collision_change_literal(LIST, collision(a), vectors(a, 5), vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_collision_acceleration_literal(LIST, collision(a), vectors(a, 5), a->number[2], vector_out(a, 0)), \
+      3, 0, VECTOR) \
+    X(sph_nearest_distance(LIST, a->cloud.points, scalar_out(a)), 1, 0, STATUS) \
+    X(sph_hexatic_order(a->cloud, scalar_out(a)), 1, 0, STATUS) \
+    X(sph_count_coincident(LIST, a->number[0]), 0, 0, NO_COUNT) \
     X(sph_divergence_difference(SWEEP, gas(a), vectors(a, 5), OUT(0)), 1, 0, PLAIN) \
     X(sph_divergence_symmetric(SWEEP, gas(a), vectors(a, 5), OUT(0)), 1, 0, PLAIN) \
     X(sph_gradient_symmetric(SWEEP, gas(a), a->s[3], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_curl_difference(SWEEP, gas(a), vectors(a, 5), vector_out(a, 0)), 3, 0, THREE) \
-    X(sph_cleaning_rates(SWEEP, gas(a), vectors(a, 8), a->s[11], a->s[4], a->number[0], a->number[1], vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
-    X(sph_cleaning_rates_nonconservative(SWEEP, gas(a), vectors(a, 8), a->s[11], a->s[4], a->number[0], a->number[1], vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
-    X(sph_cleaning_rates_symmetric(SWEEP, gas(a), vectors(a, 8), a->s[11], a->s[4], a->number[0], a->number[1], vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
+    X(sph_cleaning_rates(SWEEP, cleaning(a), cleaning_out(a)), 5, 0, VECTOR) \
+    X(sph_cleaning_rates_nonconservative(SWEEP, cleaning(a), cleaning_out(a)), 5, 0, VECTOR) \
+    X(sph_cleaning_rates_symmetric(SWEEP, cleaning(a), cleaning_out(a)), 5, 0, VECTOR) \
     X(sph_mhd_rates(SWEEP, mhd(a), mhd_out(a)), 11, 0, VECTORS) \
-    X(sph_gravity_direct((sph_kernel)a->k, a->first, a->last, a->x, a->h, a->s[0], a->number[0], vector_out(a, 0), OUT(3)), 4, 0, THREE) \
-    X(sph_gravity_zeta((sph_kernel)a->k, FRAME, a->s[0], a->s[1], OUT(0)), 1, 0, PLAIN) \
-    X(sph_gravity_correction((sph_kernel)a->k, FRAME, gas(a), a->s[4], a->number[0], vector_out(a, 0)), 3, 0, THREE)
+    X(sph_gravity_direct(SWEEP_ONE, a->s[0], a->number[0], vector_out(a, 0), OUT(3)), 4, 0, THREE) \
+    X(sph_gravity_zeta(SWEEP_ONE, a->s[0], a->s[1], OUT(0)), 1, 0, PLAIN) \
+    X(sph_gravity_correction(SWEEP_ONE, gas(a), a->s[4], a->number[0], vector_out(a, 0)), 3, 0, THREE)
 /* clang-format on */
 
 static sph_index call(int which, const arguments *a)
@@ -229,7 +295,8 @@ static const description *now;
 static void require(int holds, int line, const char *text, const arguments *a)
 {
     if (holds) return;
-    fprintf(stderr, "%s, kernel %d, %dD, targets %ld ... %ld of %ld answered %ld\n", now->name, a->k, a->dim, (long)a->first, (long)a->last, (long)a->x.n, (long)a->answer);
+    fprintf(stderr, "%s, kernel %d, %dD, targets %ld ... %ld of %ld answered %ld\n", now->name, a->k, a->dim,
+            (long)a->cloud.first, (long)a->cloud.last, (long)a->cloud.points.n, (long)a->answer);
     fuzz_require(0, __FILE__, line, text);
 }
 #define REQUIRE(condition) require((condition) ? 1 : 0, __LINE__, #condition, a)
@@ -251,10 +318,16 @@ static void check_answer(const arguments *a, size_t room)
     sph_index i;
     int o;
     REQUIRE(answer >= SPH_ERROR_PAIRS);
-    if (!(now->flags & NO_COUNT)) REQUIRE(answer <= (a->last > a->first ? a->last - a->first : 0));
+    if (!(now->flags & NO_COUNT))
+        REQUIRE(answer <= (a->cloud.last > a->cloud.first ? a->cloud.last - a->cloud.first : 0));
     for (o = 0; o < OUTPUTS; o++) {
         const int pairs = o < now->pairs, used = answer >= 0 && o < now->outputs && is_written(a, o);
-        sph_index low = answer < 0 ? 0 : pairs ? a->list.start[a->first] : a->first, high = answer < 0 ? 0 : pairs ? a->list.start[a->last] : a->last;
+        sph_index low = answer < 0 ? 0
+                        : pairs    ? a->cloud.list.start[a->cloud.first]
+                                   : a->cloud.first,
+                  high = answer < 0 ? 0
+                         : pairs    ? a->cloud.list.start[a->cloud.last]
+                                    : a->cloud.last;
         if (now->flags & ONE) low = 0, high = 1;
         if (!a->out[o]) continue;
         for (i = 0; i < (sph_index)room; i++) {
@@ -262,8 +335,8 @@ static void check_answer(const arguments *a, size_t room)
             else if (answer < 0 || o >= now->outputs || used) REQUIRE(is_marked(&a->out[o][i], sizeof(sph_real)));
         }
     }
-    for (i = 0; a->status && i < a->x.n; i++) {
-        const int written = answer >= 0 && (now->flags & STATUS) && i >= a->first && i < a->last;
+    for (i = 0; a->status && i < a->cloud.points.n; i++) {
+        const int written = answer >= 0 && (now->flags & STATUS) && i >= a->cloud.first && i < a->cloud.last;
         REQUIRE(a->status[i] == MARK ? !written || (now->flags & SOME) : written && a->status[i] <= SPH_LIST_TOO_SHORT);
     }
 }
@@ -279,63 +352,75 @@ static int all_finite(const sph_real *p, size_t count)
 }
 static void own_density_adaptive(const arguments *a)
 {
-    const size_t n = a->x.n > 0 ? (size_t)a->x.n : 0;
+    const size_t n = a->cloud.points.n > 0 ? (size_t)a->cloud.points.n : 0;
+    sph_density_options options;
+    sph_density_out out;
     size_t i;
     sph_index answer;
-    for (i = 0; i < n && a->out[0]; i++) a->out[0][i] = a->h.p ? a->h.p[a->h.stride ? i * a->h.stride : 0] : SPH_R(1);
-    answer = sph_density_adaptive((sph_kernel)a->k, a->dim, FRAME, a->h, a->s[0], SPH_R(1.2), SPH_R(1e-3), OUT(0), OUT(1), OUT(2), a->status);
+    for (i = 0; i < n && a->out[0]; i++)
+        a->out[0][i] = a->cloud.h.p ? a->cloud.h.p[a->cloud.h.stride ? i * a->cloud.h.stride : 0] : SPH_R(1);
+    options.reach = a->cloud.h, options.eta = SPH_R(1.2), options.tolerance = SPH_R(1e-3);
+    out.h = OUT(0), out.rho = OUT(1), out.omega = OUT(2);
+    out.status = a->status;
+    answer = sph_density_adaptive(SWEEP, a->s[0], options, out);
     for (i = 0; answer >= 0 && i < n; i++) {
-        if ((sph_index)i < a->first || (sph_index)i >= a->last) continue;
+        if ((sph_index)i < a->cloud.first || (sph_index)i >= a->cloud.last) continue;
         REQUIRE(isfinite(a->out[0][i]) && a->out[0][i] > SPH_R(0));
         REQUIRE((!a->out[1] || isfinite(a->out[1][i])) && (!a->out[2] || isfinite(a->out[2][i])));
     }
 }
 static void own_collide(const arguments *a)
 {
-    const size_t n = a->x.n > 0 ? (size_t)a->x.n : 0;
+    const size_t n = a->cloud.points.n > 0 ? (size_t)a->cloud.points.n : 0;
     sph_collision_report r;
     sph_index answer;
     size_t i;
     int c, finite = 1;
     for (c = 0; c < 3; c++)
         for (i = 0; i < n && a->out[c]; i++) a->out[c][i] = SPH_R((double)(i % 3) - (double)c);
-    answer = sph_collide_sequential(a->dim, FRAME, a->number[0], a->s[1], a->number[1], OUT(0), OUT(1), OUT(2), 1, &r);
+    answer = sph_collide_sequential(LIST, collision(a), vector_out(a, 0), &r);
     for (c = 0; c < a->dim && c < 3; c++) finite = finite && (!a->out[c] || all_finite(a->out[c], n));
     if (answer >= 0) REQUIRE((finite && isfinite(r.energy) && r.collisions >= 0) || answer > 0);
 }
 static void own_weighted(const arguments *a)
 {
-    const size_t n = a->x.n > 0 ? (size_t)a->x.n : 0;
+    const size_t n = a->cloud.points.n > 0 ? (size_t)a->cloud.points.n : 0;
     size_t i;
     int c;
     for (i = 0; i < n && a->count; i++) a->count[i] = (sph_index)((int)(i * 7 + (size_t)a->what) % 5 - (a->what > 200));
-    if (sph_collision_change_weighted(a->dim, FRAME, a->number[0], a->s[1], a->number[1], vectors(a, 5), a->count, vector_out(a, 0)) < 0) return;
-    for (c = 0; c < a->dim; c++) REQUIRE(all_finite(a->out[c] + a->first, (size_t)(a->last - a->first)));
+    if (sph_collision_change_weighted(LIST, collision(a), vectors(a, 5), a->count, vector_out(a, 0)) < 0)
+        return;
+    for (c = 0; c < a->dim; c++)
+        REQUIRE(all_finite(a->out[c] + a->cloud.first, (size_t)(a->cloud.last - a->cloud.first)));
 }
 static void own_separate(const arguments *a)
 {
     int c;
-    if (sph_separate_coincident(a->dim, FRAME, a->number[0], a->number[1], vector_out(a, 0)) < 0) return;
-    for (c = 0; c < a->dim; c++) REQUIRE(all_finite(a->out[c] + a->first, (size_t)(a->last - a->first)));
+    if (sph_separate_coincident(LIST, a->number[0], a->number[1], vector_out(a, 0)) < 0) return;
+    for (c = 0; c < a->dim; c++)
+        REQUIRE(all_finite(a->out[c] + a->cloud.first, (size_t)(a->cloud.last - a->cloud.first)));
 }
 static void own_radial(const arguments *a)
 {
     const int bins = a->what % 9;
     sph_real *const g = (sph_real *)fuzz_memory((size_t)bins, sizeof *g);
-    if (sph_radial_distribution(a->dim, FRAME, a->number[0], a->number[1], bins, g) >= 0) REQUIRE(all_finite(g, (size_t)bins));
+    if (sph_radial_distribution(LIST, a->number[0], a->number[1], bins, g) >= 0)
+        REQUIRE(all_finite(g, (size_t)bins));
     free(g);
 }
 static void own_sums(const arguments *a)
 {
     sph_conserved c;
-    if (sph_conserved_sums(a->dim, a->first, a->last, a->x, a->s[0], vectors(a, 5), &c) < 0) return;
+    if (sph_conserved_sums(LIST, a->s[0], vectors(a, 5), &c) < 0) return;
     REQUIRE(isfinite(c.mass) && isfinite(c.kinetic_energy) && isfinite(c.momentum.x) && isfinite(c.momentum.y) && isfinite(c.momentum.z) && isfinite(c.angular_momentum.x) &&
             isfinite(c.angular_momentum.y) && isfinite(c.angular_momentum.z));
 }
 static void own_growth(const arguments *a)
 {
     sph_real re, im;
-    if (sph_rows_growth(a->dim, a->first, a->x, a->list, a->s[13].p, a->number[3], gravity(a), &re, &im) == 0) REQUIRE(isfinite(re) && isfinite(im));
+    if (sph_rows_growth(a->dim, sph_cloud_range(a->cloud, a->cloud.first, a->cloud.first + 1), a->s[13].p,
+                        a->number[3], gravity(a), &re, &im) == 0)
+        REQUIRE(isfinite(re) && isfinite(im));
 }
 typedef struct own {
     void (*run)(const arguments *);
@@ -386,15 +471,19 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     a->what = (int)fuzz_byte(&in);
     a->k = hostile ? (int)(int8_t)fuzz_byte(&in) % (SPH_KERNEL_COUNT + 2) : fuzz_below(&in, SPH_KERNEL_COUNT);
     a->dim = hostile ? fuzz_below(&in, 5) : 1 + fuzz_below(&in, 3);
-    a->first = (sph_index)(hostile ? fuzz_below(&in, MOST + 3) - 1 : 0);
-    a->last = (sph_index)(hostile ? fuzz_below(&in, MOST + 3) - 1 : n);
+    a->cloud.first = (sph_index)(hostile ? fuzz_below(&in, MOST + 3) - 1 : 0);
+    a->cloud.last = (sph_index)(hostile ? fuzz_below(&in, MOST + 3) - 1 : n);
     for (f = 0; f < 6; f++) a->number[f] = SPH_R(kind ? fabs(fuzz_tame(&in)) : fuzz_number(&in));
 
     stride = (size_t)(hostile ? fuzz_below(&in, 4) : 1 + fuzz_below(&in, 2));
     for (f = 0; f < 3; f++) axis[f] = scalars(&in, n, stride, kind);
-    a->x = sph_points_strided(hostile && (how >> 4 & 3) == 3 ? (sph_index)-1 : n, axis[0].p, axis[1].p, axis[2].p, stride);
-    if (periodic) a->x = sph_points_periodic(a->x, SPH_R(kind ? 7.0 : fuzz_number(&in)), SPH_R(kind ? 0.0 : fuzz_number(&in)), SPH_R(kind ? 9.0 : fuzz_number(&in)));
-    a->h = scalars(&in, n, (size_t)fuzz_below(&in, 3), positive);
+    a->cloud.points = sph_points_strided(hostile && (how >> 4 & 3) == 3 ? (sph_index)-1 : n, axis[0].p,
+                                         axis[1].p, axis[2].p, stride);
+    if (periodic)
+        a->cloud.points =
+            sph_points_periodic(a->cloud.points, SPH_R(kind ? 7.0 : fuzz_number(&in)),
+                                SPH_R(kind ? 0.0 : fuzz_number(&in)), SPH_R(kind ? 9.0 : fuzz_number(&in)));
+    a->cloud.h = scalars(&in, n, (size_t)fuzz_below(&in, 3), positive);
     for (f = 0; f < 12; f++) a->s[f] = scalars(&in, n, (size_t)fuzz_below(&in, 3), f < 3 ? positive : kind);
     a->s[12] = fuzz_below(&in, 2) ? a->s[3] : sph_scalars_array(NULL); /* the source of an elliptic operator need not be there */
 
@@ -413,8 +502,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     if (!hostile && n == 1) memset(start, 0, 2 * sizeof *start);
     if (hostile && (how >> 6 & 1)) start[fuzz_below(&in, n + 1)] = (sph_index)(fuzz_below(&in, pairs + 2) - 1); /* descends, begins before the first, ends early */
-    a->list.start = start;
-    a->list.index = index;
+    a->cloud.list.start = start;
+    a->cloud.list.index = index;
     a->s[13] = scalars(&in, (sph_index)pairs, 1, kind);
     a->s[14] = scalars(&in, n, 1, kind);
 
@@ -430,15 +519,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         const int none = (int)fuzz_byte(&in);
         if (none < 16) a->s[none].p = NULL;
         else if (none < 16 + OUTPUTS) a->out[none - 16] = NULL;
-        else if (none == 30) a->x.x = NULL;
-        else if (none == 31) a->x.y = NULL;
-        else if (none == 32) a->x.z = NULL;
-        else if (none == 33) a->list.start = NULL;
-        else if (none == 34) a->list.index = NULL;
-        else if (none == 35) a->h.p = NULL;
+        else if (none == 30) a->cloud.points.x = NULL;
+        else if (none == 31) a->cloud.points.y = NULL;
+        else if (none == 32) a->cloud.points.z = NULL;
+        else if (none == 33) a->cloud.list.start = NULL;
+        else if (none == 34) a->cloud.list.index = NULL;
+        else if (none == 35) a->cloud.h.p = NULL;
         else if (none == 36) a->status = NULL;
         else if (none == 37) a->count = NULL;
     }
+    a->cloud.volume = a->s[0];
     if (which < COUNT) {
         a->answer = call(which, a);
         check_answer(a, room);

@@ -60,7 +60,7 @@ static void test_cloud(int kernel, int dim)
     sph_derivative_out out = {0};
     sph_row_out rows = {0};
     sph_list list;
-    sph_cloud cloud;
+    sph_cloud all, part;
     size_t found;
     int64_t pairs = 0;
     cloud_set(&x, field_smooth);
@@ -76,9 +76,10 @@ static void test_cloud(int kernel, int dim)
     sph_shim_cloud_lists(s, start, index);
     list.start = start;
     list.index = index;
-    cloud = sph_cloud_of(cloud_points(&x), list, cloud_h(&x), cloud_V(&x));
+    all = sph_cloud_of(cloud_points(&x), list, cloud_h(&x), cloud_V(&x));
+    part = sph_cloud_range(all, first, last);
 
-    CHECK(sph_shim_density_summation(s, x.V, 1, a) == sph_density_summation(k, dim, cloud, cloud_V(&x), b));
+    CHECK(sph_shim_density_summation(s, x.V, 1, a) == sph_density_summation(k, dim, all, cloud_V(&x), b));
     CHECK(same((size_t)x.n, a, b, tolerance));
 
     sph_shim_cloud_range(s, first, last);
@@ -89,13 +90,15 @@ static void test_cloud(int kernel, int dim)
     memset(e, 0, sizeof e);
     memset(g, 0, sizeof g);
     CHECK(sph_shim_gradient_cspm(s, x.f, 1, a, c, e, status) ==
-          sph_gradient_cspm(k, dim, sph_cloud_range(cloud, first, last), cloud_f(&x), b, d, g, 0, status_inline));
+          sph_gradient_cspm(k, dim, part, cloud_f(&x),
+                            (sph_derivative_out){.gx = b, .gy = d, .gz = g, .status = status_inline}));
     CHECK(same((size_t)x.n, a, b, tolerance) && memcmp(status, status_inline, (size_t)x.n) == 0);
     if (dim > 1) CHECK(same((size_t)x.n, c, d, tolerance));
     if (dim > 2) CHECK(same((size_t)x.n, e, g, tolerance));
     CHECK(a[0] == 0 && a[last] == 0); /* out of the range: not touched */
 
-    CHECK(sph_shim_laplacian_brookshaw(s, x.f, 1, a) == sph_laplacian_brookshaw(k, dim, sph_cloud_range(cloud, first, last), cloud_f(&x), b));
+    CHECK(sph_shim_laplacian_brookshaw(s, x.f, 1, a) ==
+          sph_laplacian_brookshaw(k, dim, part, cloud_f(&x), b));
     CHECK(same((size_t)x.n, a, b, tolerance));
 
     /* the components one by one: which stands where */
@@ -113,7 +116,7 @@ static void test_cloud(int kernel, int dim)
         if (dim > 1) out.hxy = component[p++], out.hyy = component[p++];
         if (dim > 2) out.hxz = component[p++], out.hyz = component[p++], out.hzz = component[p++];
         CHECK(p == numbers);
-        CHECK(sph_derivatives_icspm(k, dim, sph_cloud_range(cloud, first, last), cloud_f(&x), least, 1, out) >= 0);
+        CHECK(sph_derivatives_icspm(k, dim, part, cloud_f(&x), least, 1, out) >= 0);
         for (q = 0; q < numbers; q++) {
             for (i = 0; i < x.n; i++) c[i] = a[i * numbers + q];
             CHECK(same((size_t)x.n, c, component[q], BY_PRECISION(1e-9, 5e-2)));
@@ -127,16 +130,17 @@ static void test_cloud(int kernel, int dim)
     memset(row, 0, sizeof row);
     memset(other, 0, sizeof other);
     CHECK(sph_shim_elliptic_rows_msph(s, x.V, 1, 1, row, c, status) ==
-          sph_elliptic_rows_msph(k, dim, sph_cloud_range(cloud, first, last), cloud_V(&x), options, rows));
+          sph_elliptic_rows_msph(k, dim, part, cloud_V(&x), options, rows));
     CHECK(same(found, row, other, tolerance) && same((size_t)x.n, c, d, tolerance) && memcmp(status, status_inline, (size_t)x.n) == 0);
     memset(a, 0, sizeof a);
     memset(b, 0, sizeof b);
-    CHECK(sph_shim_rows_apply(s, row, c, x.f, 1, a) == sph_rows_apply(first, last, x.n, list, row, c, cloud_f(&x), b));
+    CHECK(sph_shim_rows_apply(s, row, c, x.f, 1, a) == sph_rows_apply(part, row, c, cloud_f(&x), b));
     CHECK(same((size_t)x.n, a, b, tolerance));
 
     /* collisions change both copies of the velocities alike */
     {
         const sph_real one = SPH_R(1);
+        const sph_collision collision = {SPH_R(1.1) * (sph_real)x.dx, SPH_R(0.5), sph_scalars_same(&one)};
         sph_index i;
         for (i = 0; i < x.n; i++) {
             a[i] = b[i] = SPH_R(0.5) - x.x[i];
@@ -144,7 +148,7 @@ static void test_cloud(int kernel, int dim)
             e[i] = g[i] = SPH_R(0.5) - x.z[i];
         }
         CHECK(sph_shim_collide_sequential(s, SPH_R(1.1) * (sph_real)x.dx, &one, 0, SPH_R(0.5), a, c, e, 1) == 0);
-        CHECK(sph_collide_sequential(dim, sph_cloud_range(sph_cloud_of(cloud_points(&x), list, sph_scalars_none(), sph_scalars_none()), first, last), SPH_R(1.1) * (sph_real)x.dx, sph_scalars_same(&one), SPH_R(0.5), b, d, g, 1, 0) == 0);
+        CHECK(sph_collide_sequential(dim, part, collision, sph_vector_out_separate(b, d, g), 0) == 0);
         CHECK(same((size_t)x.n, a, b, tolerance));
         CHECK(fabs((double)a[first + 1] - (0.5 - (double)x.x[first + 1])) > 0);
     }

@@ -1,18 +1,27 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Breaks the formulas of the headers, one at a time, and tells how many of the broken headers the tests notice.
+"""Breaks the functions of the headers, one at a time, and tells how many of the broken headers the tests see.
 
-    python3 tests/mutation/mutate.py [-n 400] [-seed 1] [-only sph_mhd] [-cc tcc]          from the root of the repository
+    python3 tests/mutation/mutate.py [-n 400] [-seed 1] [-only sph_mhd]        from the root of the repository
+    python3 tests/mutation/mutate.py -header sph.h -build portable openmp native -n 60
 
-A mutant is one change in the body of one function: a sign, an operator, a constant, a component, i for j, a comparison. They are spread over all functions. A mutant is killed if a test
-program does not compile, fails, crashes or takes more than LIMIT seconds of CPU. Survivors are printed; those in tests/mutation/equivalent.txt (function, changed line, reason) change nothing that
-can be seen and do not count. Most time goes into compiling, which is why tcc is the default: 400 mutants take it about half an hour.
+A mutant is one change in the body of one function: a sign, an operator, a constant, a component, i for j, a
+comparison; in the search also a number that is one more, a bound, a shift, a bit operation, a condition that
+always or never holds, an assignment that is left out. They are spread over all functions. A mutant is killed
+if a test program does not compile, fails, crashes or takes much more CPU time than with the header as it is.
+Survivors are printed; those in tests/mutation/equivalent.txt, which nothing can tell, do not count.
+
+Builds: portable C; the search with OpenMP's threads (openmp); with what this processor has (native: AVX2 or
+AVX-512). The latter two break sph.h alone, because the other headers have no code of their own for them. Most
+time goes into compiling, which is why tcc compiles the tests of formulas.
 """
 import argparse
+import collections
+import concurrent.futures
 import os
+import queue
 import random
 import re
-import resource
 import shutil
 import subprocess
 import sys
@@ -20,21 +29,42 @@ import tempfile
 import time
 
 HEADERS = ("sph_kernels.h", "sph_ops.h", "sph.h")
-# cheap ones first; those that name the function, or are of its subject, come before all; that of the search is slow, and for sph.h only (with those that call all functions)
-TESTS = "known_answers kernels collisions gravity density derivatives fluid invariance gradients contract degenerate elliptic cleaning periodic".split()
-SEARCH = ["contract", "degenerate", "neighbors", "periodic"]
-SUBJECTS = {"mhd": "cleaning", "cleaning": "cleaning", "elliptic": "elliptic", "mobility": "elliptic", "row": "elliptic", "csr": "elliptic", "fluid": "fluid", "viscos": "fluid", "pressure": "fluid",
-            "wall": "fluid", "colli": "collisions", "gravity": "gravity", "density": "density", "block": "derivatives", "cspm": "derivatives", "moment": "derivatives",
-            "wls": "derivatives", "kernel": "kernels", "laplacian": "gradients"}
-LIMIT = 90
+# cheap ones first; those that name the function, or are of its subject, come before all
+TESTS = ("known_answers kernels collisions gravity density derivatives fluid invariance gradients contract "
+         "degenerate elliptic cleaning periodic").split()
+# For sph.h alone; the first is soon done, which is where loops without end end. One copy of each function
+# compiles sooner, but the search itself is faster with its copies.
+SEARCH = "index_range neighbors capacity degenerate contract periodic".split()
+ONE_COPY = ["-include", "tests/one_copy.h"]
+SUBJECTS = {"mhd": "cleaning", "cleaning": "cleaning", "elliptic": "elliptic", "mobility": "elliptic",
+            "row": "elliptic", "csr": "elliptic", "fluid": "fluid", "viscos": "fluid", "pressure": "fluid",
+            "wall": "fluid", "colli": "collisions", "gravity": "gravity", "density": "density",
+            "block": "derivatives", "cspm": "derivatives", "moment": "derivatives", "wls": "derivatives",
+            "kernel": "kernels", "laplacian": "gradients"}
+BUILDS = {"portable": [], "openmp": ["-fopenmp", "-DSPH_OPENMP=1"], "native": ["-march=native"]}
+# Three threads divide few counts evenly. They sleep where they wait: what they spin would count as CPU time.
+THREADS = {"OMP_NUM_THREADS": "3", "OMP_WAIT_POLICY": "passive"}
+PATIENCE, LEAST = 2, 5 # so many times the CPU time of the header as it is, and so many seconds more
+LONGEST = 900 # seconds of CPU for anything else
+OUTCOMES = KILLED, SURVIVES, EQUIVALENT, ABSENT = "killed", "survive", "equivalent", "not compiled here"
+MEMORY = 8 << 20 # KiB: lists of a wrong length may be huge
+
+Mutant = collections.namedtuple("Mutant", "build header function start end new")
 
 
-def functions(text):
-    """(name, start, end) of the bodies of all SPH_FN functions"""
-    for m in re.finditer(r"^SPH_FN [^;{}]*?(\w+)\([^;{}]*\)\s*\{", text, re.M):
+def code_of(text):
+    """the text with comments, strings and preprocessor lines as blanks"""
+    for pattern, flags in ((r"/\*.*?\*/", re.S), (r'"(?:\\.|[^"\\\n])*"', 0), (r"^#(?:.*\\\n)*.*$", re.M)):
+        text = re.sub(pattern, lambda m: re.sub(r"[^\n]", " ", m.group()), text, flags=flags)
+    return text
+
+
+def functions(code):
+    """(name, start, end) of the bodies of all functions"""
+    for m in re.finditer(r"^(?:\S.*)?\b(?:SPH_FN|SPHI_LARGE) [^;{}]*?(\w+)\([^;{}()]*\)\s*\{", code, re.M):
         depth, end = 1, m.end()
         while depth:
-            depth += {"{": 1, "}": -1}.get(text[end], 0)
+            depth += {"{": 1, "}": -1}.get(code[end], 0)
             end += 1
         yield m.group(1), m.end(), end - 1
 
@@ -44,122 +74,210 @@ def constant(number):
     return "SPH_R(%r)" % (value * 1.01 if value else 0.01)
 
 
-def mutations(body):
+def swap(pairs):
+    """rules that put each of two operators for the other"""
+    for a, b in pairs:
+        for old, new in ((a, b), (b, a)):
+            yield re.escape(old), lambda m, new=new: new
+
+
+FORMULA = [
+    (r" \+ ", lambda m: " - "), (r"(?<=[\w)\]]) - ", lambda m: " + "),
+    (r" \* ", lambda m: " / "), (r"(?<=[\w)]) / ", lambda m: " * "),
+    *swap([("+=", "-="), (" < ", " >= "), (" > ", " <= "), (" == ", " != "), (" && ", " || ")]),
+    (r"SPH_R\((\d+(?:\.\d*)?(?:e-?\d+)?)\)", lambda m: constant(m.group(1))),
+    (r"(?<=\w)\.x\b", lambda m: ".y"), (r"(?<=\w)\.y\b", lambda m: ".z"), (r"(?<=\w)\.z\b", lambda m: ".x"),
+    *swap([("dim > 1", "dim > 2")]), (r"SPHI_ABS\(", lambda m: "("), (r"= -(?=\w)", lambda m: "= ")]
+INTEGER = [
+    *swap([(" < ", " <= "), (" > ", " >= "), (" << ", " >> "), (" & ", " | "), ("&=", "|=")]),
+    (r" [-+] 1\b(?!\.)", lambda m: ""),
+    # the length of an array apart
+    (r"(?<![\w.])(?<!SPH_R\()\d+(?![\w.])(?!\](?:;| = \{))", lambda m: str(int(m.group()) + 1)),
+    (r"\+\+\)", lambda m: " += 2)"), (r"\+\+(?!\))|--", lambda m: ""), # of a loop, and others
+    (r" \? ", lambda m: " || 1 ? "), (r" \? ", lambda m: " && 0 ? "),
+    (r"!(?=[\w(])", lambda m: ""), (r"\bcontinue;", lambda m: "break;"),
+    (r"\bif \(", lambda m: "if (1 || "), (r"\bif \(", lambda m: "if (0 && "),
+    (r"(?<=\n) +[\w.>\[\]*-]+ [-+*/|&]?= [^;{}]*;(?= *\n)", lambda m: "/* " + m.group().strip() + " */")]
+
+
+def mutations(body, rules):
     """(start, end, replacement) of each change to a body"""
-    rules = [
-        (r" \+ ", lambda m: " - "), (r"(?<=[\w)\]]) - ", lambda m: " + "), (r" \* ", lambda m: " / "), (r"(?<=[\w)]) / ", lambda m: " * "), (r"\+=", lambda m: "-="), (r"-=", lambda m: "+="),
-        (r"SPH_R\((\d+(?:\.\d*)?(?:e-?\d+)?)\)", lambda m: constant(m.group(1))),
-        (r"(?<=\w)\.x\b", lambda m: ".y"), (r"(?<=\w)\.y\b", lambda m: ".z"), (r"(?<=\w)\.z\b", lambda m: ".x"),
-        (r" < ", lambda m: " >= "), (r" > ", lambda m: " <= "), (r" <= ", lambda m: " > "), (r" >= ", lambda m: " < "), (r" == ", lambda m: " != "), (r" != ", lambda m: " == "), (r" && ", lambda m: " || "),
-        (r" \|\| ", lambda m: " && "), (r"dim > 1", lambda m: "dim > 2"), (r"dim > 2", lambda m: "dim > 1"), (r"SPHI_ABS\(", lambda m: "("), (r"= -(?=\w)", lambda m: "= "),
-        (r"\b(\w+)_i\b", lambda m: m.group(1) + "_j" if m.group(1) + "_j" in body else None), (r"\b(\w+)_j\b", lambda m: m.group(1) + "_i" if m.group(1) + "_i" in body else None)]
-    code = re.sub(r"/\*.*?\*/", lambda m: " " * len(m.group()), body, flags=re.S)
-    code = re.sub(r'"(?:\\.|[^"\\\n])*"', lambda m: " " * len(m.group()), code)
-    code = re.sub(r"^#.*$", lambda m: " " * len(m.group()), code, flags=re.M)
+    found = {}
     for pattern, change in rules:
-        for m in re.finditer(pattern, code):
-            new = change(m)
-            if new and new != m.group():
-                yield m.start(), m.end(), new
+        for m in re.finditer(pattern, body):
+            found[m.start(), m.end(), change(m)] = None
+    for a, b in (("_i", "_j"), ("_j", "_i")):
+        for m in re.finditer(r"\b(\w+)%s\b" % a, body):
+            if m.group(1) + b in body:
+                found[m.start(), m.end(), m.group(1) + b] = None
+    return list(found)
 
 
-def choose(count, only, rng):
-    """count mutants, from all functions in turn"""
+def choose(a, texts, build, rng):
+    """a.n mutants, from all functions in turn"""
     pool = []
-    for header in HEADERS:
-        text = open(header).read()
-        for name, start, end in functions(text):
-            found = [(header, name, start + a, start + b, new) for a, b, new in mutations(text[start:end])]
-            if found and only in name:
+    for header in a.header or (HEADERS if build == "portable" else ["sph.h"]):
+        code = code_of(texts[header])
+        rules = FORMULA + (INTEGER if header == "sph.h" else [])
+        for name, start, end in functions(code):
+            found = [Mutant(build, header, name, start + first, start + last, new)
+                     for first, last, new in mutations(code[start:end], rules)]
+            if found and re.search(a.only, name):
                 rng.shuffle(found)
                 pool.append(found)
     rng.shuffle(pool)
     chosen = []
-    while pool and len(chosen) < count:
+    while pool and len(chosen) < a.n:
         for found in pool:
             chosen.append(found.pop())
         pool = [found for found in pool if found]
-    return chosen[:count]
+    return chosen[:a.n]
 
 
 def order(header, name):
-    if header == "sph.h":
-        return SEARCH
-
     def relevance(test):
         text = open("tests/test_%s.c" % test).read()
-        return (name not in text and not any(test == t and s in name for s, t in SUBJECTS.items()), TESTS.index(test))
-    return sorted((t for t in TESTS if os.path.exists("tests/test_%s.c" % t)), key=relevance)
+        subject = any(test == t and s in name for s, t in SUBJECTS.items())
+        return (name not in text and not subject, TESTS.index(test))
+    tests = SEARCH if header == "sph.h" else sorted(TESTS, key=relevance)
+    return [t for t in tests if os.path.exists("tests/test_%s.c" % t)]
 
 
-def run(command, folder):
-    def limit():
-        resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))
-    return subprocess.run(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=limit).returncode == 0
+class Judge:
+    """runs the tests in folders that have a copy of what they need, as many at a time as there are folders"""
+
+    def __init__(self, cc, texts, jobs):
+        self.cc = cc
+        self.texts = texts
+        self.limits = {} # seconds, by what compiles the test
+        self.originals = {} # what the preprocessor makes of the header as it is, by build
+        self.folders = queue.SimpleQueue()
+        for _ in range(jobs):
+            folder = tempfile.mkdtemp(prefix="mutants-")
+            for part in ("tests", "examples/common", "examples/papers"):
+                shutil.copytree(part, folder + "/" + part)
+            for header, text in texts.items():
+                write(folder, header, text)
+            self.folders.put(folder)
+
+    def preprocessed(self, folder, build):
+        command = ["cc", *BUILDS[build], "-E", "-I.", "tests/test_capacity.c"]
+        return subprocess.run(command, cwd=folder, capture_output=True, check=True).stdout
+
+    def run(self, command, folder, limit):
+        """(whether it succeeds, seconds of CPU)"""
+        script = 'ulimit -t "$0"; ulimit -v "$1"; shift; exec "$@"'
+        nowhere = subprocess.DEVNULL
+        p = subprocess.Popen(["sh", "-c", script, str(limit), str(MEMORY), *command], cwd=folder,
+                             env={**os.environ, **THREADS}, stdout=nowhere, stderr=nowhere)
+        p.returncode, used = os.wait4(p.pid, 0)[1:]
+        return p.returncode == 0, used.ru_utime + used.ru_stime
+
+    def killer(self, folder, build, header, name):
+        """the test that notices, or None"""
+        for test in order(header, name):
+            compiler = ["cc", "-O1", *BUILDS[build]]
+            if header != "sph.h" and build == "portable":
+                compiler = self.cc.split()
+            elif test != "neighbors":
+                compiler += ONE_COPY
+            source = "tests/test_%s.c" % test
+            command = (*compiler, "-std=c99", "-w", "-DCHECK_STOP", "-I.", "-o", "test", source, "-lm")
+            if not self.run(command, folder, LONGEST)[0]:
+                return test
+            passes, seconds = self.run(["./test"], folder, self.limits.get(command, LONGEST))
+            if not passes:
+                return test
+            self.limits.setdefault(command, int(PATIENCE * seconds) + LEAST)
+        return None
+
+    def learn(self, build, headers):
+        """what the headers as they are give"""
+        folder = self.folders.get()
+        self.originals[build] = self.preprocessed(folder, build)
+        for header in headers:
+            test = self.killer(folder, build, header, "")
+            if test:
+                sys.exit("tests/test_%s.c fails on the headers as they are" % test)
+        self.folders.put(folder)
+
+    def judge(self, mutant):
+        """(changed line, outcome)"""
+        text = self.texts[mutant.header]
+        broken = text[:mutant.start] + mutant.new + text[mutant.end:]
+        line = broken[broken.rfind("\n", 0, mutant.start) + 1:broken.find("\n", mutant.start)].strip()
+        folder = self.folders.get()
+        write(folder, mutant.header, broken)
+        if self.preprocessed(folder, mutant.build) == self.originals[mutant.build]:
+            outcome = ABSENT # in code for another build
+        else:
+            test = self.killer(folder, mutant.build, mutant.header, mutant.function)
+            outcome = KILLED if test else SURVIVES
+        write(folder, mutant.header, text)
+        self.folders.put(folder)
+        return line, outcome
+
+    def remove(self):
+        while not self.folders.empty():
+            shutil.rmtree(self.folders.get())
 
 
-def killed(cc, folder, header, name):
-    """the test that notices, or None"""
-    for test in order(header, name):
-        compiler = "cc -O1" if test == "neighbors" else cc
-        if not run([*compiler.split(), "-std=c99", "-w", "-DCHECK_STOP", "-I.", "-o", "test", "tests/test_%s.c" % test, "-lm"], folder) or not run(["./test"], folder):
-            return test
-    return None
+def write(folder, name, text):
+    with open(folder + "/" + name, "w") as f:
+        f.write(text)
 
 
-def preprocessed(cc, folder):
-    return subprocess.run([*cc.split(), "-E", "-I.", "tests/test_neighbors.c"], cwd=folder, capture_output=True, check=True).stdout
+def equivalents():
+    """the builds in which a mutant is known to change nothing, by function and line"""
+    known = {}
+    for line in open("tests/mutation/equivalent.txt"):
+        if line.strip() and not line.startswith("#"):
+            function, change, _, *builds = line.rstrip("\n").split(" | ")
+            known[function, change] = builds[0].split() if builds else BUILDS
+    return known
+
+
+def report(build, header, counts):
+    """one line; the share that is killed of those that something could tell"""
+    judged = counts[KILLED] + counts[SURVIVES]
+    share = 100.0 * counts[KILLED] / max(judged, 1)
+    outcomes = ", ".join("%d %s" % (counts[o], o) for o in OUTCOMES)
+    print("%s, %s: %d mutants: %s: %.1f %% killed" % (header, build, sum(counts.values()), outcomes, share))
+    return judged == 0 or share >= 95
 
 
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("-n", type=int, default=400, help="mutants")
+    p.add_argument("-n", type=int, default=400, help="mutants in each build")
     p.add_argument("-seed", type=int, default=1)
-    p.add_argument("-only", default="", help="functions whose name contains this")
-    p.add_argument("-cc", default="tcc" if shutil.which("tcc") else "cc -O0")
+    p.add_argument("-only", default="", help="functions in whose name this regular expression is found")
+    p.add_argument("-header", nargs="+", choices=HEADERS, help="these headers only")
+    p.add_argument("-build", nargs="+", choices=BUILDS, default=["portable"])
+    p.add_argument("-j", type=int, default=2, help="mutants at a time")
+    tcc = "tcc" if shutil.which("tcc") else "cc -O0"
+    p.add_argument("-cc", default=tcc, help="compiles the tests of formulas")
     a = p.parse_args()
-    equivalent = {}
-    for line in open("tests/mutation/equivalent.txt"):
-        if line.strip() and not line.startswith("#"):
-            function, change, reason = line.rstrip("\n").split(" | ")
-            equivalent[function, change] = reason
-    folder = tempfile.mkdtemp(prefix="mutants-")
-    shutil.copytree("tests", folder + "/tests")
-    shutil.copytree("examples/common", folder + "/examples/common")
-    shutil.copytree("examples/papers", folder + "/examples/papers")
-    for h in HEADERS:
-        shutil.copy(h, folder)
-    first = killed(a.cc, folder, "sph_ops.h", "") or killed(a.cc, folder, "sph.h", "")
-    if first:
-        sys.exit("tests/test_%s.c fails on the headers as they are" % first)
-    original = preprocessed(a.cc, folder)
-    chosen = choose(a.n, a.only, random.Random(a.seed))
-    dead = same = absent = 0
-    survivors = []
+    known = equivalents()
+    texts = {header: open(header).read() for header in HEADERS}
+    chosen = [m for build in a.build for m in choose(a, texts, build, random.Random(a.seed))]
+    judge = Judge(a.cc, texts, a.j)
+    for build in a.build:
+        judge.learn(build, sorted({m.header for m in chosen if m.build == build}))
+    counts = collections.defaultdict(collections.Counter)
     began = time.time()
-    for number, (header, name, start, end, new) in enumerate(chosen):
-        text = open(header).read()
-        mutant = text[:start] + new + text[end:]
-        line = mutant[mutant.rfind("\n", 0, start) + 1:mutant.find("\n", start)].strip()
-        open(folder + "/" + header, "w").write(mutant)
-        if preprocessed(a.cc, folder) == original:
-            absent += 1 # in code for another machine
-        else:
-            test = killed(a.cc, folder, header, name)
-            if test:
-                dead += 1
-            elif (name, line) in equivalent:
-                same += 1
-            else:
-                survivors.append((name, line))
-                print("survives: %s | %s" % (name, line), flush=True)
-        shutil.copy(header, folder)
-        if sys.stderr.isatty() or number % 20 == 19:
-            print("%d of %d, %d survive, %.0f s" % (number + 1, len(chosen), len(survivors), time.time() - began), end="\r" if sys.stderr.isatty() else "\n", file=sys.stderr, flush=True)
-    shutil.rmtree(folder)
-    judged = dead + len(survivors)
-    print("%d mutants: %d killed, %d survive, %d equivalent, %d not compiled here: %.1f %% killed" % (len(chosen), dead, len(survivors), same, absent, 100.0 * dead / max(judged, 1)))
-    return judged == 0 or dead < 0.95 * judged
+    with concurrent.futures.ThreadPoolExecutor(a.j) as pool:
+        for number, (mutant, (line, outcome)) in enumerate(zip(chosen, pool.map(judge.judge, chosen))):
+            if outcome == SURVIVES and mutant.build in known.get((mutant.function, line), ()):
+                outcome = EQUIVALENT
+            counts[mutant.build, mutant.header][outcome] += 1
+            if outcome == SURVIVES:
+                print("survives, %s: %s | %s" % (mutant.build, mutant.function, line), flush=True)
+            if sys.stderr.isatty() or number % 20 == 19:
+                print("%d of %d, %.0f s" % (number + 1, len(chosen), time.time() - began),
+                      end="\r" if sys.stderr.isatty() else "\n", file=sys.stderr, flush=True)
+    judge.remove()
+    enough = [report(*key, counts[key]) for key in counts]
+    return not all(enough)
 
 
 if __name__ == "__main__":

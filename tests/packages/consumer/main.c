@@ -18,13 +18,12 @@ int main(void)
     {
         const sph_points points = sph_points_separate(N, x, NULL, NULL);
         const sph_scalars R = sph_scalars_same(&radius);
-        sph_list list;
+        const sph_list list = {start, index};
+        const sph_cloud all = sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_none());
         if (sizeof work < sph_grid_workspace(1, N) || sph_grid_build(1, points, radius, work, sizeof work, &grid) ||
             sph_grid_lists(1, &grid, points, SPH_GATHER, R, R, 0, start, index, 8 * N, &pairs))
             return 1;
-        list.start = start;
-        list.index = index;
-        if (sph_density_summation(SPH_WENDLAND_C4_1D, 1, sph_cloud_range(sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_none()), 0, N), sph_scalars_same(&m), rho)) return 1;
+        if (sph_density_summation(SPH_WENDLAND_C4_1D, 1, all, sph_scalars_same(&m), rho)) return 1;
     }
     printf("sph.h %d.%d.%d: density %.4f\n", SPH_VERSION_MAJOR, SPH_VERSION_MINOR, SPH_VERSION_PATCH, rho[N / 2]);
     return rho[N / 2] < 0.99 || rho[N / 2] > 1.01;
