@@ -3945,8 +3945,7 @@ SPH_FN sph_index sph_velocity_xsph(sph_kernel k, int dim, sph_cloud cloud, sph_f
     return failed;
 }
 
-/* share: the volume of a fluid particle, 0 of all others. velocity: of the wall itself. gravity: less the
-   wall's
+/* share: 1 for fluid particles, 0 for all others. velocity: of the wall itself. gravity: less the wall's
    acceleration. normal: of the wall, for free slip; null: no slip. */
 typedef struct sph_wall {
     sph_scalars share, rho, p;
@@ -4322,8 +4321,8 @@ SPH_FN sph_real sph_mhd_fast_speed(sph_real cs, sph_vec field, sph_real rho, sph
     const sph_real per_rho = SPH_R(1) / rho;
     return sphi_fast_speed(cs * cs, sph_dot(3, field, field) * per_rho, B_along * B_along * per_rho);
 }
-/* v_sig = (v_i + v_j + beta |w|) / 2, w = v_ij . x_ij / r: the speed at which two particles see each other.
-   Price 2012, (105). */
+/* v_sig = (v_i + v_j + beta_w) / 2, beta_w = beta |w|, w = v_ij . x_ij / r: the speed at which two particles
+   see each other. Price 2012, (105). */
 SPH_FN sph_real sph_mhd_signal_speed(sph_real fast_i, sph_real fast_j, sph_real beta_w)
 {
     return SPH_R(0.5) * (fast_i + fast_j + beta_w);

@@ -90,6 +90,10 @@ static sph_gas gas(const state *s)
     g.omega = field(s, OMEGA);
     return g;
 }
+static sph_cloud cloud(const state *s)
+{
+    return sph_cloud_of(points(s), cleaning_list(&s->lists), field(s, H), sph_scalars_none());
+}
 
 /* ---------------------------------------------------------------- clouds */
 
@@ -119,27 +123,14 @@ static void settle(state *s, double dx, double rho)
 static void settle_adaptive(state *s, double widest)
 {
     const double reach = 2 * CLEANING_ETA * widest * sph_kernel_support(s->k);
+    const sph_density_options options = {sph_scalars_same(&reach), CLEANING_ETA, 1e-12};
+    const sph_density_out out = {s->a[H], s->a[RHO], s->a[OMEGA], NULL};
     int i;
     cleaning_neighbours(&s->lists, s->dim, points(s), sph_scalars_same(&reach), reach);
     for (i = 0; i < s->n; i++) s->a[H][i] = CLEANING_ETA * widest;
-    if (s->dim == 2)
-        cleaning_expect(sph_density_adaptive(
-            SPH_CUBIC_SPLINE, 2,
-            sph_cloud_range(
-                sph_cloud_of(points(s), cleaning_list(&s->lists), sph_scalars_none(), sph_scalars_none()), 0,
-                s->n),
-            field(s, M),
-            (sph_density_options){.reach = sph_scalars_same(&reach), .eta = CLEANING_ETA, .tolerance = 1e-12},
-            (sph_density_out){.h = s->a[H], .rho = s->a[RHO], .omega = s->a[OMEGA]}));
-    else
-        cleaning_expect(sph_density_adaptive(
-            SPH_CUBIC_SPLINE, 3,
-            sph_cloud_range(
-                sph_cloud_of(points(s), cleaning_list(&s->lists), sph_scalars_none(), sph_scalars_none()), 0,
-                s->n),
-            field(s, M),
-            (sph_density_options){.reach = sph_scalars_same(&reach), .eta = CLEANING_ETA, .tolerance = 1e-12},
-            (sph_density_out){.h = s->a[H], .rho = s->a[RHO], .omega = s->a[OMEGA]}));
+    cleaning_expect(s->dim == 2
+                        ? sph_density_adaptive(SPH_CUBIC_SPLINE, 2, cloud(s), field(s, M), options, out)
+                        : sph_density_adaptive(SPH_CUBIC_SPLINE, 3, cloud(s), field(s, M), options, out));
     neighbours(s);
 }
 /* (40) about (x, y), and the uniform Bz of the disc */
@@ -204,19 +195,16 @@ static state jump(double dx, int ratio)
 
 SPH_FN sph_index rates_in(sph_kernel k, int dim, state *s)
 {
-    const sph_cloud cloud =
-        sph_cloud_of(points(s), cleaning_list(&s->lists), field(s, H), sph_scalars_none());
-    const sph_cleaning now = {.gas = gas(s),
-                              .field = vectors(s, BX),
-                              .psi = field(s, PSI),
-                              .div_v = sph_scalars_array(s->moving ? s->a[DIVV] : NULL),
-                              .ch = s->ch,
-                              .sigma = s->sigma};
-    const sph_cleaning_out out = {
-        .rate_B = vectors_out(s, RBX), .rate_psi = s->a[RPSI], .div_B = s->a[DIVB]};
-    if (s->form == DIFFERENCES) return sph_cleaning_rates_nonconservative(k, dim, cloud, now, out);
-    if (s->form == OTHER) return sph_cleaning_rates_symmetric(k, dim, cloud, now, out);
-    return sph_cleaning_rates(k, dim, cloud, now, out);
+    const sph_cleaning of = {.gas = gas(s),
+                             .field = vectors(s, BX),
+                             .psi = field(s, PSI),
+                             .div_v = s->moving ? field(s, DIVV) : sph_scalars_none(),
+                             .ch = s->ch,
+                             .sigma = s->sigma};
+    const sph_cleaning_out to = {vectors_out(s, RBX), s->a[RPSI], s->a[DIVB]};
+    if (s->form == DIFFERENCES) return sph_cleaning_rates_nonconservative(k, dim, cloud(s), of, to);
+    if (s->form == OTHER) return sph_cleaning_rates_symmetric(k, dim, cloud(s), of, to);
+    return sph_cleaning_rates(k, dim, cloud(s), of, to);
 }
 /* The sweeps fold for a constant kernel and dimension, so there is one copy for each. They find a state that is no number. */
 static void rates(state *s)
@@ -503,11 +491,8 @@ static void identities(report *r)
     s.sigma = 0;
     for (i = 0; i < s.n; i++)
         for (k = 0; k < 2; k++) s.a[SAVED + k][i] = -s.a[X + k][i];
-    cleaning_expect(sph_divergence_difference(
-        SPH_CUBIC_SPLINE, 2,
-        sph_cloud_range(sph_cloud_of(points(&s), cleaning_list(&s.lists), field(&s, H), sph_scalars_none()),
-                        0, s.n),
-        gas(&s), vectors(&s, SAVED), s.a[DIVV]));
+    cleaning_expect(
+        sph_divergence_difference(SPH_CUBIC_SPLINE, 2, cloud(&s), gas(&s), vectors(&s, SAVED), s.a[DIVV]));
     for (s.moving = 0; s.moving < 2; s.moving++) {
         double rate = 0, size = 0;
         rates(&s);
@@ -800,15 +785,15 @@ static void resistivity(report *r)
         double *const B = s.a[along == 0 ? BX : BY], *const change = s.a[along == 0 ? RBX : RBY],
                       amplitude = 0, dt;
         sph_mhd m = {0};
-        sph_mhd_out out = {0};
+        const sph_cloud same_h =
+            sph_cloud_of(points(&s), cleaning_list(&s.lists), sph_scalars_same(s.a[H]), sph_scalars_none());
+        const sph_mhd_out out = {.acceleration = vectors_out(&s, SAVED), .rate_B = vectors_out(&s, RBX)};
         m.gas = gas(&s);
         m.p = m.u = m.cs = sph_scalars_same(&one);
         m.alpha = m.v.x = m.v.y = sph_scalars_same(&nought);
         m.field = vectors(&s, BX);
         m.alpha_B = sph_scalars_same(&one);
         m.beta = 1;
-        out.acceleration = vectors_out(&s, SAVED);
-        out.rate_B = vectors_out(&s, RBX);
         eta = 0.75 * mean_r * s.a[H][0];
         lattice = 0;
         for (p = s.lists.start[0]; p < s.lists.start[1]; p++) {
@@ -823,22 +808,12 @@ static void resistivity(report *r)
         dt = 1 / (lattice * STEPS);
         for (i = 0; i < s.n; i++) B[i] = 1e-4 * sin(k * s.a[X][i]);
         for (step = 0; step < STEPS; step++) { /* midpoint rule, to 1/e */
-            cleaning_expect(
-                sph_mhd_rates(SPH_CUBIC_SPLINE, 2,
-                              sph_cloud_range(sph_cloud_of(points(&s), cleaning_list(&s.lists),
-                                                           sph_scalars_same(s.a[H]), sph_scalars_none()),
-                                              0, s.n),
-                              m, out));
+            cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 2, same_h, m, out));
             for (i = 0; i < s.n; i++) {
                 s.a[MEAN][i] = B[i];
                 B[i] += 0.5 * dt * change[i];
             }
-            cleaning_expect(
-                sph_mhd_rates(SPH_CUBIC_SPLINE, 2,
-                              sph_cloud_range(sph_cloud_of(points(&s), cleaning_list(&s.lists),
-                                                           sph_scalars_same(s.a[H]), sph_scalars_none()),
-                                              0, s.n),
-                              m, out));
+            cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 2, same_h, m, out));
             for (i = 0; i < s.n; i++) B[i] = s.a[MEAN][i] + dt * change[i];
         }
         for (i = 0; i < s.n; i++) amplitude += 2e4 * B[i] * sin(k * s.a[X][i]) / s.n;

@@ -59,6 +59,10 @@ static void neighbours(drop *d)
     }
 }
 
+static sph_cloud cloud(const drop *d)
+{
+    return sph_cloud_of(points(d), cleaning_list(&d->lists), sph_scalars_same(&h), sph_scalars_none());
+}
 /* (27), (39): accelerations by the pressure in P; artificial viscosity where wanted */
 SPH_FN sph_index accelerate_by(int viscosity, drop *d)
 {
@@ -74,11 +78,8 @@ SPH_FN sph_index accelerate_by(int viscosity, drop *d)
                  ? 2 * d->alpha
                  : 2; /* of 1992: beside alpha; of 1997: within alpha v_sig */
     f.eta = 0.1;
-    return sph_fluid_rates_monaghan(SPH_CUBIC_SPLINE, 2,
-                                    sph_cloud_range(sph_cloud_of(points(d), cleaning_list(&d->lists),
-                                                                 sph_scalars_same(&h), sph_scalars_none()),
-                                                    0, d->n),
-                                    f, sph_vector_out_separate(d->a[AX], d->a[AY], NULL), NULL, NULL);
+    return sph_fluid_rates_monaghan(SPH_CUBIC_SPLINE, 2, cloud(d), f,
+                                    sph_vector_out_separate(d->a[AX], d->a[AY], NULL), NULL, NULL);
 }
 /* The sweep folds for a constant viscosity, too. */
 static void accelerate(drop *d, int viscosity)
@@ -89,11 +90,10 @@ static void accelerate(drop *d, int viscosity)
 }
 static void forces(drop *d)
 {
+    const sph_tait water = {.rho0 = rho0, .c = cs, .gamma = 7};
     int i;
     neighbours(d);
-    for (i = 0; i < d->n; i++)
-        d->a[P][i] =
-            sph_pressure_tait(d->a[RHO][i], (sph_tait){.rho0 = rho0, .c = cs, .gamma = 7}) + d->a[PSI][i];
+    for (i = 0; i < d->n; i++) d->a[P][i] = sph_pressure_tait(d->a[RHO][i], water) + d->a[PSI][i];
     accelerate(d, d->alpha > 0 ? d->viscosity : (int)SPH_VISCOSITY_NONE);
     for (i = 0; i < d->n; i++) {
         d->a[AX][i] -= w * w * d->a[X][i];
@@ -109,11 +109,7 @@ static void divergence(drop *d)
     g.rho = field(d, RHO);
     g.omega = sph_scalars_same(&one);
     neighbours(d);
-    well(d, sph_divergence_difference(SPH_CUBIC_SPLINE, 2,
-                                      sph_cloud_range(sph_cloud_of(points(d), cleaning_list(&d->lists),
-                                                                   sph_scalars_same(&h), sph_scalars_none()),
-                                                      0, d->n),
-                                      g, velocities(d), d->a[DIVV]));
+    well(d, sph_divergence_difference(SPH_CUBIC_SPLINE, 2, cloud(d), g, velocities(d), d->a[DIVV]));
 }
 
 static drop drop_new(double alpha, int viscosity, int cleans)
@@ -153,6 +149,7 @@ static void drop_close(drop *d)
 static void advance(drop *d, double dt)
 {
     const double damping = exp(-sigma * d->ch * 0.5 * dt / h);
+    const sph_cleaning_wave undamped = {.ch = d->ch, .h = h};
     int i;
     for (i = 0; i < d->n; i++) {
         d->a[VX][i] += 0.5 * dt * d->a[AX][i];
@@ -166,9 +163,7 @@ static void advance(drop *d, double dt)
         d->a[RHO][i] += dt * rate;
         if (d->cleans)
             d->a[PSI][i] =
-                damping *
-                (damping * d->a[PSI][i] +
-                 dt * sph_cleaning_rate_velocity((sph_cleaning_wave){.ch = d->ch, .h = h}, 0, rate));
+                damping * (damping * d->a[PSI][i] + dt * sph_cleaning_rate_velocity(undamped, 0, rate));
         d->a[X][i] += 0.5 * dt * d->a[VX][i];
         d->a[Y][i] += 0.5 * dt * d->a[VY][i];
     }
@@ -224,11 +219,7 @@ static sample measure(const drop *d)
 static void sums(const drop *d, double of[3])
 {
     sph_conserved c;
-    cleaning_expect(sph_conserved_sums(
-        2,
-        sph_cloud_range(sph_cloud_of(points(d), (sph_list){0}, sph_scalars_none(), sph_scalars_none()), 0,
-                        d->n),
-        sph_scalars_same(&d->m), velocities(d), &c));
+    cleaning_expect(sph_conserved_sums(2, cloud(d), sph_scalars_same(&d->m), velocities(d), &c));
     of[0] = c.momentum.x;
     of[1] = c.momentum.y;
     of[2] = c.angular_momentum.z;
@@ -360,6 +351,7 @@ static const char *const run_name[] = {"control", "cleaned"};
 static void identities(report *r, drop *d)
 {
     double v_dv = 0, psi_dpsi = 0, size = 0, own = 0, p[2] = {0, 0}, L = 0, force = 0;
+    const sph_cleaning_wave undamped = {.ch = d->ch, .h = h};
     char text[128];
     int i;
     report_section(r,
@@ -370,7 +362,7 @@ static void identities(report *r, drop *d)
     accelerate(d, SPH_VISCOSITY_NONE);
     for (i = 0; i < d->n; i++) {
         const double rho = d->a[RHO][i], rate = -rho * d->a[DIVV][i],
-                     dpsi = sph_cleaning_rate_velocity((sph_cleaning_wave){.ch = d->ch, .h = h}, 0, rate);
+                     dpsi = sph_cleaning_rate_velocity(undamped, 0, rate);
         const double per = d->m * d->a[PSI][i] / (d->ch * d->ch * rho * rho);
         v_dv += d->m * (d->a[VX][i] * d->a[AX][i] + d->a[VY][i] * d->a[AY][i]);
         psi_dpsi += per * dpsi;

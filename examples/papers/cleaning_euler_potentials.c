@@ -92,6 +92,11 @@ static sph_points points(const cylinder *c)
 {
     return sph_points_periodic(sph_points_separate(c->n, c->a[X], c->a[Y], c->a[Z]), 0, 0, 1);
 }
+static sph_cloud cloud(const cylinder *c)
+{
+    return sph_cloud_of(points(c), cleaning_list(&c->lists), sph_scalars_same(&c->h),
+                        sph_scalars_same(&c->V));
+}
 static sph_vectors vectors(const cylinder *c, int first)
 {
     return sph_vectors_separate(c->a[first], c->a[first + 1], c->a[first + 2]);
@@ -128,11 +133,7 @@ static void induction(cylinder *c)
     s.field = vectors(c, BX);
     out.acceleration = vectors_out(c, AX);
     out.rate_B = vectors_out(c, RBX);
-    cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 3,
-                                  sph_cloud_range(sph_cloud_of(points(c), cleaning_list(&c->lists),
-                                                               sph_scalars_same(&c->h), sph_scalars_none()),
-                                                  0, c->n),
-                                  s, out));
+    cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 3, cloud(c), s, out));
 }
 static void step(cylinder *c, double turn, double change) /* midpoint rule */
 {
@@ -159,22 +160,16 @@ static const char *const way_name[WAYS] = {"Euler potentials", "induction equati
 
 static match compare(cylinder *c, int way, double turn)
 {
-    const sph_scalars h = sph_scalars_same(&c->h), V = sph_scalars_same(&c->V);
+    const sph_derivative_out of_alpha = {.gx = c->a[GX], .gy = c->a[GY], .gz = c->a[GZ]},
+                             of_beta = {.gx = c->a[QX], .gy = c->a[QY], .gz = c->a[QZ]};
     double product = 0, square = 0, apart = 0;
     match m;
     int i;
     turn_to(c, turn);
     if (way == POTENTIALS) {
-        cleaning_expect(sph_gradient_cspm(
-            SPH_CUBIC_SPLINE, 3,
-            sph_cloud_range(sph_cloud_of(points(c), cleaning_list(&c->lists), h, V), 0, c->n),
-            sph_scalars_array(c->a[ALPHA]),
-            (sph_derivative_out){.gx = c->a[GX], .gy = c->a[GY], .gz = c->a[GZ]}));
-        cleaning_expect(sph_gradient_cspm(
-            SPH_CUBIC_SPLINE, 3,
-            sph_cloud_range(sph_cloud_of(points(c), cleaning_list(&c->lists), h, V), 0, c->n),
-            sph_scalars_array(c->a[BETA]),
-            (sph_derivative_out){.gx = c->a[QX], .gy = c->a[QY], .gz = c->a[QZ]}));
+        const sph_scalars alpha = sph_scalars_array(c->a[ALPHA]), beta = sph_scalars_array(c->a[BETA]);
+        cleaning_expect(sph_gradient_cspm(SPH_CUBIC_SPLINE, 3, cloud(c), alpha, of_alpha));
+        cleaning_expect(sph_gradient_cspm(SPH_CUBIC_SPLINE, 3, cloud(c), beta, of_beta));
     }
     for (i = 0; i < c->n; i++) {
         const double x = c->a[X][i], y = c->a[Y][i], r = hypot(x, y),

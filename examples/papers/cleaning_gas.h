@@ -113,6 +113,12 @@ static inline sph_gas gas_densities(const gas *g)
     s.omega = gas_field(g, OMEGA);
     return s;
 }
+/* the targets are the particles before `last` */
+static inline sph_cloud gas_cloud(const gas *g, sph_index last)
+{
+    return sph_cloud_range(
+        sph_cloud_of(gas_points(g), cleaning_list(&g->lists), gas_field(g, H), sph_scalars_none()), 0, last);
+}
 /* of the vector whose first component is array number `first` */
 static inline double gas_square(const gas *g, int first, sph_index i)
 {
@@ -142,14 +148,9 @@ static inline void gas_lists(gas *g)
 }
 SPH_FN sph_index gas_density_in(int dim, gas *g, sph_index last)
 {
-    return sph_density_adaptive(
-        SPH_CUBIC_SPLINE, dim,
-        sph_cloud_range(
-            sph_cloud_of(gas_points(g), cleaning_list(&g->lists), sph_scalars_none(), sph_scalars_none()), 0,
-            last),
-        gas_field(g, M),
-        (sph_density_options){.reach = gas_field(g, REACH), .eta = CLEANING_ETA, .tolerance = 1e-4},
-        (sph_density_out){.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status});
+    const sph_density_options options = {gas_field(g, REACH), CLEANING_ETA, 1e-4};
+    const sph_density_out out = {g->a[H], g->a[RHO], g->a[OMEGA], g->status};
+    return sph_density_adaptive(SPH_CUBIC_SPLINE, dim, gas_cloud(g, last), gas_field(g, M), options, out);
 }
 /* (4), (5) for the particles before `last` */
 static inline void gas_density(gas *g, sph_index last)
@@ -171,8 +172,7 @@ static inline void gas_density(gas *g, sph_index last)
 }
 SPH_FN sph_index gas_rates_in(int dim, gas *g)
 {
-    const sph_points x = gas_points(g);
-    const sph_list l = cleaning_list(&g->lists);
+    const sph_cloud cloud = gas_cloud(g, g->free);
     const int other = g->cleans && g->form == DIFFERENCES;
     sph_mhd s;
     sph_mhd_out out;
@@ -199,22 +199,18 @@ SPH_FN sph_index gas_rates_in(int dim, gas *g)
     out.div_B = g->a[DIV_B];
     out.div_v = g->a[DIV_V];
     out.v_sig = g->a[SPEED];
-    failed = sph_mhd_rates(
-        SPH_CUBIC_SPLINE, dim,
-        sph_cloud_range(sph_cloud_of(x, l, gas_field(g, H), sph_scalars_none()), 0, g->free), s, out);
+    failed = sph_mhd_rates(SPH_CUBIC_SPLINE, dim, cloud, s, out);
     if (failed == 0 && other) { /* its rates of B in the place of those of x, which come last */
+        const sph_cleaning of = {.gas = s.gas,
+                                 .field = gas_vectors(g, BX, dim),
+                                 .psi = gas_field(g, PSI),
+                                 .div_v = gas_field(g, DIV_V),
+                                 .ch = g->ch,
+                                 .sigma = g->sigma};
+        const sph_cleaning_out to = {gas_out(g->rate + X), g->rate[PSI], NULL};
         sph_index i;
         int k;
-        failed = sph_cleaning_rates_nonconservative(
-            SPH_CUBIC_SPLINE, dim,
-            sph_cloud_range(sph_cloud_of(x, l, gas_field(g, H), sph_scalars_none()), 0, g->free),
-            (sph_cleaning){.gas = s.gas,
-                           .field = gas_vectors(g, BX, dim),
-                           .psi = gas_field(g, PSI),
-                           .div_v = gas_field(g, DIV_V),
-                           .ch = g->ch,
-                           .sigma = g->sigma},
-            (sph_cleaning_out){.rate_B = gas_out(g->rate + X), .rate_psi = g->rate[PSI]});
+        failed = sph_cleaning_rates_nonconservative(SPH_CUBIC_SPLINE, dim, cloud, of, to);
         for (k = 0; k < dim; k++)
             for (i = 0; i < g->free; i++) g->rate[BX + k][i] += g->rate[X + k][i];
     }
@@ -239,10 +235,9 @@ static inline void gas_rates(gas *g, int renew)
     gas_well(g, g->dim == 2 ? gas_rates_in(2, g) : gas_rates_in(3, g));
     g->left = 0;
     for (i = 0; i < g->free; i++) {
+        const sph_switch alpha = {g->a[ALPHA][i], g->alpha[0], g->alpha[1]};
         for (k = 0; k < g->dim; k++) g->rate[X + k][i] = g->a[VX + k][i];
-        g->rate[ALPHA][i] = sph_viscosity_switch_rate(
-            (sph_switch){.alpha = g->a[ALPHA][i], .least = g->alpha[0], .most = g->alpha[1]}, g->a[SPEED][i],
-            g->a[H][i], g->a[DIV_V][i]);
+        g->rate[ALPHA][i] = sph_viscosity_switch_rate(alpha, g->a[SPEED][i], g->a[H][i], g->a[DIV_V][i]);
         if (g->cleans && g->still) {
             const double term = 0.5 * g->a[PSI][i] * g->a[DIV_V][i];
             g->rate[PSI][i] += term;

@@ -163,7 +163,6 @@ static sph_cloud cloud_of(const gas *g)
 {
     return sph_cloud_of(points(g), list(g), field(g, H), field(g, VOLUME));
 }
-
 static sph_gas densities(const gas *g)
 {
     sph_gas s;
@@ -242,11 +241,11 @@ static void gas_lists(gas *g)
 
 static sph_index density_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
+    const sph_density_options options = {field(g, REACH), 1.2, TOLERANCE};
+    const sph_density_out out = {g->a[H], g->a[RHO], g->a[OMEGA], g->status};
     (void)c;
-    return sph_density_adaptive(
-        KERNEL, 2, sph_cloud_range(cloud_of(g), first, last), sph_scalars_same(&g->m),
-        (sph_density_options){.reach = field(g, REACH), .eta = 1.2, .tolerance = TOLERANCE},
-        (sph_density_out){.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status});
+    return sph_density_adaptive(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last), sph_scalars_same(&g->m),
+                                options, out);
 }
 static void gas_density(gas *g, double t)
 {
@@ -270,9 +269,9 @@ static void gas_density(gas *g, double t)
 
 static sph_index gradient_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
+    const sph_derivative_out out = {.gx = g->a[SCRATCH_X], .gy = g->a[SCRATCH_Y]};
     (void)c;
-    return sph_gradient_cspm(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last), field(g, POTENTIAL),
-                             (sph_derivative_out){.gx = g->a[SCRATCH_X], .gy = g->a[SCRATCH_Y]});
+    return sph_gradient_cspm(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last), field(g, POTENTIAL), out);
 }
 /* B = grad A x e_z by the gradient that is exact for linear fields */
 static void euler_field(gas *g, const plan *c)
@@ -304,10 +303,11 @@ static sph_index diffusion_sweep(gas *g, const plan *c, sph_index first, sph_ind
                          w = ((g->a[VX][i] - g->a[VX][j]) * dx + (g->a[VY][i] - g->a[VY][j]) * dy) / r;
             const double G = 0.5 * (sph_kernel_f(KERNEL, 2, r, g->a[H][i]) / g->a[OMEGA][i] +
                                     sph_kernel_f(KERNEL, 2, r, g->a[H][j]) / g->a[OMEGA][j]);
-            const double v_sig = sph_mhd_signal_speed(
-                sph_mhd_fast_speed(g->a[CS][i], B_i, g->a[RHO][i], (B_i.x * dx + B_i.y * dy) / r),
-                sph_mhd_fast_speed(g->a[CS][j], B_j, g->a[RHO][j], (B_j.x * dx + B_j.y * dy) / r),
-                2 * SPHI_ABS(w));
+            const double fast_i = sph_mhd_fast_speed(g->a[CS][i], B_i, g->a[RHO][i],
+                                                     (B_i.x * dx + B_i.y * dy) / r),
+                         fast_j = sph_mhd_fast_speed(g->a[CS][j], B_j, g->a[RHO][j],
+                                                     (B_j.x * dx + B_j.y * dy) / r),
+                         v_sig = sph_mhd_signal_speed(fast_i, fast_j, 2 * fabs(w));
             sum += v_sig / (0.5 * (g->a[RHO][i] + g->a[RHO][j])) * (g->a[POTENTIAL][i] - g->a[POTENTIAL][j]) *
                    G * r;
         }
@@ -328,18 +328,20 @@ static sph_index rates_sweep(gas *g, const plan *c, sph_index first, sph_index l
     return sph_mhd_rates(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last),
                          magnetised(g, c, c->cleans == CONJUGATE), out);
 }
+/* cleaning alone: without div v */
+static sph_cleaning cleaned(const gas *g, double sigma)
+{
+    const sph_cleaning s = {
+        .gas = densities(g), .field = vectors(g, BX), .psi = field(g, PSI), .ch = g->ch, .sigma = sigma};
+    return s;
+}
 static sph_index nonconservative_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
-    return sph_cleaning_rates_nonconservative(
-        KERNEL, 2, sph_cloud_range(cloud_of(g), first, last),
-        (sph_cleaning){.gas = densities(g),
-                       .field = vectors(g, BX),
-                       .psi = field(g, PSI),
-                       .div_v = field(g, DIV_V),
-                       .ch = g->ch,
-                       .sigma = c->sigma},
-        (sph_cleaning_out){.rate_B = sph_vector_out_separate(g->a[SCRATCH_X], g->a[SCRATCH_Y], NULL),
-                           .rate_psi = g->rate[PSI]});
+    const sph_cleaning_out out = {.rate_B = sph_vector_out_separate(g->a[SCRATCH_X], g->a[SCRATCH_Y], NULL),
+                                  .rate_psi = g->rate[PSI]};
+    sph_cleaning s = cleaned(g, c->sigma);
+    s.div_v = field(g, DIV_V);
+    return sph_cleaning_rates_nonconservative(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last), s, out);
 }
 
 /* what follows from u, rho and B */
@@ -373,10 +375,10 @@ static void gas_rates(gas *g, const plan *c, double t)
             g->rate[BY][i] += g->a[SCRATCH_Y][i];
         }
     }
-    for (i = 0; i < g->n; i++)
-        g->rate[ALPHA][i] =
-            sph_viscosity_switch_rate((sph_switch){.alpha = g->a[ALPHA][i], .least = 0.1, .most = 2},
-                                      g->a[SPEED][i], g->a[H][i], g->a[DIV_V][i]);
+    for (i = 0; i < g->n; i++) {
+        const sph_switch alpha = {g->a[ALPHA][i], 0.1, 2};
+        g->rate[ALPHA][i] = sph_viscosity_switch_rate(alpha, g->a[SPEED][i], g->a[H][i], g->a[DIV_V][i]);
+    }
     g->cpu[RATES] += (double)(clock() - mark) / CLOCKS_PER_SEC;
 }
 
@@ -535,6 +537,8 @@ static void add(double term, double *sum, double *size)
 /* The gas needs a psi that is not 0: the run's own, or random numbers. Leaves the gas as it was. */
 static balance gas_balance(gas *g, const plan *c, double t)
 {
+    const sph_cleaning_out to = {.rate_B = sph_vector_out_separate(g->rate[BX], g->rate[BY], NULL),
+                                 .rate_psi = g->rate[PSI]};
     sph_mhd_out out;
     balance b;
     const double ch = g->ch;
@@ -548,18 +552,7 @@ static balance gas_balance(gas *g, const plan *c, double t)
         pcg32_seed(&random, 1, 1);
         for (i = 0; i < g->n; i++) g->a[PSI][i] = 0.01 * g->ch * (2 * pcg32_uniform(&random) - 1);
     }
-#define CLEAN(damping) \
-    expect(sph_cleaning_rates( \
-               KERNEL, 2, cloud_of(g), \
-               (sph_cleaning){.gas = densities(g), \
-                              .field = vectors(g, BX), \
-                              .psi = field(g, PSI), \
-                              .ch = g->ch, \
-                              .sigma = damping}, \
-               (sph_cleaning_out){.rate_B = sph_vector_out_separate(g->rate[BX], g->rate[BY], NULL), \
-                                  .rate_psi = g->rate[PSI]}), \
-           "sph_cleaning_rates")
-    CLEAN(0);
+    expect(sph_cleaning_rates(KERNEL, 2, cloud_of(g), cleaned(g, 0), to), "sph_cleaning_rates");
     for (i = 0, sum = size = 0; i < g->n; i++) {
         const double V = g->m / g->a[RHO][i];
         add(V * (g->a[BX][i] * g->rate[BX][i] + g->a[BY][i] * g->rate[BY][i]), &sum, &size);
@@ -567,7 +560,7 @@ static balance gas_balance(gas *g, const plan *c, double t)
     }
     b.cleaning = fabs(sum) / size;
     undamped = sum;
-    CLEAN(c->sigma);
+    expect(sph_cleaning_rates(KERNEL, 2, cloud_of(g), cleaned(g, c->sigma), to), "sph_cleaning_rates");
     for (i = 0, sum = -undamped, size = 0; i < g->n; i++) {
         const double V = g->m / g->a[RHO][i];
         add(V * (g->a[BX][i] * g->rate[BX][i] + g->a[BY][i] * g->rate[BY][i]), &sum, &size);
@@ -575,12 +568,11 @@ static balance gas_balance(gas *g, const plan *c, double t)
         add(V * g->a[PSI][i] * g->a[PSI][i] * c->sigma / (g->ch * g->a[H][i]), &sum, &size);
     }
     b.damping = fabs(sum) / size;
-#undef CLEAN
     { /* all of it without (9), which takes momentum and does work */
         sph_mhd s = magnetised(g, c, 1);
         s.tensile = 0;
         out.acceleration = sph_vector_out_separate(g->rate[VX], g->rate[VY], NULL);
-        out.rate_B = sph_vector_out_separate(g->rate[BX], g->rate[BY], NULL);
+        out.rate_B = to.rate_B;
         out.rate_u = g->rate[U];
         out.rate_psi = g->rate[PSI];
         out.div_B = g->a[DIV_B];

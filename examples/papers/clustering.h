@@ -222,11 +222,6 @@ static const char *const flow_remedy_name[FLOW_REMEDIES] = {"none", "sequential"
 
 typedef enum flow_answer { FLOW_DONE, FLOW_INTERRUPTED, FLOW_BLEW_UP } flow_answer;
 
-/* p = p0 + c^2 (rho - rho0), (2.4) with gamma = 1 */
-typedef struct flow_state {
-    double rho0, c, p0;
-} flow_state;
-
 enum { FLOW_PHASES = 4 };
 
 typedef struct flow flow;
@@ -237,8 +232,8 @@ struct flow {
     double dref, h, dt, t;
     double box_x, box_y; /* periodic lengths; 0: open; see FLOW_PERIODIC */
     double gravity_x, gravity_y;
-    flow_state state[FLOW_PHASES];
-    int form;            /* a flow_form: the summation density */
+    sph_tait state[FLOW_PHASES]; /* p = p0 + c^2 (rho - rho0), (2.4) with gamma = 1 */
+    int form;                    /* a flow_form: the summation density */
     int rate_after_kick; /* 1: the rate of density by the new velocities, at the cost of a sweep; 0: by the old ones */
     int ghosts_evolve; /* 1: density and pressure of ghosts as those of the fluid; 0: they keep what they have */
     double alpha, eta;      /* of Monaghan's artificial viscosity: 0.1, 0.1 */
@@ -278,7 +273,9 @@ struct flow {
 
 static inline void flow_open(flow *f, const char *name, sph_kernel kernel, double dref, double h)
 {
+    int phase;
     memset(f, 0, sizeof *f);
+    for (phase = 0; phase < FLOW_PHASES; phase++) f->state[phase].gamma = 1;
     f->name = name;
     f->kernel = kernel;
     f->dref = dref;
@@ -349,11 +346,6 @@ static inline sph_points flow_points(const flow *f)
     return sph_points_periodic(sph_points_separate(f->n, f->x, f->y, NULL), FLOW_PERIODIC > 0 ? f->box_x : 0,
                                FLOW_PERIODIC > 1 ? f->box_y : 0, 0);
 }
-/* the targets 0 ... last - 1 */
-static inline sph_cloud flow_cloud(const flow *f, sph_list list, sph_scalars h, sph_index last)
-{
-    return sph_cloud_range(sph_cloud_of(flow_points(f), list, h, sph_scalars_none()), 0, last);
-}
 static inline sph_vectors flow_velocities(const flow *f) { return sph_vectors_separate(f->vx, f->vy, NULL); }
 static inline sph_vector_out flow_accelerations(const flow *f)
 {
@@ -403,6 +395,18 @@ static inline void flow_neighbours(flow *f)
     f->rebuilds++;
 }
 
+/* the targets: all particles; the fluid; those that have an acceleration and a rate of density */
+static inline sph_cloud flow_cloud(const flow *f)
+{
+    return sph_cloud_of(flow_points(f), neighbours_list(&f->all), sph_scalars_same(&f->h),
+                        sph_scalars_none());
+}
+static inline sph_cloud flow_fluid(const flow *f) { return sph_cloud_range(flow_cloud(f), 0, f->n_fluid); }
+static inline sph_cloud flow_moving(const flow *f)
+{
+    return sph_cloud_range(flow_cloud(f), 0, flow_moved(f));
+}
+
 /* ---------------------------------------------------------------- accelerations */
 
 /* The paper's three kernels and the Wendland C2 of two dimensions as constants, which fold; one copy for all others, which asks at each pair. SPH_SWITCH_KERNEL would make a copy for every kernel that there is, at the cost of compile time. */
@@ -416,48 +420,37 @@ static inline void flow_neighbours(flow *f)
     default: CALL(k); \
     }
 /* clang-format on */
-SPH_FN sph_index flow_density_by(sph_kernel k, const flow *f, sph_scalars h)
+SPH_FN sph_index flow_density_by(sph_kernel k, const flow *f)
 {
     const sph_scalars m = sph_scalars_array(f->m);
-    return f->form == FLOW_SUMMATION
-               ? sph_density_summation(k, 2, flow_cloud(f, neighbours_list(&f->all), h, f->n_fluid), m,
-                                       f->rho)
-               : sph_density_number(k, 2, flow_cloud(f, neighbours_list(&f->all), h, f->n_fluid), m, f->rho);
+    return f->form == FLOW_SUMMATION ? sph_density_summation(k, 2, flow_fluid(f), m, f->rho)
+                                     : sph_density_number(k, 2, flow_fluid(f), m, f->rho);
 }
-SPH_FN sph_index flow_rates_by(sph_kernel k, const flow *f, sph_scalars h, sph_fluid s)
+SPH_FN sph_index flow_rates_by(sph_kernel k, const flow *f, sph_fluid s)
 {
-    const sph_list l = neighbours_list(&f->all);
     const sph_vector_out a = flow_accelerations(f);
-    if (f->form == FLOW_SUMMATION)
-        return sph_fluid_rates_monaghan(k, 2, flow_cloud(f, l, h, f->n_fluid), s, a, NULL, NULL);
-    if (f->form == FLOW_CONTINUITY && f->rate_after_kick)
-        return sph_fluid_rates_colagrossi(k, 2, flow_cloud(f, l, h, flow_moved(f)), s, a, NULL, NULL);
-    if (f->form == FLOW_CONTINUITY)
-        return sph_fluid_rates_colagrossi(k, 2, flow_cloud(f, l, h, flow_moved(f)), s, a, f->rate, NULL);
-    return sph_fluid_rates_hu_adams(k, 2, flow_cloud(f, l, h, f->n_fluid), s, a, NULL, NULL);
+    double *const rate = f->rate_after_kick ? NULL : f->rate;
+    if (f->form == FLOW_SUMMATION) return sph_fluid_rates_monaghan(k, 2, flow_fluid(f), s, a, NULL, NULL);
+    if (f->form == FLOW_CONTINUITY) return sph_fluid_rates_colagrossi(k, 2, flow_moving(f), s, a, rate, NULL);
+    return sph_fluid_rates_hu_adams(k, 2, flow_fluid(f), s, a, NULL, NULL);
 }
-SPH_FN sph_index flow_divergence_by(sph_kernel k, const flow *f, sph_scalars h)
+SPH_FN sph_index flow_divergence_by(sph_kernel k, const flow *f)
 {
     const double one = 1;
     sph_gas g;
     g.m = sph_scalars_array(f->volume);
     g.rho = g.omega = sph_scalars_same(&one);
-    return sph_divergence_difference(k, 2, flow_cloud(f, neighbours_list(&f->all), h, flow_moved(f)), g,
-                                     flow_velocities(f), f->rate);
+    return sph_divergence_difference(k, 2, flow_moving(f), g, flow_velocities(f), f->rate);
 }
 
 static inline sph_index flow_density(flow *f)
 {
-    const double length = f->h;
-    const sph_scalars h = sph_scalars_same(&length);
-#define FLOW_DENSITY(K) return flow_density_by(K, f, h)
+#define FLOW_DENSITY(K) return flow_density_by(K, f)
     FLOW_SWITCH_KERNEL(f->kernel, FLOW_DENSITY)
 #undef FLOW_DENSITY
 }
 static inline sph_index flow_rates(flow *f)
 {
-    const double length = f->h;
-    const sph_scalars h = sph_scalars_same(&length);
     sph_fluid s;
     s.m = sph_scalars_array(f->m);
     s.rho = sph_scalars_array(f->rho);
@@ -468,7 +461,7 @@ static inline sph_index flow_rates(flow *f)
     s.alpha = f->alpha;
     s.beta = 0;
     s.eta = f->eta;
-#define FLOW_RATES(K) return flow_rates_by(K, f, h, s)
+#define FLOW_RATES(K) return flow_rates_by(K, f, s)
     FLOW_SWITCH_KERNEL(f->kernel, FLOW_RATES)
 #undef FLOW_RATES
 }
@@ -476,11 +469,9 @@ static inline sph_index flow_rates(flow *f)
 /* div v with the volumes m / rho of all particles */
 static inline sph_index flow_divergence(flow *f)
 {
-    const double length = f->h;
-    const sph_scalars h = sph_scalars_same(&length);
     int i;
     for (i = 0; i < f->n; i++) f->volume[i] = f->m[i] / f->rho[i];
-#define FLOW_DIVERGENCE(K) return flow_divergence_by(K, f, h)
+#define FLOW_DIVERGENCE(K) return flow_divergence_by(K, f)
     FLOW_SWITCH_KERNEL(f->kernel, FLOW_DIVERGENCE)
 #undef FLOW_DIVERGENCE
 }
@@ -495,11 +486,7 @@ static inline void flow_continuity(flow *f)
 static inline void flow_pressure(flow *f)
 {
     int i;
-    for (i = 0; i < flow_moved(f); i++) {
-        const flow_state *s = &f->state[f->phase[i]];
-        f->p[i] =
-            sph_pressure_tait(f->rho[i], (sph_tait){.rho0 = s->rho0, .c = s->c, .gamma = 1, .p0 = s->p0});
-    }
+    for (i = 0; i < flow_moved(f); i++) f->p[i] = sph_pressure_tait(f->rho[i], f->state[f->phase[i]]);
 }
 
 /* ---------------------------------------------------------------- collisions */
@@ -515,36 +502,27 @@ static inline double flow_kinetic_energy(const flow *f)
 /* ax, ay are free at this time: they hold the changes of velocity */
 static inline void flow_collide(flow *f)
 {
-    const sph_list l = neighbours_list(&f->colliding);
-    const sph_scalars w = sph_scalars_array(f->inverse_mass);
-    const double distance = f->distance * f->dref;
+    const sph_cloud fluid = sph_cloud_range(
+        sph_cloud_of(flow_points(f), neighbours_list(&f->colliding), sph_scalars_none(), sph_scalars_none()),
+        0, f->n_fluid);
+    const sph_collision c = {f->distance * f->dref, f->restitution, sph_scalars_array(f->inverse_mass)};
+    const sph_vectors v = flow_velocities(f);
     double before, after;
     int i;
     if (f->remedy == FLOW_NO_COLLISIONS) return;
     if (f->remedy == FLOW_SEQUENTIAL) {
         sph_collision_report r;
-        clustering_expect(sph_collide_sequential(
-            2, flow_cloud(f, l, sph_scalars_none(), f->n_fluid),
-            (sph_collision){.distance = distance, .inverse_mass = w, .restitution = f->restitution},
-            sph_vector_out_separate(f->vx, f->vy, NULL), &r));
+        clustering_expect(
+            sph_collide_sequential(2, fluid, c, sph_vector_out_separate(f->vx, f->vy, NULL), &r));
         f->collisions += r.collisions;
         f->coincident += r.coincident;
         f->collision_energy += r.energy;
         return;
     }
     if (f->remedy == FLOW_WEIGHTED) {
-        clustering_expect(sph_collision_count(2, flow_cloud(f, l, sph_scalars_none(), f->n_fluid),
-                                              (sph_collision){.distance = distance, .inverse_mass = w},
-                                              flow_velocities(f), f->count));
-        clustering_expect(sph_collision_change_weighted(
-            2, flow_cloud(f, l, sph_scalars_none(), f->n_fluid),
-            (sph_collision){.distance = distance, .inverse_mass = w, .restitution = f->restitution},
-            flow_velocities(f), f->count, flow_accelerations(f)));
-    } else
-        clustering_expect(sph_collision_change_literal(
-            2, flow_cloud(f, l, sph_scalars_none(), f->n_fluid),
-            (sph_collision){.distance = distance, .inverse_mass = w, .restitution = f->restitution},
-            flow_velocities(f), flow_accelerations(f)));
+        clustering_expect(sph_collision_count(2, fluid, c, v, f->count));
+        clustering_expect(sph_collision_change_weighted(2, fluid, c, v, f->count, flow_accelerations(f)));
+    } else clustering_expect(sph_collision_change_literal(2, fluid, c, v, flow_accelerations(f)));
     before = flow_kinetic_energy(f);
     for (i = 0; i < f->n_fluid; i++) {
         f->vx[i] += f->ax[i];
@@ -667,12 +645,7 @@ static inline double flow_microseconds(const flow *f)
 
 static inline void flow_conserved(const flow *f, sph_conserved *c)
 {
-    sph_points x = flow_points(f);
-    clustering_expect(sph_conserved_sums(
-        2,
-        sph_cloud_range(sph_cloud_of(x, (sph_list){0}, sph_scalars_none(), sph_scalars_none()), 0,
-                        f->n_fluid),
-        sph_scalars_array(f->m), flow_velocities(f), c));
+    clustering_expect(sph_conserved_sums(2, flow_fluid(f), sph_scalars_array(f->m), flow_velocities(f), c));
 }
 
 /* ================================================================ what the pictures show, in numbers */
@@ -707,16 +680,15 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
     unsigned char state[FLOW_PROBES];
     int i, row, column, counted = 0, ordered = 0;
     int64_t probes = 0, empty = 0;
+    sph_cloud fluid;
     sph_grid grid;
 
     if (!with_ghosts) x.n = f->n_fluid;
     flow_grid(f, x, reach, &grid);
     neighbours_find(2, &l, &grid, x, reach, 0);
-    clustering_expect(sph_nearest_distance(
-        2,
-        sph_cloud_range(sph_cloud_of(x, neighbours_list(&l), sph_scalars_none(), sph_scalars_none()), 0,
-                        f->n_fluid),
-        x, sph_scalar_out_array(value, status)));
+    fluid = sph_cloud_range(sph_cloud_of(x, neighbours_list(&l), sph_scalars_none(), sph_scalars_none()), 0,
+                            f->n_fluid);
+    clustering_expect(sph_nearest_distance(2, fluid, x, sph_scalar_out_array(value, status)));
     d.least = HUGE_VAL;
     for (i = 0; i < f->n_fluid; i++) {
         const double nearest = status[i] ? reach / f->dref : value[i] / f->dref;
@@ -730,10 +702,7 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
     d.mean /= counted;
     d.below_50 /= counted;
     d.below_75 /= counted;
-    clustering_expect(sph_hexatic_order(
-        sph_cloud_range(sph_cloud_of(x, neighbours_list(&l), sph_scalars_none(), sph_scalars_none()), 0,
-                        f->n_fluid),
-        sph_scalar_out_array(value, status)));
+    clustering_expect(sph_hexatic_order(fluid, sph_scalar_out_array(value, status)));
     for (i = 0; i < f->n_fluid; i++)
         if (!status[i] && (phase == FLOW_ALL || f->phase[i] == phase)) {
             d.hexatic += value[i];
@@ -756,12 +725,9 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
             {
                 const sph_points probe = sph_points_separate(count, px, py, NULL);
                 neighbours_find(2, &l, &grid, probe, reach, SPH_LIST_FOREIGN);
-                clustering_expect(
-                    sph_nearest_distance(2,
-                                         sph_cloud_range(sph_cloud_of(probe, neighbours_list(&l),
-                                                                      sph_scalars_none(), sph_scalars_none()),
-                                                         0, count),
-                                         x, sph_scalar_out_array(distance, state)));
+                clustering_expect(sph_nearest_distance(
+                    2, sph_cloud_of(probe, neighbours_list(&l), sph_scalars_none(), sph_scalars_none()), x,
+                    sph_scalar_out_array(distance, state)));
             }
             for (i = 0; i < count; i++) {
                 const double r = state[i] ? reach / f->dref : distance[i] / f->dref;
@@ -782,17 +748,15 @@ static inline void flow_radial(flow *f, double area, double reach, int bins, dou
                                double *peak)
 {
     sph_points x = flow_points(f);
+    sph_cloud fluid;
     neighbours l = {0};
     sph_grid grid;
     int b;
     x.n = f->n_fluid;
     flow_grid(f, x, reach * f->dref, &grid);
     neighbours_find(2, &l, &grid, x, reach * f->dref, 0);
-    clustering_expect(sph_radial_distribution(
-        2,
-        sph_cloud_range(sph_cloud_of(x, neighbours_list(&l), sph_scalars_none(), sph_scalars_none()), 0,
-                        f->n_fluid),
-        reach * f->dref, f->n_fluid / area, bins, g));
+    fluid = sph_cloud_of(x, neighbours_list(&l), sph_scalars_none(), sph_scalars_none());
+    clustering_expect(sph_radial_distribution(2, fluid, reach * f->dref, f->n_fluid / area, bins, g));
     *peak = *peak_at = 0;
     for (b = 0; b < bins; b++)
         if (g[b] > *peak) {

@@ -50,9 +50,8 @@ static setting usual(sph_kernel kernel, double p0, int remedy, double dt)
 /* Monaghan 2000, JCP 159, 290: R f^4 joins the pressure term, f = W(r) / W(dref); R = 0.01 (p_i / rho_i^2 + p_j / rho_j^2) where both pressures are positive, and 0.2 |p| / rho^2 of each that is not. */
 static double repulsion(double p_i, double rho_i, double p_j, double rho_j, double share)
 {
-    if (p_i > 0 && p_j > 0)
-        return share * sph_pressure_pair_monaghan((sph_fluid_side){.p = p_i, .rho = rho_i},
-                                                  (sph_fluid_side){.p = p_j, .rho = rho_j});
+    const sph_fluid_side i = {.p = p_i, .rho = rho_i}, j = {.p = p_j, .rho = rho_j};
+    if (p_i > 0 && p_j > 0) return share * sph_pressure_pair_monaghan(i, j);
     return 20 * share * ((p_i < 0 ? -p_i / (rho_i * rho_i) : 0) + (p_j < 0 ? -p_j / (rho_j * rho_j) : 0));
 }
 static void add_repulsion(flow *f)
@@ -119,13 +118,7 @@ static result simulate(const setting *s, const clustering_options *o, const char
     for (i = 0; i < n; i++) mean += f.rho[i] / n;
     for (i = 0; i < n; i++) square += (f.rho[i] - mean) * (f.rho[i] - mean) / n;
     r.noise = sqrt(square) / mean;
-    if (f.all.capacity)
-        r.coincident =
-            sph_count_coincident(2,
-                                 sph_cloud_range(sph_cloud_of(flow_points(&f), neighbours_list(&f.all),
-                                                              sph_scalars_none(), sph_scalars_none()),
-                                                 0, f.n),
-                                 1e-12 * f.h);
+    if (f.all.capacity) r.coincident = sph_count_coincident(2, flow_cloud(&f), 1e-12 * f.h);
     r.worst_gain = f.worst_gain;
     r.t = f.t;
     r.collisions = f.collisions;

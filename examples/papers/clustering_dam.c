@@ -82,7 +82,7 @@ static void fill(flow *f, const tank *b, int phases)
                 const double x = (column + 0.25 + 0.5 * (row % 2 != 0)) * f->dref, y = (row + 0.5) * dy;
                 const int inside = x > 0 && x < b->width && y > 0 && y < b->height,
                           water = x < b->water_width && y < b->water_height;
-                const flow_state *const s = &f->state[water ? WATER : AIR];
+                const sph_tait *const s = &f->state[water ? WATER : AIR];
                 if (ghosts && !inside && x > -reach && x < b->width + reach && y > -reach &&
                     y < b->height + reach)
                     flow_add_ghost(f, x, y, water ? WATER : AIR, s->rho0 * V);
@@ -91,8 +91,7 @@ static void fill(flow *f, const tank *b, int phases)
                     const double p = s->p0 + (water ? f->state[WATER].rho0 * gravity * (b->water_height - y) +
                                                           air * (b->height - b->water_height)
                                                     : air * (b->height - y));
-                    const double rho =
-                        sph_density_tait(p, (sph_tait){.rho0 = s->rho0, .c = s->c, .gamma = 1, .p0 = s->p0});
+                    const double rho = sph_density_tait(p, *s);
                     const int i = flow_add(f, x, y, water ? WATER : AIR, rho * V);
                     f->rho[i] = rho;
                 }

@@ -31,6 +31,11 @@ static sph_points points(const dam *d, double *const x[3])
 {
     return sph_points_separate(d->n, x[0], x[1], d->dim > 2 ? x[2] : NULL);
 }
+static sph_tait water_of(const dam *d)
+{
+    const sph_tait t = {.rho0 = water, .c = d->c, .gamma = 1};
+    return t;
+}
 static sph_vectors velocities(const dam *d)
 {
     return sph_vectors_separate(d->v[0], d->v[1], d->dim > 2 ? d->v[2] : NULL);
@@ -47,12 +52,14 @@ static void fill(dam *d, int dim, int resolution)
               sides = dim > 2 ? reach : 0; /* layers of 2h / dref */
     const int total = (5 * resolution + 2 * reach) * (3 * resolution + 2 * reach) * (across + 2 * sides);
     size_t k;
+    sph_tait state;
     int ghosts, i, j, l;
     memset(d, 0, sizeof *d);
     d->dim = dim;
     d->dref = column_a / resolution;
     d->h = 1.5 * d->dref;
     d->c = 10 * sqrt(2 * column_gravity * column_a);
+    state = water_of(d);
     for (k = 0; k < sizeof arrays / sizeof *arrays; k++)
         *arrays[k] = (double *)clustering_memory(NULL, (size_t)total * sizeof(double));
     d->ghost = (unsigned char *)clustering_memory(NULL, (size_t)total);
@@ -74,7 +81,7 @@ static void fill(dam *d, int dim, int resolution)
                     d->x[2][n] = (l + 0.5) * d->dref;
                     d->v[0][n] = d->v[1][n] = d->v[2][n] = 0;
                     d->p[n] = ghosts ? 0 : water * column_gravity * (2 * column_a - y);
-                    d->rho[n] = sph_density_tait(d->p[n], (sph_tait){.rho0 = water, .c = d->c, .gamma = 1});
+                    d->rho[n] = sph_density_tait(d->p[n], state);
                     d->m[n] = d->rho[n] * V;
                     d->inverse_mass[n] = ghosts ? 0 : 1 / d->m[n];
                     d->sound[n] = d->c;
@@ -118,13 +125,21 @@ SPH_FN void find_neighbours(int dim, dam *d)
 SPH_FN void step(int dim, dam *d, double dt)
 {
     static const double one = 1;
-    const sph_vector_out a = sph_vector_out_separate(d->a[0], d->a[1], dim > 2 ? d->a[2] : NULL);
+    const sph_vector_out a = sph_vector_out_separate(d->a[0], d->a[1], dim > 2 ? d->a[2] : NULL),
+                         v = sph_vector_out_separate(d->v[0], d->v[1], dim > 2 ? d->v[2] : NULL);
+    const sph_collision collision = {distance * d->dref, restitution, sph_scalars_array(d->inverse_mass)};
+    const sph_tait state = water_of(d);
+    sph_cloud fluid, colliding;
     sph_fluid s;
     sph_gas g;
     int i, k;
     find_neighbours(dim, d);
-    for (i = 0; i < d->n_fluid; i++)
-        d->p[i] = sph_pressure_tait(d->rho[i], (sph_tait){.rho0 = water, .c = d->c, .gamma = 1});
+    fluid = sph_cloud_range(
+        sph_cloud_of(points(d, d->x), neighbours_list(&d->all), sph_scalars_same(&d->h), sph_scalars_none()),
+        0, d->n_fluid);
+    colliding = fluid;
+    colliding.list = neighbours_list(&d->colliding);
+    for (i = 0; i < d->n_fluid; i++) d->p[i] = sph_pressure_tait(d->rho[i], state);
     s.m = sph_scalars_array(d->m);
     s.rho = sph_scalars_array(d->rho);
     s.p = sph_scalars_array(d->p);
@@ -134,34 +149,16 @@ SPH_FN void step(int dim, dam *d, double dt)
     s.alpha = 0.01;
     s.beta = 0;
     s.eta = 0.1;
-    clustering_expect(
-        sph_fluid_rates_colagrossi(wendland, dim,
-                                   sph_cloud_range(sph_cloud_of(points(d, d->x), neighbours_list(&d->all),
-                                                                sph_scalars_same(&d->h), sph_scalars_none()),
-                                                   0, d->n_fluid),
-                                   s, a, NULL, NULL));
+    clustering_expect(sph_fluid_rates_colagrossi(wendland, dim, fluid, s, a, NULL, NULL));
     for (i = 0; i < d->n_fluid; i++) {
         d->a[1][i] -= column_gravity;
         for (k = 0; k < dim; k++) d->v[k][i] += dt * d->a[k][i];
     }
-    clustering_expect(
-        sph_collide_sequential(dim,
-                               sph_cloud_range(sph_cloud_of(points(d, d->x), neighbours_list(&d->colliding),
-                                                            sph_scalars_none(), sph_scalars_none()),
-                                               0, d->n_fluid),
-                               (sph_collision){.distance = distance * d->dref,
-                                               .inverse_mass = sph_scalars_array(d->inverse_mass),
-                                               .restitution = restitution},
-                               sph_vector_out_separate(d->v[0], d->v[1], dim > 2 ? d->v[2] : NULL), NULL));
+    clustering_expect(sph_collide_sequential(dim, colliding, collision, v, NULL));
     for (i = 0; i < d->n; i++) d->volume[i] = d->m[i] / d->rho[i];
     g.m = sph_scalars_array(d->volume);
     g.rho = g.omega = sph_scalars_same(&one);
-    clustering_expect(
-        sph_divergence_difference(wendland, dim,
-                                  sph_cloud_range(sph_cloud_of(points(d, d->x), neighbours_list(&d->all),
-                                                               sph_scalars_same(&d->h), sph_scalars_none()),
-                                                  0, d->n_fluid),
-                                  g, velocities(d), d->divergence));
+    clustering_expect(sph_divergence_difference(wendland, dim, fluid, g, velocities(d), d->divergence));
     for (i = 0; i < d->n_fluid; i++) {
         d->rho[i] -= dt * d->rho[i] * d->divergence[i];
         for (k = 0; k < dim; k++) d->x[k][i] += dt * d->v[k][i];

@@ -162,17 +162,16 @@ typedef struct vortices {
 static double lattice_viscosity(sph_kernel k, double h, double dx, double dy)
 {
     const double wave = 2 * clustering_pi, eta = 0.1;
+    const sph_fluid_side one = {.rho = 1, .mu = 1};
     const int reach = (int)(sph_kernel_support(k) * h / dy) + 1;
     double sum = 0;
     int row, column;
     for (row = -reach; row <= reach; row++)
         for (column = -reach; column <= reach; column++) {
             const double x = (column + 0.5 * (row % 2 != 0)) * dx, y = row * dy, r = sqrt(x * x + y * y);
+            const sph_encounter pair = {.r = r, .h = h};
             if (row == 0 && column == 0) continue;
-            sum -= dx * dy *
-                   sph_viscosity_mu_pair_morris(
-                       (sph_fluid_side){.mu = 1, .rho = 1}, (sph_fluid_side){.mu = 1, .rho = 1},
-                       (sph_encounter){.r = r, .h = h}, sph_kernel_f(k, 2, r, h), eta) *
+            sum -= dx * dy * sph_viscosity_mu_pair_morris(one, one, pair, sph_kernel_f(k, 2, r, h), eta) *
                    (1 - cos(wave * x) * cos(wave * y));
         }
     return sum / (2 * wave * wave);

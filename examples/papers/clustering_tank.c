@@ -76,26 +76,18 @@ static void measure(flow *f)
 static void wall(flow *f)
 {
     tank *const t = (tank *)f->data;
-    const double length = f->h;
-    const sph_scalars h = sph_scalars_same(&length);
-    const sph_vectors none = sph_vectors_separate(NULL, NULL, NULL);
-    sph_vec g = {0, 0, 0};
+    const sph_wall wall_of = {.share = sph_scalars_array(t->share),
+                              .rho = sph_scalars_array(f->rho),
+                              .p = sph_scalars_array(f->p),
+                              .v = flow_velocities(f),
+                              .velocity = t->rest,
+                              .gravity = {0, -gravity, 0}};
+    const sph_wall_out out = {.p = f->p, .v = sph_vector_out_separate(f->vx, f->vy, NULL)};
+    const sph_tait state = {.rho0 = water, .c = sound, .gamma = 1};
     int i;
-    g.y = -gravity;
-    clustering_expect(sph_wall_adami(
-        f->kernel, 2,
-        sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all), h, sph_scalars_none()),
-                        f->n_fluid, f->n),
-        (sph_wall){.share = sph_scalars_array(t->share),
-                   .rho = sph_scalars_array(f->rho),
-                   .p = sph_scalars_array(f->p),
-                   .v = flow_velocities(f),
-                   .velocity = t->rest,
-                   .gravity = g,
-                   .normal = none},
-        (sph_wall_out){.p = f->p, .v = sph_vector_out_separate(f->vx, f->vy, NULL)}));
-    for (i = f->n_fluid; i < f->n; i++)
-        f->rho[i] = sph_density_tait(f->p[i], (sph_tait){.rho0 = water, .c = sound, .gamma = 1});
+    clustering_expect(
+        sph_wall_adami(f->kernel, 2, sph_cloud_range(flow_cloud(f), f->n_fluid, f->n), wall_of, out));
+    for (i = f->n_fluid; i < f->n; i++) f->rho[i] = sph_density_tait(f->p[i], state);
 }
 
 static tank_result simulate(sph_kernel kernel, double smoothing, double p0, int remedy, int adami,
@@ -132,7 +124,7 @@ static tank_result simulate(sph_kernel kernel, double smoothing, double p0, int 
         for (i = 0; i < columns; i++) flow_add_ghost(&f, (i + 0.5 * (-j % 2)) * dref, (j + 0.5) * step, 0, 1);
     for (i = 0; i < f.n; i++) {
         f.p[i] = p0 + exact_pressure(f.y[i]);
-        f.rho[i] = sph_density_tait(f.p[i], (sph_tait){.rho0 = water, .c = sound, .gamma = 1, .p0 = p0});
+        f.rho[i] = sph_density_tait(f.p[i], f.state[0]);
         f.m[i] = f.rho[i] * hexagonal * dref * dref;
         if (!f.ghost[i]) f.inverse_mass[i] = 1 / f.m[i];
     }

@@ -25,21 +25,13 @@ typedef struct viscous {
 
 SPH_FN sph_index viscous_walls_by(sph_kernel k, flow *f, viscous *w)
 {
-    const sph_vec nothing = {0, 0, 0};
-    const sph_vectors none = sph_vectors_separate(NULL, NULL, NULL);
-    const sph_vector_out v = sph_vector_out_separate(w->wall_vx, w->wall_vy, NULL);
-    return sph_wall_adami(k, 2,
-                          sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all),
-                                                       sph_scalars_same(&f->h), sph_scalars_none()),
-                                          f->n_fluid, f->n),
-                          (sph_wall){.share = sph_scalars_array(w->share),
-                                     .rho = sph_scalars_array(f->rho),
-                                     .p = sph_scalars_array(f->p),
-                                     .v = flow_velocities(f),
-                                     .velocity = flow_velocities(f),
-                                     .gravity = nothing,
-                                     .normal = none},
-                          (sph_wall_out){.p = w->wall_p, .v = v});
+    const sph_wall wall = {.share = sph_scalars_array(w->share),
+                           .rho = sph_scalars_array(f->rho),
+                           .p = sph_scalars_array(f->p),
+                           .v = flow_velocities(f),
+                           .velocity = flow_velocities(f)};
+    const sph_wall_out out = {.p = w->wall_p, .v = sph_vector_out_separate(w->wall_vx, w->wall_vy, NULL)};
+    return sph_wall_adami(k, 2, sph_cloud_range(flow_cloud(f), f->n_fluid, f->n), wall, out);
 }
 /* psi joins the pressure. Then pressure, and the density that belongs to it, of ghosts, and the velocity that makes the fluid stick to them; their own stays that of the wall. */
 static inline void viscous_pressures(flow *f)
@@ -54,10 +46,8 @@ static inline void viscous_pressures(flow *f)
     FLOW_SWITCH_KERNEL(f->kernel, VISCOUS_WALLS)
 #undef VISCOUS_WALLS
     for (i = f->n_fluid; i < f->n; i++) {
-        const flow_state *const s = &f->state[f->phase[i]];
         f->p[i] = w->wall_p[i];
-        f->rho[i] =
-            sph_density_tait(f->p[i], (sph_tait){.rho0 = s->rho0, .c = s->c, .gamma = 1, .p0 = s->p0});
+        f->rho[i] = sph_density_tait(f->p[i], f->state[f->phase[i]]);
     }
 }
 
@@ -65,15 +55,12 @@ static inline void viscous_pressures(flow *f)
 
 SPH_FN sph_index viscous_accelerations_by(sph_kernel k, const flow *f, const viscous *w)
 {
-    return sph_viscous_mu_morris(k, 2,
-                                 sph_cloud_range(sph_cloud_of(flow_points(f), neighbours_list(&f->all),
-                                                              sph_scalars_same(&f->h), sph_scalars_none()),
-                                                 0, f->n_fluid),
-                                 (sph_fluid){.m = sph_scalars_array(f->m),
-                                             .rho = sph_scalars_array(f->rho),
-                                             .v = sph_vectors_separate(w->vx, w->vy, NULL),
-                                             .eta = 0.1},
-                                 sph_scalars_same(&w->mu), sph_vector_out_separate(w->ax, w->ay, NULL));
+    const sph_fluid fluid = {.m = sph_scalars_array(f->m),
+                             .rho = sph_scalars_array(f->rho),
+                             .v = sph_vectors_separate(w->vx, w->vy, NULL),
+                             .eta = 0.1};
+    return sph_viscous_mu_morris(k, 2, flow_fluid(f), fluid, sph_scalars_same(&w->mu),
+                                 sph_vector_out_separate(w->ax, w->ay, NULL));
 }
 static inline void viscous_forces(flow *f)
 {
@@ -100,12 +87,12 @@ static inline void viscous_psi(flow *f)
 {
     const viscous *const w = (const viscous *)f->data;
     const double damping = exp(-0.5 * sph_cleaning_sigma(2) * w->ch * f->dt / f->h);
+    const sph_cleaning_wave undamped = {.ch = w->ch, .h = f->h};
     int i;
     if (f->form != FLOW_CONTINUITY || !f->rate_after_kick) flow_continuity(f);
     for (i = 0; i < f->n_fluid; i++)
-        w->psi[i] = damping * (damping * w->psi[i] +
-                               f->dt * sph_cleaning_rate_velocity((sph_cleaning_wave){.ch = w->ch, .h = f->h},
-                                                                  0, f->rate[i]));
+        w->psi[i] =
+            damping * (damping * w->psi[i] + f->dt * sph_cleaning_rate_velocity(undamped, 0, f->rate[i]));
 }
 
 /* ---------------------------------------------------------------- */

@@ -134,11 +134,19 @@ static inline sph_list collapse_list(const collapse *g)
     l.index = g->rows.index;
     return l;
 }
-static inline sph_cloud collapse_cloud(const collapse *g)
+static inline sph_cloud collapse_cloud(const collapse *g, sph_index first, sph_index last)
 {
-    return sph_cloud_of(collapse_points(g), collapse_list(g), collapse_field(g, H), sph_scalars_none());
+    return sph_cloud_range(
+        sph_cloud_of(collapse_points(g), collapse_list(g), collapse_field(g, H), sph_scalars_none()), first,
+        last);
 }
-
+/* for gravity, which knows of no box */
+static inline sph_cloud collapse_isolated(const collapse *g, sph_index first, sph_index last)
+{
+    sph_cloud cloud = collapse_cloud(g, first, last);
+    cloud.points = collapse_open(g);
+    return cloud;
+}
 static inline sph_gas collapse_gas(const collapse *g)
 {
     sph_gas s;
@@ -239,11 +247,10 @@ static inline int collapse_sort(collapse *g)
 
 static inline sph_index collapse_density_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_density_adaptive(
-        COLLAPSE_KERNEL, 3, sph_cloud_range(collapse_cloud(g), first, last), sph_scalars_same(&g->model.m),
-        (sph_density_options){
-            .reach = collapse_field(g, REACH), .eta = COLLAPSE_ETA, .tolerance = COLLAPSE_TOLERANCE},
-        (sph_density_out){.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status});
+    const sph_density_options options = {collapse_field(g, REACH), COLLAPSE_ETA, COLLAPSE_TOLERANCE};
+    const sph_density_out out = {g->a[H], g->a[RHO], g->a[OMEGA], g->status};
+    return sph_density_adaptive(COLLAPSE_KERNEL, 3, collapse_cloud(g, first, last),
+                                sph_scalars_same(&g->model.m), options, out);
 }
 static inline int collapse_density(collapse *g)
 {
@@ -313,32 +320,26 @@ static inline sph_index collapse_tree_sweep(collapse *g, sph_index first, sph_in
 }
 static inline sph_index collapse_direct_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_gravity_direct(COLLAPSE_KERNEL,
-                              sph_cloud_range(sph_cloud_of(collapse_open(g), (sph_list){0},
-                                                           collapse_field(g, H), sph_scalars_none()),
-                                              first, last),
+    return sph_gravity_direct(COLLAPSE_KERNEL, collapse_isolated(g, first, last),
                               sph_scalars_same(&g->model.m), 1, collapse_into(&g->a[GX]), NULL);
 }
 /* Neighbours across the edge of the box count in the density, and so in the correction; they are no neighbours for gravity, which is isolated: zeta takes the open distances. */
 static inline sph_index collapse_zeta_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_gravity_zeta(COLLAPSE_KERNEL,
-                            sph_cloud_range(sph_cloud_of(collapse_open(g), collapse_list(g),
-                                                         collapse_field(g, H), sph_scalars_none()),
-                                            first, last),
-                            sph_scalars_same(&g->model.m), collapse_field(g, RHO), g->a[ZETA]);
+    return sph_gravity_zeta(COLLAPSE_KERNEL, collapse_isolated(g, first, last), sph_scalars_same(&g->model.m),
+                            collapse_field(g, RHO), g->a[ZETA]);
 }
 static inline sph_index collapse_correction_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_gravity_correction(COLLAPSE_KERNEL, sph_cloud_range(collapse_cloud(g), first, last),
-                                  collapse_gas(g), collapse_field(g, ZETA), 1, collapse_into(&g->a[SX]));
+    return sph_gravity_correction(COLLAPSE_KERNEL, collapse_cloud(g, first, last), collapse_gas(g),
+                                  collapse_field(g, ZETA), 1, collapse_into(&g->a[SX]));
 }
 /* the curl, in the place of the rate of B that comes after it */
 static inline sph_index collapse_resistivity_sweep(collapse *g, sph_index first, sph_index last)
 {
     const sph_index failed =
-        sph_curl_difference(COLLAPSE_KERNEL, 3, sph_cloud_range(collapse_cloud(g), first, last),
-                            collapse_gas(g), collapse_vectors(g, BX), collapse_into(&g->rate[BX]));
+        sph_curl_difference(COLLAPSE_KERNEL, 3, collapse_cloud(g, first, last), collapse_gas(g),
+                            collapse_vectors(g, BX), collapse_into(&g->rate[BX]));
     sph_index i;
     for (i = first; i < last; i++)
         g->a[ALPHA_B][i] =
@@ -356,8 +357,7 @@ static inline sph_index collapse_rates_sweep(collapse *g, sph_index first, sph_i
     out.div_B = g->a[DIV_B];
     out.div_v = g->a[DIV_V];
     out.v_sig = g->a[SPEED];
-    return sph_mhd_rates(COLLAPSE_KERNEL, 3, sph_cloud_range(collapse_cloud(g), first, last), collapse_mhd(g),
-                         out);
+    return sph_mhd_rates(COLLAPSE_KERNEL, 3, collapse_cloud(g, first, last), collapse_mhd(g), out);
 }
 static inline int collapse_gravity(collapse *g)
 {
@@ -446,15 +446,14 @@ static inline int collapse_rates(collapse *g)
         g->s.force_field[c] = 0;
     }
     for (i = 0; i < g->s.n; i++) {
+        const sph_switch alpha = {g->a[ALPHA][i], g->model.alpha_min, g->model.alpha_max};
         for (c = 0; c < 3; c++) {
             g->s.force_gravity[c] += g->model.m * g->a[GX + c][i];
             if (g->model.zeta) g->rate[VX + c][i] += g->a[SX + c][i];
             g->s.force_field[c] += g->model.m * g->rate[VX + c][i];
             g->rate[VX + c][i] += g->a[GX + c][i];
         }
-        g->rate[ALPHA][i] = sph_viscosity_switch_rate(
-            (sph_switch){.alpha = g->a[ALPHA][i], .least = g->model.alpha_min, .most = g->model.alpha_max},
-            g->a[SPEED][i], g->a[H][i], g->a[DIV_V][i]);
+        g->rate[ALPHA][i] = sph_viscosity_switch_rate(alpha, g->a[SPEED][i], g->a[H][i], g->a[DIV_V][i]);
         g->s.fastest = fmax(g->s.fastest, g->a[SPEED][i]);
     }
     return 0;

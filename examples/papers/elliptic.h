@@ -123,7 +123,10 @@ static inline sph_list cloud_list(const cloud *c)
     l.index = c->index;
     return l;
 }
-static inline sph_cloud cloud_all(const cloud *c) { return cloud_all(c); }
+static inline sph_cloud cloud_all(const cloud *c)
+{
+    return sph_cloud_of(cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V));
+}
 /* axis 0, 1, 2 */
 static inline double *cloud_axis(const cloud *c, int axis)
 {

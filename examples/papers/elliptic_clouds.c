@@ -166,8 +166,8 @@ static double order_of(int problem, int kind, int method)
 static int rows_lost(const scatter *s, int *deep)
 {
     unsigned char *const monotone = (unsigned char *)elliptic_memory(NULL, (size_t)s->c.n);
-    const int lost = (int)sph_rows_monotone(sph_cloud_range(cloud_all(&s->c), 0, s->inner), s->c.row,
-                                            s->c.diagonal, monotone);
+    const sph_cloud inner = sph_cloud_range(scatter_cloud(s), 0, s->inner);
+    const int lost = (int)sph_rows_monotone(inner, s->c.row, s->c.diagonal, monotone);
     int i;
     elliptic_expect(lost);
     *deep = 0;

@@ -1026,21 +1026,16 @@ static void anisotropic(report *r, cloud *c)
         cloud_neighbours(c, f[k]);
         out.row = c->row;
         for (form = 0; form < 2; form++) {
-            const sph_scalars h = sph_scalars_same(&c->h), V = sph_scalars_array(c->V);
+            const sph_cloud all = cloud_all(c);
             const int middle = 220;
-            if (form)
-                elliptic_expect(sph_elliptic_rows_anisotropic(
-                    ELLIPTIC_KERNEL, 2,
-                    sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c), h, V), 0, c->n), M, out));
+            if (form) elliptic_expect(sph_elliptic_rows_anisotropic(ELLIPTIC_KERNEL, 2, all, M, out));
             else
-                elliptic_expect(sph_elliptic_rows_msph_diagonal(
-                    ELLIPTIC_KERNEL, 2,
-                    sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c), h, V), 0, c->n), M,
-                    sph_elliptic_defaults(), out));
+                elliptic_expect(sph_elliptic_rows_msph_diagonal(ELLIPTIC_KERNEL, 2, all, M,
+                                                                sph_elliptic_defaults(), out));
             for (axis = 0; axis < 2; axis++) {
                 for (i = 0; i < c->n; i++) c->u[i] = cloud_axis(c, axis)[i] * cloud_axis(c, axis)[i];
-                elliptic_expect(sph_rows_apply(sph_cloud_range(cloud_all(c), middle, middle + 1), c->row,
-                                               NULL, sph_scalars_array(c->u), c->value));
+                elliptic_expect(sph_rows_apply(sph_cloud_range(all, middle, middle + 1), c->row, NULL,
+                                               sph_scalars_array(c->u), c->value));
                 value[form][axis] = c->value[middle];
             }
         }

@@ -246,6 +246,7 @@ enum { SCATTER_PLAIN, SCATTER_FULL, SCATTER_TRACE };
 
 SPH_FN sph_index scatter_rows_in(int dim, int variant, int harmonic, scatter *s, int scheme)
 {
+    const sph_cloud all = scatter_cloud(s);
     const sph_scalars m = sph_scalars_array(s->c.m);
     sph_elliptic_options o = sph_elliptic_defaults();
     sph_row_out out = {0};
@@ -255,11 +256,10 @@ SPH_FN sph_index scatter_rows_in(int dim, int variant, int harmonic, scatter *s,
     out.row = s->c.row;
     out.diagonal = s->c.diagonal;
     out.status = s->c.status;
-    if (scheme == SCHEME_B)
-        return sph_elliptic_rows_brookshaw(ELLIPTIC_KERNEL, dim, scatter_cloud(s), m, o, out);
+    if (scheme == SCHEME_B) return sph_elliptic_rows_brookshaw(ELLIPTIC_KERNEL, dim, all, m, o, out);
     if (scheme == SCHEME_CB)
-        return sph_elliptic_rows_brookshaw_corrected(ELLIPTIC_KERNEL, dim, scatter_cloud(s), m, o, out);
-    return sph_elliptic_rows_msph(ELLIPTIC_KERNEL, dim, scatter_cloud(s), m, o, out);
+        return sph_elliptic_rows_brookshaw_corrected(ELLIPTIC_KERNEL, dim, all, m, o, out);
+    return sph_elliptic_rows_msph(ELLIPTIC_KERNEL, dim, all, m, o, out);
 }
 /* full: the gradient (16), else (15); harmonic: that mean of m, else the arithmetic. Constants in each call, so that the loops fold. */
 static inline void scatter_rows(scatter *s, int scheme, int variant, int harmonic)
@@ -313,12 +313,9 @@ static inline double scatter_trace(const scatter *s, int i)
 SPH_FN sph_index scatter_conditions_in(int dim, scatter *s, int first, double *const normal[3],
                                        const double *alpha, const double *beta)
 {
-    const sph_boundary boundary = {.normal = sph_vectors_separate(normal[0], normal[1], normal[2]),
-                                   .alpha = sph_scalars_array(alpha),
-                                   .beta = sph_scalars_array(beta)};
-    sph_row_out out = {0};
-    out.row = s->c.row;
-    out.diagonal = s->c.diagonal;
+    const sph_boundary boundary = {sph_vectors_separate(normal[0], normal[1], normal[2]),
+                                   sph_scalars_array(alpha), sph_scalars_array(beta)};
+    const sph_row_out out = {.row = s->c.row, .diagonal = s->c.diagonal};
     return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, sph_cloud_range(scatter_cloud(s), first, s->c.n),
                                       sph_scalars_array(s->c.m), sph_elliptic_defaults(), boundary, out);
 }

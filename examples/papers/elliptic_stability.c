@@ -40,11 +40,7 @@ static growth growth_of(cloud *c, int scheme, int gradient, double tau, FILE *fi
                 k.x = (2.0 * a / (WAVES - 1) - 1) * MATH_PI / c->dx;
                 k.y = (2.0 * b / (WAVES - 1) - 1) * MATH_PI / c->dx;
                 elliptic_expect(
-                    sph_rows_growth(2,
-                                    sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c),
-                                                                 sph_scalars_none(), sph_scalars_none()),
-                                                    i, i + 1),
-                                    c->row, tau, k, &re, &im));
+                    sph_rows_growth(2, sph_cloud_range(cloud_all(c), i, i + 1), c->row, tau, k, &re, &im));
                 size = sqrt(re * re + im * im);
                 if (inside) {
                     s.inside = fmax(s.inside, size);
@@ -152,6 +148,7 @@ static xi_statistics xi_of(cloud *c, double h, int n, int draws, uint64_t stream
     xi_statistics s = {0, 0, 0, 0};
     double xi, least, most, square = 0;
     sph_elliptic_report out = {0};
+    sph_cloud middle;
     pcg32 g;
     int draw, i;
     pcg32_seed(&g, 2020, stream);
@@ -163,6 +160,9 @@ static xi_statistics xi_of(cloud *c, double h, int n, int draws, uint64_t stream
     }
     c->start[0] = 0;
     c->start[1] = n;
+    middle = cloud_all(c);
+    middle.h = sph_scalars_same(&h);
+    middle.last = 1;
     out.xi = &xi;
     out.sign_least = &least;
     out.sign_most = &most;
@@ -176,12 +176,7 @@ static xi_statistics xi_of(cloud *c, double h, int n, int draws, uint64_t stream
             c->V[i] = 1; /* cancels */
         }
         c->V[0] = 1;
-        elliptic_expect(
-            sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2,
-                                  sph_cloud_range(sph_cloud_of(cloud_points(c), cloud_list(c),
-                                                               sph_scalars_same(&h), sph_scalars_array(c->V)),
-                                                  0, 1),
-                                  sph_elliptic_defaults(), out));
+        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, middle, sph_elliptic_defaults(), out));
         s.mean += xi / draws;
         square += xi * xi / draws;
         s.violated_93 += least > 0 ? 0 : 1.0 / draws;
@@ -274,6 +269,7 @@ static signs signs_of(cloud *c, int N, double f, double jitter, int draws)
     pcg32_seed(&g, 2020, 7);
     for (draw = 0; draw < draws; draw++) {
         sph_elliptic_report out = {0};
+        sph_cloud inner;
         sph_index count;
         cloud_cells(c, N);
         if (jitter > 0) cloud_perturb(c, jitter, &g);
@@ -283,7 +279,8 @@ static signs signs_of(cloud *c, int N, double f, double jitter, int draws)
         elliptic_expect(
             sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, cloud_all(c), sph_elliptic_defaults(), out));
         cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
-        count = sph_rows_monotone(sph_cloud_range(cloud_all(c), 0, dof), c->row, c->diagonal, monotone);
+        inner = sph_cloud_range(cloud_all(c), 0, dof);
+        count = sph_rows_monotone(inner, c->row, c->diagonal, monotone);
         elliptic_expect(count);
         s.not_monotone += share * count;
         for (i = 0; i < dof; i++) {
@@ -301,7 +298,7 @@ static signs signs_of(cloud *c, int N, double f, double jitter, int draws)
         }
         for (i = 0; i < c->n; i++) c->m[i] = exp(4 * (2 * pcg32_uniform(&g) - 1)); /* a contrast of 3000 */
         cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
-        count = sph_rows_monotone(sph_cloud_range(cloud_all(c), 0, dof), c->row, c->diagonal, NULL);
+        count = sph_rows_monotone(inner, c->row, c->diagonal, NULL);
         elliptic_expect(count);
         s.heterogeneous += share * count;
     }

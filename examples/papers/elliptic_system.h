@@ -32,12 +32,9 @@ static inline double *elliptic_vector(int n)
 SPH_FN sph_index cloud_conditions_in(int dim, cloud *c, int first, double *const normal[3],
                                      const double *alpha, const double *beta)
 {
-    const sph_boundary boundary = {.normal = sph_vectors_separate(normal[0], normal[1], normal[2]),
-                                   .alpha = sph_scalars_array(alpha),
-                                   .beta = sph_scalars_array(beta)};
-    sph_row_out out = {0};
-    out.row = c->row;
-    out.diagonal = c->diagonal;
+    const sph_boundary boundary = {sph_vectors_separate(normal[0], normal[1], normal[2]),
+                                   sph_scalars_array(alpha), sph_scalars_array(beta)};
+    const sph_row_out out = {.row = c->row, .diagonal = c->diagonal};
     return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, sph_cloud_range(cloud_all(c), first, c->n),
                                       sph_scalars_array(c->m), sph_elliptic_defaults(), boundary, out);
 }
@@ -76,9 +73,8 @@ static inline void cloud_matrix(const cloud *c, sparse *A, double *b)
     A->start = (int64_t *)elliptic_memory(NULL, ((size_t)c->n + 1) * sizeof *A->start);
     A->index = (int *)elliptic_memory(NULL, (size_t)room * sizeof *A->index);
     A->value = (double *)elliptic_memory(NULL, (size_t)room * sizeof *A->value);
-    elliptic_expect(sph_csr_assemble(
-        cloud_all(c), c->row, c->diagonal, 1,
-        (sph_csr){.start = start, .column = A->index, .value = A->value, .capacity = room}, NULL));
+    elliptic_expect(sph_csr_assemble(cloud_all(c), c->row, c->diagonal, 1,
+                                     (sph_csr){start, A->index, A->value, room}, NULL));
     for (i = 0; i <= c->n; i++) A->start[i] = start[i];
     free(start);
     if (sparse_scale_rows(A, b) != 0) {

@@ -77,8 +77,8 @@ typedef struct projection {
 
 static void gradient_of(const scatter *s, const double *f, double *gx, double *gy)
 {
-    elliptic_expect(sph_gradient_cspm(ELLIPTIC_KERNEL, 2, scatter_cloud(s), sph_scalars_array(f),
-                                      (sph_derivative_out){.gx = gx, .gy = gy}));
+    const sph_derivative_out out = {.gx = gx, .gy = gy};
+    elliptic_expect(sph_gradient_cspm(ELLIPTIC_KERNEL, 2, scatter_cloud(s), sph_scalars_array(f), out));
 }
 static void divergence_of(const projection *q, const double *ux, const double *uy, double *out)
 {
@@ -158,17 +158,18 @@ static double distance(const scatter *s, const double *ax, const double *ay, con
 static double projection_symbol(const scatter *s)
 {
     const sph_vec wave = {2 * pi, 2 * pi, 0};
+    const sph_cloud all = scatter_cloud(s);
     double *const wx = elliptic_vector(s->c.start[s->c.n]), *const wy = elliptic_vector(s->c.start[s->c.n]),
                   symbol = 0, re = 0, im = 0;
     int p;
-    elliptic_expect(sph_gradient_rows_cspm(ELLIPTIC_KERNEL, 2, scatter_cloud(s),
-                                           (sph_gradient_row_out){.x = wx, .y = wy}));
+    elliptic_expect(
+        sph_gradient_rows_cspm(ELLIPTIC_KERNEL, 2, all, (sph_gradient_row_out){.x = wx, .y = wy}));
     for (p = s->c.start[0]; p < s->c.start[1]; p++) {
         const sph_vec e = scatter_separation(s, 0, s->c.index[p]);
         symbol += wx[p] * sin(wave.x * e.x) * cos(wave.y * e.y);
     }
-    elliptic_expect(sph_rows_growth(2, sph_cloud_range(scatter_cloud(s), 0, 0 + 1), s->c.row, 1, wave, &re,
-                                    &im)); /* re = 1 - lambda */
+    elliptic_expect(
+        sph_rows_growth(2, all, s->c.row, 1, wave, &re, &im)); /* of particle 0: re = 1 - lambda */
     free(wx);
     free(wy);
     return 1 - 2 * symbol * symbol / (1 - re);
@@ -321,22 +322,20 @@ static void disc_rows(scatter *s, int method, double *b)
         free(zero);
         free(one);
     } else {
-        const sph_points x = scatter_points(s);
-        const sph_scalars h = sph_scalars_array(s->h), V = sph_scalars_array(c->V);
+        const sph_cloud all = scatter_cloud(s);
         sph_row_out out = {0};
         out.row = c->row;
         out.diagonal = c->diagonal;
         out.factor = elliptic_vector(c->n);
-        elliptic_expect(sph_derivative_rows_wls(
-            ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), 0, s->inner),
-            sph_jet_laplacian(2), out));
+        elliptic_expect(sph_derivative_rows_wls(ELLIPTIC_KERNEL, 2, sph_cloud_range(all, 0, s->inner),
+                                                sph_jet_laplacian(2), out));
         for (i = s->inner; i < c->n; i++) { /* every rim particle has a derivative of its own */
             sph_jet d = sph_jet_laplacian(2);
             d.hessian.xx = d.hessian.yy = 0;
             d.gradient.x = c->x[i];
             d.gradient.y = c->y[i];
-            elliptic_expect(sph_derivative_rows_wls(
-                ELLIPTIC_KERNEL, 2, sph_cloud_range(sph_cloud_of(x, cloud_list(c), h, V), i, i + 1), d, out));
+            elliptic_expect(
+                sph_derivative_rows_wls(ELLIPTIC_KERNEL, 2, sph_cloud_range(all, i, i + 1), d, out));
             c->diagonal[i] += out.factor[i];
         }
         for (i = 0; i < c->n; i++) b[i] *= out.factor[i];
@@ -521,7 +520,7 @@ static void slab_implicit(scatter *s, double ratio, double theta, int count)
 static double slab_time_step(const scatter *s)
 {
     double dt;
-    elliptic_expect(sph_rows_time_step(sph_cloud_range(cloud_all(&s->c), 0, s->inner), s->c.row, &dt));
+    elliptic_expect(sph_rows_time_step(sph_cloud_range(scatter_cloud(s), 0, s->inner), s->c.row, &dt));
     return dt;
 }
 static void slab_start(scatter *s, double ratio)
@@ -543,13 +542,13 @@ static double slab_error(const scatter *s, double ratio)
 static double slab_sharp_step(const scatter *s, int N)
 {
     const int i = SLAB_ROWS * (N / 4), waves = 16;
+    const sph_cloud target = sph_cloud_range(scatter_cloud(s), i, i + 1);
     double worst = 0, re = 0, im = 0;
     int a, b;
     for (a = 0; a <= waves; a++)
         for (b = 0; b <= waves; b++) {
             const sph_vec wave = {pi / s->c.dx * a / waves, pi / s->c.dx * b / waves, 0};
-            elliptic_expect(
-                sph_rows_growth(2, sph_cloud_range(scatter_cloud(s), i, i + 1), s->c.row, 1, wave, &re, &im));
+            elliptic_expect(sph_rows_growth(2, target, s->c.row, 1, wave, &re, &im));
             worst = fmax(worst, 1 - re);
         }
     return 2 / worst;

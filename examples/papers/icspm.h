@@ -94,6 +94,7 @@ static inline sph_list line_list(const line *s)
     l.index = s->index;
     return l;
 }
+
 static inline sph_cloud line_cloud(const line *s)
 {
     return sph_cloud_of(line_points(s), line_list(s), sph_scalars_same(&s->h), sph_scalars_array(s->V));
@@ -105,9 +106,8 @@ static inline int64_t line_lists(int dim, const sph_grid *grid, sph_points point
 {
     const sph_scalars R = sph_scalars_same(&radius);
     int64_t pairs;
-    if (index)
-        line_expect(sph_grid_lists(dim, grid, points, SPH_GATHER, R, R, 0, start, index, capacity, &pairs));
-    else line_expect(sph_grid_count(dim, grid, points, SPH_GATHER, R, R, 0, start, &pairs));
+    line_expect(index ? sph_grid_lists(dim, grid, points, SPH_GATHER, R, R, 0, start, index, capacity, &pairs)
+                      : sph_grid_count(dim, grid, points, SPH_GATHER, R, R, 0, start, &pairs));
     return pairs;
 }
 
@@ -162,16 +162,17 @@ static inline void line_uniform(line *s, int n, double c)
 /* f'' by a method into s->value, status into s->status, kappa (ICSPM) into s->conditioning; returns how many particles are not ok. */
 static inline int line_second_derivative(line *s, int method)
 {
+    const sph_cloud cloud = line_cloud(s);
     const sph_scalars f = sph_scalars_array(s->f);
     sph_derivative_out out = {0};
     sph_index bad;
     out.hxx = s->value;
     out.conditioning = s->conditioning;
     out.status = s->status;
-    if (method == CSPM) bad = sph_derivatives_cspm(ICSPM_KERNEL, 1, line_cloud(s), f, 0, out);
-    else if (method == ICSPM) bad = sph_derivatives_icspm(ICSPM_KERNEL, 1, line_cloud(s), f, 0, 0, out);
+    if (method == CSPM) bad = sph_derivatives_cspm(ICSPM_KERNEL, 1, cloud, f, 0, out);
+    else if (method == ICSPM) bad = sph_derivatives_icspm(ICSPM_KERNEL, 1, cloud, f, 0, 0, out);
     else
-        bad = sph_second_derivative_bim(ICSPM_KERNEL, line_cloud(s), f, 0, s->n - 1,
+        bad = sph_second_derivative_bim(ICSPM_KERNEL, cloud, f, 0, s->n - 1,
                                         sph_scalar_out_array(s->value, s->status));
     line_expect(bad);
     return (int)bad;
@@ -198,17 +199,18 @@ static inline double line_direct_error(line *s, int method)
 /* stencil rows of the second derivative into s->row, s->diagonal, s->factor */
 static inline void line_rows(line *s, int method)
 {
+    const sph_cloud cloud = line_cloud(s);
     sph_row_out out = {0};
     int i, p;
     out.row = s->row;
     out.diagonal = s->diagonal;
     out.factor = s->factor;
     if (method == CSPM)
-        line_expect(sph_derivative_rows_cspm(ICSPM_KERNEL, 1, line_cloud(s), sph_jet_laplacian(1), out));
+        line_expect(sph_derivative_rows_cspm(ICSPM_KERNEL, 1, cloud, sph_jet_laplacian(1), out));
     else if (method == ICSPM)
-        line_expect(sph_derivative_rows_icspm(ICSPM_KERNEL, 1, line_cloud(s), sph_jet_laplacian(1), out));
+        line_expect(sph_derivative_rows_icspm(ICSPM_KERNEL, 1, cloud, sph_jet_laplacian(1), out));
     else {
-        line_expect(sph_second_derivative_rows_bim(ICSPM_KERNEL, line_cloud(s), 0, s->n - 1, s->row, NULL));
+        line_expect(sph_second_derivative_rows_bim(ICSPM_KERNEL, cloud, 0, s->n - 1, s->row, NULL));
         for (i = 0; i < s->n; i++) {
             s->factor[i] = 1;
             s->diagonal[i] = 0;

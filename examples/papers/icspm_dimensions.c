@@ -103,19 +103,20 @@ static errors measure(int method, int dim, int side, double jitter, uint64_t see
     out.conditioning = d + 10 * n;
     out.status = status;
     {
-        const sph_scalars hs = sph_scalars_same(&h), Vs = sph_scalars_array(V), fs = sph_scalars_array(f);
+        const sph_cloud cloud = sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_array(V));
+        const sph_scalars fs = sph_scalars_array(f);
         sph_index bad;
         if (method == CSPM_ND)
-            bad = dim == 2 ? sph_derivatives_cspm(ICSPM_KERNEL, 2, sph_cloud_range(sph_cloud_of(points, list, hs, Vs), 0, count), fs, 0, out)
-                           : sph_derivatives_cspm(ICSPM_KERNEL, 3, sph_cloud_range(sph_cloud_of(points, list, hs, Vs), 0, count), fs, 0, out);
+            bad = dim == 2 ? sph_derivatives_cspm(ICSPM_KERNEL, 2, cloud, fs, 0, out)
+                           : sph_derivatives_cspm(ICSPM_KERNEL, 3, cloud, fs, 0, out);
         else if (method == WLS_ND)
-            bad = dim == 2 ? sph_derivatives_wls(ICSPM_KERNEL, 2, sph_cloud_range(sph_cloud_of(points, list, hs, Vs), 0, count), fs, 0, out)
-                           : sph_derivatives_wls(ICSPM_KERNEL, 3, sph_cloud_range(sph_cloud_of(points, list, hs, Vs), 0, count), fs, 0, out);
+            bad = dim == 2 ? sph_derivatives_wls(ICSPM_KERNEL, 2, cloud, fs, 0, out)
+                           : sph_derivatives_wls(ICSPM_KERNEL, 3, cloud, fs, 0, out);
         else {
             const int fallback = method == ICSPM_FALLBACK_ND;
             const double least = fallback ? conditioning_min : 0;
-            bad = dim == 2 ? sph_derivatives_icspm(ICSPM_KERNEL, 2, sph_cloud_range(sph_cloud_of(points, list, hs, Vs), 0, count), fs, least, fallback, out)
-                           : sph_derivatives_icspm(ICSPM_KERNEL, 3, sph_cloud_range(sph_cloud_of(points, list, hs, Vs), 0, count), fs, least, fallback, out);
+            bad = dim == 2 ? sph_derivatives_icspm(ICSPM_KERNEL, 2, cloud, fs, least, fallback, out)
+                           : sph_derivatives_icspm(ICSPM_KERNEL, 3, cloud, fs, least, fallback, out);
         }
         line_expect(bad);
         e.not_ok = (int)bad;

@@ -121,8 +121,8 @@ static void first_derivative(report *r, line *s)
     for (level = 0; level < 2; level++) {
         const int n = level ? 321 : 161;
         line_uniform(s, n, 2);
-        line_expect(sph_gradient_cspm(ICSPM_KERNEL, 1, sph_cloud_range(line_cloud(s), 0, n),
-                                      sph_scalars_array(s->f), (sph_derivative_out){.gx = s->value}));
+        line_expect(sph_gradient_cspm(ICSPM_KERNEL, 1, line_cloud(s), sph_scalars_array(s->f),
+                                      (sph_derivative_out){.gx = s->value}));
         for (i = 0; i < n; i++) {
             const double e = fabs(s->value[i] - icspm_df(s->x[i]));
             double *const worst = s->x[i] >= 0.25 && s->x[i] <= 0.75 ? inside : end;
@@ -283,10 +283,11 @@ static void dismissed(report *r, line *s)
         for (which = 0; which < 2; which++) {
             const char *const name =
                 which ? "second kernel derivative" : "first derivative, no boundary terms";
+            const sph_cloud cloud = line_cloud(s);
             const sph_scalars f = sph_scalars_array(s->f);
             char text[96];
-            if (which) line_expect(sph_laplacian_kernel(ICSPM_KERNEL, 1, line_cloud(s), f, s->value));
-            else line_expect(sph_laplacian_brookshaw(ICSPM_KERNEL, 1, line_cloud(s), f, s->value));
+            if (which) line_expect(sph_laplacian_kernel(ICSPM_KERNEL, 1, cloud, f, s->value));
+            else line_expect(sph_laplacian_brookshaw(ICSPM_KERNEL, 1, cloud, f, s->value));
             inside[which][jittered] = all[which][jittered] = 0;
             for (i = 0; i < s->n; i++) {
                 const double e = fabs(s->value[i] - icspm_d2f(s->x[i]));

@@ -26,6 +26,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 HEADERS = ("sph_kernels.h", "sph_ops.h", "sph.h")
@@ -46,10 +47,12 @@ BUILDS = {"portable": [], "openmp": ["-fopenmp", "-DSPH_OPENMP=1"], "native": ["
 THREADS = {"OMP_NUM_THREADS": "3", "OMP_WAIT_POLICY": "passive"}
 PATIENCE, LEAST = 2, 5 # so many times the CPU time of the header as it is, and so many seconds more
 LONGEST = 900 # seconds of CPU for anything else
+SLEEPY = 10 # so many times that by the clock
 OUTCOMES = KILLED, SURVIVES, EQUIVALENT, ABSENT = "killed", "survive", "equivalent", "not compiled here"
 MEMORY = 8 << 20 # KiB: lists of a wrong length may be huge
 
-Mutant = collections.namedtuple("Mutant", "build header function start end new")
+# new instead of what stands from start to end; the function from first to last
+Mutant = collections.namedtuple("Mutant", "build header function first last start end new")
 
 
 def code_of(text):
@@ -60,13 +63,13 @@ def code_of(text):
 
 
 def functions(code):
-    """(name, start, end) of the bodies of all functions"""
+    """(name, where it begins, where its body begins, where it ends) of all functions"""
     for m in re.finditer(r"^(?:\S.*)?\b(?:SPH_FN|SPHI_LARGE) [^;{}]*?(\w+)\([^;{}()]*\)\s*\{", code, re.M):
         depth, end = 1, m.end()
         while depth:
             depth += {"{": 1, "}": -1}.get(code[end], 0)
             end += 1
-        yield m.group(1), m.end(), end - 1
+        yield m.group(1), m.start(), m.end(), end
 
 
 def constant(number):
@@ -119,9 +122,9 @@ def choose(a, texts, build, rng):
     for header in a.header or (HEADERS if build == "portable" else ["sph.h"]):
         code = code_of(texts[header])
         rules = FORMULA + (INTEGER if header == "sph.h" else [])
-        for name, start, end in functions(code):
-            found = [Mutant(build, header, name, start + first, start + last, new)
-                     for first, last, new in mutations(code[start:end], rules)]
+        for name, first, body, last in functions(code):
+            found = [Mutant(build, header, name, first, last, body + start, body + end, new)
+                     for start, end, new in mutations(code[body:last], rules)]
             if found and re.search(a.only, name):
                 rng.shuffle(found)
                 pool.append(found)
@@ -146,14 +149,14 @@ def order(header, name):
 class Judge:
     """runs the tests in folders that have a copy of what they need, as many at a time as there are folders"""
 
-    def __init__(self, cc, texts, jobs):
+    def __init__(self, cc, texts, top, jobs):
         self.cc = cc
         self.texts = texts
         self.limits = {} # seconds, by what compiles the test
         self.originals = {} # what the preprocessor makes of the header as it is, by build
         self.folders = queue.SimpleQueue()
-        for _ in range(jobs):
-            folder = tempfile.mkdtemp(prefix="mutants-")
+        for job in range(jobs):
+            folder = "%s/%d" % (top, job)
             for part in ("tests", "examples/common", "examples/papers"):
                 shutil.copytree(part, folder + "/" + part)
             for header, text in texts.items():
@@ -170,7 +173,10 @@ class Judge:
         nowhere = subprocess.DEVNULL
         p = subprocess.Popen(["sh", "-c", script, str(limit), str(MEMORY), *command], cwd=folder,
                              env={**os.environ, **THREADS}, stdout=nowhere, stderr=nowhere)
+        sleeper = threading.Timer(SLEEPY * limit, p.kill) # threads may wait for each other for ever
+        sleeper.start()
         p.returncode, used = os.wait4(p.pid, 0)[1:]
+        sleeper.cancel()
         return p.returncode == 0, used.ru_utime + used.ru_stime
 
     def killer(self, folder, build, header, name):
@@ -202,12 +208,10 @@ class Judge:
         self.folders.put(folder)
 
     def judge(self, mutant):
-        """(changed line, outcome)"""
+        """killed by a test, alive, or not there"""
         text = self.texts[mutant.header]
-        broken = text[:mutant.start] + mutant.new + text[mutant.end:]
-        line = broken[broken.rfind("\n", 0, mutant.start) + 1:broken.find("\n", mutant.start)].strip()
         folder = self.folders.get()
-        write(folder, mutant.header, broken)
+        write(folder, mutant.header, text[:mutant.start] + mutant.new + text[mutant.end:])
         if self.preprocessed(folder, mutant.build) == self.originals[mutant.build]:
             outcome = ABSENT # in code for another build
         else:
@@ -215,11 +219,7 @@ class Judge:
             outcome = KILLED if test else SURVIVES
         write(folder, mutant.header, text)
         self.folders.put(folder)
-        return line, outcome
-
-    def remove(self):
-        while not self.folders.empty():
-            shutil.rmtree(self.folders.get())
+        return outcome
 
 
 def write(folder, name, text):
@@ -227,14 +227,29 @@ def write(folder, name, text):
         f.write(text)
 
 
+def squeezed(text):
+    return re.sub(r"\s", "", text)
+
+
 def equivalents():
-    """the builds in which a mutant is known to change nothing, by function and line"""
-    known = {}
+    """(function, changed line, builds) of the mutants that are known to change nothing"""
     for line in open("tests/mutation/equivalent.txt"):
         if line.strip() and not line.startswith("#"):
             function, change, _, *builds = line.rstrip("\n").split(" | ")
-            known[function, change] = builds[0].split() if builds else BUILDS
-    return known
+            yield function, squeezed(change), builds[0].split() if builds else BUILDS
+
+
+def is_known(mutant, text, known):
+    """whether a line that is known is new in the function, wherever lines end"""
+    before = squeezed(text[mutant.first:mutant.last])
+    after = squeezed(text[mutant.first:mutant.start] + mutant.new + text[mutant.end:mutant.last])
+    return any(function == mutant.function and mutant.build in builds and line in after and line not in before
+               for function, line, builds in known)
+
+
+def changed_line(mutant, text):
+    broken = text[:mutant.start] + mutant.new + text[mutant.end:]
+    return broken[broken.rfind("\n", 0, mutant.start) + 1:broken.find("\n", mutant.start)].strip()
 
 
 def report(build, header, counts):
@@ -257,25 +272,27 @@ def main():
     tcc = "tcc" if shutil.which("tcc") else "cc -O0"
     p.add_argument("-cc", default=tcc, help="compiles the tests of formulas")
     a = p.parse_args()
-    known = equivalents()
+    known = list(equivalents())
     texts = {header: open(header).read() for header in HEADERS}
     chosen = [m for build in a.build for m in choose(a, texts, build, random.Random(a.seed))]
-    judge = Judge(a.cc, texts, a.j)
-    for build in a.build:
-        judge.learn(build, sorted({m.header for m in chosen if m.build == build}))
     counts = collections.defaultdict(collections.Counter)
     began = time.time()
-    with concurrent.futures.ThreadPoolExecutor(a.j) as pool:
-        for number, (mutant, (line, outcome)) in enumerate(zip(chosen, pool.map(judge.judge, chosen))):
-            if outcome == SURVIVES and mutant.build in known.get((mutant.function, line), ()):
+    workers = concurrent.futures.ThreadPoolExecutor(a.j)
+    with tempfile.TemporaryDirectory(prefix="mutants-") as top, workers:
+        judge = Judge(a.cc, texts, top, a.j)
+        for build in a.build:
+            judge.learn(build, sorted({m.header for m in chosen if m.build == build}))
+        for number, (mutant, outcome) in enumerate(zip(chosen, workers.map(judge.judge, chosen))):
+            text = texts[mutant.header]
+            if outcome == SURVIVES and is_known(mutant, text, known):
                 outcome = EQUIVALENT
             counts[mutant.build, mutant.header][outcome] += 1
             if outcome == SURVIVES:
+                line = changed_line(mutant, text)
                 print("survives, %s: %s | %s" % (mutant.build, mutant.function, line), flush=True)
             if sys.stderr.isatty() or number % 20 == 19:
                 print("%d of %d, %.0f s" % (number + 1, len(chosen), time.time() - began),
                       end="\r" if sys.stderr.isatty() else "\n", file=sys.stderr, flush=True)
-    judge.remove()
     enough = [report(*key, counts[key]) for key in counts]
     return not all(enough)
 
