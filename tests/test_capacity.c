@@ -20,7 +20,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { CRITERIA = 4, GUARD = 64 };
+enum { CRITERIA = 4, GUARD = 64, WIDE = 65536 }; /* WIDE: threads share the closing of gaps as wide as that */
 static const sph_index guard_value = 12345;
 
 typedef struct sample {
@@ -28,7 +28,7 @@ typedef struct sample {
     int dim;
     sph_index n;
     sph_real *x, *y, *z, *R;
-    sph_real box; /* 0: open */
+    sph_real box[3]; /* 0: open */
 } sample;
 
 static sample sample_new(const char *name, int dim, sph_index n)
@@ -41,7 +41,7 @@ static sample sample_new(const char *name, int dim, sph_index n)
     s.y = (sph_real *)cloud_memory((size_t)n, sizeof *s.y);
     s.z = (sph_real *)cloud_memory((size_t)n, sizeof *s.z);
     s.R = (sph_real *)cloud_memory((size_t)n, sizeof *s.R);
-    s.box = SPH_R(0);
+    s.box[0] = s.box[1] = s.box[2] = SPH_R(0);
     return s;
 }
 static void sample_free(sample *s)
@@ -53,7 +53,7 @@ static void sample_free(sample *s)
 }
 static sph_points sample_points(const sample *s)
 {
-    return sph_points_periodic(sph_points_separate(s->n, s->x, s->y, s->z), s->box, s->box, s->box);
+    return sph_points_periodic(sph_points_separate(s->n, s->x, s->y, s->z), s->box[0], s->box[1], s->box[2]);
 }
 /* Radii of each particle: squares of lattice distances are whole numbers (or sixteenths), and none of these squares is
    near to one, nor is that of the mean of two of them. */
@@ -98,12 +98,27 @@ static sample two_spacings(int dim, int side)
     return s;
 }
 
-/* A third of the particles collapsed into six places, the others on points of a lattice of spacing 1/4. */
-static sample collapsed(int dim, sph_index n, double box, pcg32 *random)
+/* On a line, the second half twice as dense as the first: with two threads and a third more room than needed
+   the rows of the second half are moved down by less than their length, which takes several steps. */
+static sample denser_half(sph_index half)
+{
+    sample s = sample_new("a denser half", 1, 2 * half);
+    sph_index i;
+    for (i = 0; i < half; i++) {
+        s.x[i] = SPH_R(0.125) * SPH_R(i);
+        s.x[half + i] = SPH_R(0.125) * SPH_R(half) + SPH_R(0.0625) * SPH_R(i);
+    }
+    sample_radii(&s);
+    return s;
+}
+
+/* A third of the particles collapsed into six places, the others on points of a lattice of spacing 1/4. A box
+   is longer by `more` along each axis than along the one before, so that none can be taken for another. */
+static sample collapsed(int dim, sph_index n, double box, double more, pcg32 *random)
 {
     sample s = sample_new(box > 0.0 ? "collapsed, periodic" : "collapsed", dim, n);
     sph_index i;
-    s.box = SPH_R(box);
+    for (i = 0; i < 3; i++) s.box[i] = SPH_R(box + more * (double)i);
     for (i = 0; i < n; i++) {
         sph_real *const coordinate[3] = {s.x, s.y, s.z};
         int a;
@@ -125,8 +140,8 @@ static double component(sph_real a, sph_real b, sph_real box)
 }
 static int near(const sample *s, int criterion, sph_index i, sph_index j)
 {
-    const double dx = component(s->x[i], s->x[j], s->box), dy = component(s->y[i], s->y[j], s->box);
-    const double dz = component(s->z[i], s->z[j], s->box);
+    const double dx = component(s->x[i], s->x[j], s->box[0]), dy = component(s->y[i], s->y[j], s->box[1]);
+    const double dz = component(s->z[i], s->z[j], s->box[2]);
     const double a = (double)s->R[i], b = (double)s->R[j];
     const double R = criterion == SPH_GATHER ? a : criterion == SPH_SCATTER ? b : criterion == SPH_LARGER ? (a > b ? a : b) : 0.5 * (a + b);
     return dx * dx + dy * dy + dz * dz < R * R;
@@ -169,23 +184,25 @@ static void check_rooms(const sample *s, const sph_grid *g, int criterion, int f
     sph_index *const wanted = (sph_index *)cloud_memory(most, sizeof *wanted);
     const int64_t pairs = all_pairs(s, criterion, flags & ~SPH_LIST_SORTED, wanted_start, wanted);
     sph_index *const start = (sph_index *)cloud_memory(n + 1, sizeof *start);
-    const size_t room = (size_t)(pairs + pairs / 2) + 2 * GUARD;
+    const size_t room = (size_t)(pairs + pairs / 2) + WIDE + 2 * GUARD;
     sph_index *const index = (sph_index *)cloud_memory(room, sizeof *index), *const first = (sph_index *)cloud_memory(room, sizeof *first);
     const sph_scalars R = sph_scalars_array(s->R);
     int t, percent;
-    for (percent = 90; percent <= 140; percent += percent == 95 ? 4 : percent == 99 ? 1 : 5)
+    for (percent = 90; percent <= 145; percent += percent == 95 ? 4 : percent == 99 ? 1 : 5)
         for (t = 0; t < (SPH_OPENMP ? 4 : 1); t++) {
-            const int64_t capacity = percent == 99 ? pairs - 1 : pairs * percent / 100;
+            const int64_t extra = percent > 140 ? WIDE : 0;
+            const int64_t capacity = percent == 99 ? pairs - 1 : pairs * percent / 100 + extra;
+            const size_t end = (size_t)capacity + GUARD;
             const char *wrong = 0;
             int64_t found = -1;
             sph_index answer, i, q;
             size_t p;
-            for (p = 0; p < room; p++) index[p] = guard_value;
+            for (p = 0; p < end; p++) index[p] = guard_value;
             threads(counts[t]);
             answer = sph_grid_lists(s->dim, g, sample_points(s), criterion, R, R, flags, start, index, capacity, &found);
             if (found != pairs) wrong = "the number of pairs is wrong";
             else if (answer != (capacity < pairs ? SPH_ERROR_CAPACITY : 0)) wrong = "the answer is wrong";
-            for (p = (size_t)capacity; p < room; p++)
+            for (p = (size_t)capacity; p < end; p++)
                 if (index[p] != guard_value) wrong = "written beyond the room";
             if (answer == 0 && !wrong && memcmp(start, wanted_start, (n + 1) * sizeof *start) != 0) wrong = "a row of a wrong length";
             if (answer == 0 && !wrong && flags & SPH_LIST_SORTED)
@@ -235,7 +252,7 @@ static void check_orders(sample s, pcg32 *random)
     sample_radii(&s);
     sample_shuffle(&s, random);
     check_sample(&s);
-    if (!(s.box > SPH_R(0))) {
+    if (!(s.box[0] > SPH_R(0))) {
         sample_radii(&s);
         s.x[s.n / 2] = SPH_R(1e5);
         check_sample(&s);
@@ -245,15 +262,19 @@ static void check_orders(sample s, pcg32 *random)
 
 static void test_rooms(void)
 {
+    sample dense = denser_half(600);
     pcg32 random;
     pcg32_seed(&random, 15, 1);
     check_orders(two_spacings(2, 20), &random);
     check_orders(two_spacings(3, 7), &random);
-    check_orders(collapsed(1, 300, 0.0, &random), &random);
-    check_orders(collapsed(2, 700, 0.0, &random), &random);
-    check_orders(collapsed(3, 700, 0.0, &random), &random);
-    check_orders(collapsed(2, 700, 16.0, &random), &random);
-    check_orders(collapsed(3, 700, 16.0, &random), &random);
+    check_sample(&dense);
+    sample_free(&dense);
+    check_orders(collapsed(1, 300, 0.0, 0.0, &random), &random);
+    check_orders(collapsed(2, 700, 0.0, 0.0, &random), &random);
+    check_orders(collapsed(3, 700, 0.0, 0.0, &random), &random);
+    check_orders(collapsed(2, 700, 17.0, -0.5, &random), &random);
+    check_orders(collapsed(3, 700, 17.0, -0.5, &random), &random);
+    check_orders(collapsed(3, 700, 16.0, 0.5, &random), &random);
 }
 
 /* ---- more pairs than any memory holds, or than sph_index can count: an answer, and soon ---- */
@@ -312,9 +333,122 @@ static void test_collapses(void)
     check_collapse(3, 2000000, 0, 0);
 }
 
+/* Two crowds near each other that hashing has put into one bucket, though they are in different cells: each
+   must be found once, in its own row. */
+static void test_shared_buckets(void)
+{
+    enum { CROWD = 9, FAR = 2, SIDE = 6 };
+    const sph_index n = 2 * CROWD + FAR;
+    int dim, place, a;
+    for (dim = 2; dim <= 3; dim++) {
+        int found = 0;
+        for (place = 0; place < SIDE * SIDE * (dim == 3 ? SIDE : 1) && found < 3; place++) {
+            const int cell[3] = {place % SIDE, place / SIDE % SIDE, place / SIDE / SIDE};
+            sample s = sample_new("two crowds", dim, n);
+            sph_real *const coordinate[3] = {s.x, s.y, s.z};
+            const size_t size = sph_grid_workspace(dim, n);
+            void *const work = cloud_memory(size, 1);
+            int shared = 0;
+            sph_grid g;
+            sph_index i;
+            size_t b;
+            for (i = 0; i < n; i++) {
+                s.R[i] = SPH_R(10); /* farther than both crowds, nearer than the other particles */
+                for (a = 0; a < dim; a++) {
+                    const double elsewhere = i < 2 * CROWD ? cell[a] + 0.5 : 1e5 * (double)i;
+                    coordinate[a][i] = SPH_R(i < CROWD ? 0.0 : elsewhere);
+                }
+            }
+            CHECK(sph_grid_build(dim, sample_points(&s), SPH_R(1), work, size, &g) == 0 && g.hashed);
+            for (b = 0; b < g.buckets; b++) shared |= g.first[b + 1] - g.first[b] >= 2 * CROWD;
+            shared &= cell[dim - 1] > 0; /* in another row */
+            if (shared) check_rooms(&s, &g, place % CRITERIA, found ? SPH_LIST_HALF : 0);
+            found += shared;
+            free(work);
+            sample_free(&s);
+        }
+        CHECK(found > 0);
+    }
+}
+
+/* A crowd of the first particles, and the last one alone in a cell next to it: its row must hold all of the
+   crowd. */
+static void test_beside_a_crowd(void)
+{
+    enum { CROWD = 12 };
+    int dim, k, a;
+    for (dim = 1; dim <= 3; dim++)
+        for (k = 1; k <= 8; k++) {
+            sample s = sample_new("beside a crowd", dim, CROWD + 1);
+            sph_real *const coordinate[3] = {s.x, s.y, s.z};
+            const size_t size = sph_grid_workspace(dim, s.n);
+            void *const work = cloud_memory(size, 1);
+            sph_grid g;
+            sample_radii(&s);
+            for (a = 0; a < dim; a++) coordinate[a][CROWD] = SPH_R(0.17 * k);
+            CHECK(sph_grid_build(dim, sample_points(&s), SPH_R(1.36), work, size, &g) == 0);
+            check_rooms(&s, &g, k % CRITERIA, 0);
+            free(work);
+            sample_free(&s);
+        }
+}
+
+/* radii that a criterion does not use may be missing, also where cells are crowded */
+static void test_unused_radii(void)
+{
+    const sph_scalars none = sph_scalars_array(0);
+    pcg32 random;
+    sample s;
+    size_t size;
+    void *work;
+    sph_index *start;
+    int64_t pairs[2] = {-1, -1};
+    sph_grid g;
+    sph_scalars R;
+    pcg32_seed(&random, 16, 1);
+    s = collapsed(2, 300, 0.0, 0.0, &random);
+    s.x[7] = SPH_R(1e5); /* hashed cells: the loops for any radii */
+    size = sph_grid_workspace(2, s.n);
+    work = cloud_memory(size, 1);
+    start = (sph_index *)cloud_memory((size_t)s.n + 1, sizeof *start);
+    R = sph_scalars_array(s.R);
+    CHECK(sph_grid_build(2, sample_points(&s), SPH_R(2.6), work, size, &g) == 0);
+    CHECK(sph_grid_count(2, &g, sample_points(&s), SPH_GATHER, R, none, 0, start, &pairs[0]) == 0);
+    CHECK(sph_grid_count(2, &g, sample_points(&s), SPH_SCATTER, none, R, 0, start, &pairs[1]) == 0);
+    CHECK(pairs[0] > 0 && pairs[0] == pairs[1]); /* j gathers i where i scatters to j */
+    free(work);
+    free(start);
+    sample_free(&s);
+}
+
+/* the smallest and the largest radius there may be */
+static void test_radius_limits(void)
+{
+    const sph_real limits[2] = {SPHI_TINY, SPH_R(1) / SPHI_TINY};
+    int k;
+    for (k = 0; k < 2; k++) {
+        const sph_real x[3] = {SPH_R(0), SPH_R(0.5) * limits[k], SPH_R(2) * limits[k]};
+        const sph_scalars R = sph_scalars_same(&limits[k]);
+        const size_t size = sph_grid_workspace(1, 3);
+        void *const work = cloud_memory(size, 1);
+        sph_index start[4];
+        const sph_points points = sph_points_separate(3, x, 0, 0);
+        int64_t pairs = -1;
+        sph_grid g;
+        CHECK(sph_grid_build(1, points, limits[k], work, size, &g) == 0);
+        CHECK(sph_grid_count(1, &g, points, SPH_LARGER, R, R, 0, start, &pairs) == 0);
+        CHECK(pairs == 2);
+        free(work);
+    }
+}
+
 int main(void)
 {
     test_rooms();
+    test_shared_buckets();
+    test_beside_a_crowd();
+    test_unused_radii();
+    test_radius_limits();
     test_collapses();
     return check_report("test_capacity");
 }

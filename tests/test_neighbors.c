@@ -1213,6 +1213,11 @@ static void test_rebuild_extremes(void)
                 CHECK(sph_rebuild_due(dim, q, p, SPH_R(2.82) * lengths[k]) == 1);
                 CHECK(sph_rebuild_due(dim, q, p, SPH_R(2.84) * lengths[k]) == 0);
             }
+    { /* along the diagonal of a square of 0.01: farther than half of 0.025 */
+        sph_real then[2] = {SPH_R(0), SPH_R(0)}, now_at[2] = {SPH_R(0.01), SPH_R(0.01)};
+        CHECK(sph_rebuild_due(2, sph_points_separate(1, now_at, now_at + 1, 0), sph_points_separate(1, then, then + 1, 0),
+                              SPH_R(0.025)) == 1);
+    }
 }
 
 static void test_skin(void)
