@@ -533,14 +533,23 @@ SPH_FN sph_real sphi_pair_radius(int criterion, sph_real R_i, sph_real R_j)
     }
 }
 
+/* the place of a slot, inside the box */
+SPH_FN sph_vec sphi_slot(int dim, const sph_grid *g, sph_index slot)
+{
+    sph_vec p;
+    p.x = g->x[slot];
+    p.y = dim > 1 ? g->y[slot] : SPH_R(0);
+    p.z = dim > 2 ? g->z[slot] : SPH_R(0);
+    return p;
+}
 /* Whether a slot belongs to a run: buckets of a hashed grid hold other cells, too, and a slot must count in
    its own row only. */
-SPH_FN int sphi_in_run(int dim, const sph_grid *g, sph_index slot, const sphi_run *run)
+SPH_FN int sphi_in_run(int dim, const sph_grid *g, sph_vec p, const sphi_run *run)
 {
-    const int64_t x = sphi_cell(g->x[slot], g->low.x, g->inverse_width.x, g->cells[0]);
+    const int64_t x = sphi_cell(p.x, g->low.x, g->inverse_width.x, g->cells[0]);
     if (x < run->x0 || x > run->x1) return 0;
-    if (dim > 1 && sphi_cell(g->y[slot], g->low.y, g->inverse_width.y, g->cells[1]) != run->y) return 0;
-    return dim < 3 || sphi_cell(g->z[slot], g->low.z, g->inverse_width.z, g->cells[2]) == run->z;
+    if (dim > 1 && sphi_cell(p.y, g->low.y, g->inverse_width.y, g->cells[1]) != run->y) return 0;
+    return dim < 3 || sphi_cell(p.z, g->low.z, g->inverse_width.z, g->cells[2]) == run->z;
 }
 
 /* What is known when the loops are compiled: hashed cells and any radii, or no hashed cells and radii of
@@ -640,7 +649,7 @@ SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const 
             for (l = 0; l < n; l++) {
                 const sph_index j = member[l];
                 if (!sphi_negative(excess[l]) || j == skip || j < least ||
-                    (kind == SPHI_HASHED && !sphi_in_run(dim, g, a + l, run)))
+                    (kind == SPHI_HASHED && !sphi_in_run(dim, g, sphi_slot(dim, g, a + l), run)))
                     continue;
                 if (count < room) out[count] = j;
                 count++;
@@ -823,12 +832,8 @@ SPH_FN sph_real sphi_source_radius(const sph_grid *g, const sphi_search *s, sph_
 SPH_FN void sphi_crowd_add(int dim, const sph_grid *g, const sphi_search *s, sph_index slot,
                            sphi_crowd *crowd)
 {
-    sph_vec p;
     const sph_real radius = sphi_source_radius(g, s, slot);
-    p.x = g->x[slot];
-    p.y = dim > 1 ? g->y[slot] : SPH_R(0);
-    p.z = dim > 2 ? g->z[slot] : SPH_R(0);
-    sphi_enclose(p, &crowd->low, &crowd->high);
+    sphi_enclose(sphi_slot(dim, g, slot), &crowd->low, &crowd->high);
     if (radius < crowd->least) crowd->least = radius;
 }
 SPH_FN sphi_crowd sphi_crowd_of(int dim, const sph_grid *g, const sphi_search *s, size_t bucket, sph_index a,
@@ -836,9 +841,7 @@ SPH_FN sphi_crowd sphi_crowd_of(int dim, const sph_grid *g, const sphi_search *s
 {
     sphi_crowd crowd;
     crowd.bucket = bucket;
-    crowd.low.x = crowd.high.x = g->x[a];
-    crowd.low.y = crowd.high.y = dim > 1 ? g->y[a] : SPH_R(0);
-    crowd.low.z = crowd.high.z = dim > 2 ? g->z[a] : SPH_R(0);
+    crowd.low = crowd.high = sphi_slot(dim, g, a);
     crowd.least = sphi_source_radius(g, s, a);
     for (; a < b - step; a += step) sphi_crowd_add(dim, g, s, a, &crowd);
     sphi_crowd_add(dim, g, s, b - 1, &crowd);
@@ -862,12 +865,7 @@ SPH_FN int sphi_crowd_near(int kind, const sph_grid *g, const sphi_search *s, co
     if (g->dim > 2) d2 += sphi_farther2(s->p.z, low.z, high.z, shift.z);
     if (!(d2 < radius * radius * (SPH_R(1) - SPH_R(64) * SPH_EPSILON))) return 0;
     if (kind != SPHI_HASHED) return 1;
-    if (sphi_cell(low.x, g->low.x, g->inverse_width.x, g->cells[0]) < run->x0) return 0;
-    if (sphi_cell(high.x, g->low.x, g->inverse_width.x, g->cells[0]) > run->x1) return 0;
-    if (g->dim > 1 && sphi_cell(low.y, g->low.y, g->inverse_width.y, g->cells[1]) != run->y) return 0;
-    if (g->dim > 1 && sphi_cell(high.y, g->low.y, g->inverse_width.y, g->cells[1]) != run->y) return 0;
-    if (g->dim > 2 && sphi_cell(low.z, g->low.z, g->inverse_width.z, g->cells[2]) != run->z) return 0;
-    return g->dim < 3 || sphi_cell(high.z, g->low.z, g->inverse_width.z, g->cells[2]) == run->z;
+    return sphi_in_run(g->dim, g, low, run) && sphi_in_run(g->dim, g, high, run);
 }
 /* Whether all particles of a bucket are neighbours, as far as can be told without a look at each. */
 SPH_FN int sphi_crowd_taken(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
@@ -878,8 +876,8 @@ SPH_FN int sphi_crowd_taken(int kind, const sph_grid *g, const sphi_search *s, c
     sphi_crowd crowd;
     int i;
     if (b - a < SPHI_CROWDED) return 0;
-    crowd = sphi_crowd_of(g->dim, g, s, bucket, a, b,
-                          (b - a) / 4 + 1); /* of a few: bounds of a wide crowd would be of no use */
+    /* of a few of them first: the bounds of a wide crowd would be of no use */
+    crowd = sphi_crowd_of(g->dim, g, s, bucket, a, b, (b - a) / 4 + 1);
     if (!sphi_crowd_near(kind, g, s, run, &crowd)) return 0;
     for (i = 0; i < known->count && known->of[i].bucket != bucket; i++) {}
     if (i == known->count) {
@@ -1062,9 +1060,7 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
         if (i >= job->targets.n) continue;
         if (left > 0) row = index + total;
         if (job->by_slots) {
-            s.p.x = g->x[k];
-            s.p.y = dim > 1 ? g->y[k] : SPH_R(0);
-            s.p.z = dim > 2 ? g->z[k] : SPH_R(0);
+            s.p = sphi_slot(dim, g, k);
         } else s.p = sphi_wrap_point(dim, g, sphi_point(dim, job->targets, i));
         if (mode == SPHI_PLACE) { /* by way of the buffer, which has the room that whole lanes want */
             row_room = job->start[i + 1] - job->start[i];

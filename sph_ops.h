@@ -552,11 +552,6 @@ SPH_FN int sphi_check_box(int dim, sph_points x, sph_real largest)
     return error;
 }
 
-/* positions and a list alone */
-SPH_FN sph_cloud sphi_frame(sph_index first, sph_index last, sph_points x, sph_list list)
-{
-    return sph_cloud_range(sph_cloud_of(x, list, sph_scalars_none(), sph_scalars_none()), first, last);
-}
 /* The arguments that all sweeps over lists share. */
 SPH_FN int sphi_check_frame(int dim, sph_cloud cloud)
 {
@@ -1272,16 +1267,10 @@ SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_s
         state = sph_solve_gradient(dim, moment, &inverse, &pivot);
         if (state) {
             state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i, dim);
-            sum = sph_scale(SPH_R(0), sum);
-        } else {
-            sum = sphi_sym_times(dim, inverse, sum);
-            if (!sphi_finite(sum.x) || !sphi_finite(sum.y) || !sphi_finite(sum.z)) state = SPH_NOT_FINITE;
-        }
-        sphi_store_vector(dim, gradient, i, state ? sph_scale(SPH_R(0), sum) : sum);
-        if (out.conditioning) {
-            const sph_real number = sphi_finite(pivot) ? pivot : SPH_R(0);
-            out.conditioning[(size_t)i * gradient.stride] = number;
-        }
+            sum.x = sum.y = sum.z = SPH_R(0);
+        } else sum = sphi_sym_times(dim, inverse, sum);
+        if (sphi_store_vector(dim, gradient, i, sum)) state = SPH_NOT_FINITE;
+        if (out.conditioning) sphi_store_finite(out.conditioning + (size_t)i * gradient.stride, 0, pivot);
         if (out.status) out.status[i] = (unsigned char)state;
         failed += state != SPH_OK;
     }
@@ -4976,7 +4965,8 @@ SPH_FN sph_index sph_nearest_distance(int dim, sph_cloud targets_of, sph_points 
     sph_points targets = targets_of.points;
     sph_index i, p, failed = 0;
     int error = sphi_check_frame(dim, targets_of);
-    if (!error) error = sphi_check_frame(dim, sphi_frame(0, 0, sources, list));
+    targets_of.points = sources;
+    if (!error) error = sphi_check_frame(dim, sph_cloud_range(targets_of, 0, 0));
     if (!error && !out.p) error = SPH_ERROR_NULL;
     targets.box = sources.box;
     if (!error) error = sphi_check_positions(dim, targets);
