@@ -132,6 +132,14 @@
 #  endif
 #endif
 
+/* The last line of a struct of 12 bytes that functions return: where tcc stores such a result it writes 16
+   bytes, and the variable beside it is lost. */
+#ifdef __TINYC__
+#  define SPHI_TCC_PAD float sphi_unused;
+#else
+#  define SPHI_TCC_PAD
+#endif
+
 /* Forced inline: with a plain `static inline` neither gcc nor clang folds the kernel and the dimension once a
    program uses several of them. */
 #ifndef SPH_FN

@@ -203,6 +203,7 @@
 
 typedef struct sph_vec {
     sph_real x, y, z; /* components beyond dim are 0 */
+    SPHI_TCC_PAD
 } sph_vec;
 
 /* a symmetric tensor */
@@ -4326,6 +4327,7 @@ SPH_FN sph_real sph_conductivity_speed(sph_real P_i, sph_real P_j, sph_real per_
 /* speed of the cleaning waves, damping, smoothing length */
 typedef struct sph_cleaning_wave {
     sph_real ch, sigma, h;
+    SPHI_TCC_PAD
 } sph_cleaning_wave;
 
 /* dpsi/dt = -ch^2 div B - sigma ch psi / h - psi div v / 2: (2) with 1/tau = sigma ch / h, (19). sigma: 0.2
@@ -5244,6 +5246,7 @@ typedef enum sph_finding {
 typedef struct sph_offender {
     sph_index particle, neighbour;
     sph_real ratio;
+    SPHI_TCC_PAD
 } sph_offender;
 
 typedef struct sph_findings {
