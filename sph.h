@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * sph.h - the toolkit: kernels (sph_kernels.h), operators (sph_ops.h) and, here, the search for neighbours.
- * Include this one, or sph_ops.h if your code has neighbour lists already. Copy the three headers next to
- * each other; there is nothing to build.
+ * sph.h - the whole toolkit: kernels (sph_kernels.h), operators (sph_ops.h) and, in this file, the search for
+ * neighbours. Include this header, or sph_ops.h if your code already has neighbour lists. Copy the three
+ * headers next to each other. There is nothing to build.
  *
- * Who is near whom, in one call. You own the memory; the call says how much it needs:
+ * One call finds all neighbours. You own the memory; the call says how much it needs:
  *
  *     sph_points x = sph_points_separate(n, px, py, pz);            your arrays, where they are
- *     sph_scalars radius = sph_scalars_same(&R);                    R: support radius, kernel support times h
+ *     sph_scalars radius = sph_scalars_same(&support);              support radius: sph_kernel_support(k, h)
  *     sph_neighbors found;
  *     void *memory = NULL;
  *     size_t size = 0;
@@ -18,63 +18,75 @@
  *     }
  *     cloud = sph_cloud_of(x, found.list, h, volume);               what the operators take
  *
- * Do the same in each step, with the same memory: most calls then find it large enough. To do with one
- * allocation, begin with room for 8, 32 or 128 pairs a particle in 1, 2 or 3 dimensions (or more: see what
- * found.pairs says).
+ * Do the same in each step, with the same memory; most calls then find it large enough. If one allocation is
+ * to be enough, begin with room for 8, 32 or 128 pairs per particle in 1, 2 or 3 dimensions, or for more:
+ * found.pairs says how many there are.
  *
  * THE SAME IN PARTS, for targets that are not sources, for other lists, and for your own layout of memory:
  *
+ *     sph_query query = sph_query_of(x, SPH_GATHER, radius, 0);               what to look for
  *     work = malloc(sph_grid_workspace(3, n));
- *     sph_grid_build(3, x, R, work, sph_grid_workspace(3, n), &grid);                particles into cells
- *     sph_grid_count(3, &grid, x, SPH_GATHER, radius, radius, 0, start, &pairs);     counts: start[0 ... n]
+ *     sph_grid_build(3, x, support, work, sph_grid_workspace(3, n), &grid);   sorts particles into cells
+ *     sph_grid_count(3, &grid, query, start, &pairs);                         counts: fills start[0 ... n]
  *     index = malloc((size_t)pairs * sizeof *index);
- *     sph_grid_lists(3, &grid, x, SPH_GATHER, radius, radius, 0, start, index, pairs, &pairs);
+ *     sph_grid_lists(3, &grid, query, start, index, pairs, &pairs);
  *
- * Counting costs about as much as filling. Keep the memory from step to step, with some room to spare, and
- * call sph_grid_lists alone: where the room does not do, SPH_ERROR_CAPACITY says how much is needed.
- * Particles that are stored in an order near to that of the cells make every sweep faster, and lists take
- * half of the time: sort once in a while. The order is sph_grid_order(&grid), or sph_grid_order(&found.grid),
+ * Counting costs about as much as filling. So keep the memory from step to step, with some room to spare, and
+ * call sph_grid_lists alone. If the room is too small, it answers SPH_ERROR_CAPACITY, and pairs is the number
+ * that is needed.
  *
- *     sph_permute(n, sph_grid_order(&grid), px, 1, sorted); ...     each array of yours, positions too
- *     sph_grid_renumber(&grid);                                     for lists of this grid; or search again
+ * If the particles are stored in an order close to that of the cells, every sweep is faster, and lists take
+ * half of the time. So sort your arrays once in a while. The order is sph_grid_permutation(&grid), or after
+ * sph_search sph_grid_permutation(&found.grid):
  *
- * Lists can be kept for several steps: build them with the radius + a skin, and again when sph_rebuild_due
- * says so. A workspace may be used again for any cloud that is not larger. Memory may be aligned in any way.
- * Nothing is a number, too: with 0 particles, or no targets, all functions answer 0, and arrays may be null.
+ *     sph_permute(n, sph_grid_permutation(&grid), px, 1, sorted); ...     each array of yours, positions too
+ *     sph_grid_renumber(&grid);                                for lists of this grid; or search again
  *
- * Pairs whose distance is within a few rounding errors of the radius (8 units in the last place of the
- * radius; in a box, of the largest of radius, box length and coordinates) may be in or out, depending on
- * compiler, flags and path. The same binary gives the same lists, whatever the number of threads. Under
- * -ffast-math a pair at just half a periodic box may stand in a row twice, once for each image.
+ * Lists can be kept for several steps: build them with the radius + a skin, and build them again when
+ * sph_rebuild_due says so. A workspace may be used again for any cloud that is not larger. Memory may be
+ * aligned in any way. A cloud may be empty: with 0 particles, or no targets, all functions answer 0, and
+ * arrays may be null.
+ *
+ * Rounding decides whether a pair is in a list if its distance is the radius to within 8 units in the last
+ * place of the radius (in a box: of the largest of radius, box length and coordinates). For such pairs the
+ * result depends on the compiler, its flags and the path of the code. The same binary gives the same lists,
+ * for any number of threads. Under -ffast-math a pair at exactly half of a periodic box may stand in a row
+ * twice, once for each image.
  *
  * INDEX
- *   sph_index sph_search(dim, points, radius, criterion, memory, size, found)   neighbours, in one block
- *   size_t    sph_search_size(dim, n, pairs)              bytes of that block; 0 if it cannot be
+ *   sph_index sph_search(dim, points, radius, criterion, memory, size, found)
+ *                                                         neighbours, in one block of memory
+ *   size_t    sph_search_size(dim, n, pairs)              bytes of that block, or 0
  *   sph_neighbors                                         what is found: number of pairs, list, grid
- *   size_t    sph_grid_workspace(dim, n)                  bytes of workspace for n sources; 0 if it cannot be
- *   sph_index sph_grid_build(dim, sources, reach, work, work_size, grid)        sources into cells
- *   sph_index sph_grid_count(dim, grid, targets, criterion, target_radius, source_radius, flags, start,
- *                            pairs)                       the lengths of the lists alone
- *   sph_index sph_grid_lists(dim, grid, targets, criterion, target_radius, source_radius, flags, start,
- *                            index, capacity, pairs)      neighbour lists
- *   const sph_index *sph_grid_order(grid)                 order[slot] = particle: into cell order
- *   sph_index sph_grid_renumber(grid)                     the arrays have been permuted: the grid follows
+ *   size_t    sph_grid_workspace(dim, n)                  bytes of workspace for n sources, or 0
+ *   sph_index sph_grid_build(dim, sources, radius, work, work_size, grid)
+ *                                                         sorts the sources into cells
+ *   sph_query sph_query_of(points, criterion, radius, flags)
+ *                                                         the neighbours of points among themselves
+ *   sph_index sph_grid_count(dim, grid, query, start, pairs)
+ *                                                         only the lengths of the lists
+ *   sph_index sph_grid_lists(dim, grid, query, start, index, capacity, pairs)
+ *                                                         the neighbour lists
+ *   const sph_index *sph_grid_permutation(grid)           order[slot] = particle: into cell order
+ *   sph_index sph_grid_renumber(grid)                     tells the grid that the arrays have been permuted
  *   sph_index sph_permute(n, order, in, stride, out)      out[slot] = in[order[slot]], for each array
  *   sph_index sph_permute_inverse(n, order, inverse)      inverse[order[slot]] = slot
  *   int       sph_rebuild_due(dim, now, then, skin)       1 if a particle moved by more than skin / 2
  *
  * OPTIONS
- *   SPH_OPENMP   0   1: the search uses OpenMP's threads (compile with -fopenmp). The sweeps never start
- *                threads: call them on ranges from your own.
- *   SPH_AVX512   1 where the compiler may use AVX-512 F and VL, else 0       hand-written inner loop of the
- *                search
- *   SPH_AVX2     1 where the compiler may use AVX2 and BMI2, else 0          likewise; both 0: portable C
+ *   SPH_OPENMP   0.
+ *                1: the search uses the threads of OpenMP (compile with -fopenmp). The sweeps never start
+ *                threads: call them on ranges, from your own threads.
+ *   SPH_AVX512   1 where the compiler may use AVX-512 F and VL, else 0.
+ *                1: the inner loop of the search is written by hand for AVX-512.
+ *   SPH_AVX2     1 where the compiler may use AVX2 and BMI2, else 0.
+ *                1: the same for AVX2. If both are 0, the loop is portable C.
  */
 #ifndef SPH_H
 #define SPH_H
 
 #include "sph_ops.h"
-#if SPH_VERSION != 100
+#if SPH_VERSION != 200
 #error "sph.h and sph_ops.h are of different releases"
 #endif
 
@@ -104,17 +116,6 @@
 #if SPH_AVX512 || SPH_AVX2
 #  include <immintrin.h>
 #endif
-/* Functions too large to be inlined at every call. Without optimisation nothing is inlined, but gcc keeps
-   what is static, not inline and never called. */
-#if defined(__CUDACC__)
-#  define SPHI_LARGE static __host__ __device__ __noinline__
-#elif (defined(__GNUC__) || defined(__clang__)) && defined(__OPTIMIZE__)
-#  define SPHI_LARGE static __attribute__((unused, noinline))
-#elif defined(__GNUC__) || defined(__clang__)
-#  define SPHI_LARGE static inline __attribute__((unused))
-#else
-#  define SPHI_LARGE static
-#endif
 /* clang-format on */
 
 #if SPH_SINGLE
@@ -124,8 +125,8 @@
 #endif
 #define SPHI_INDEX_MAX ((((int64_t)1 << (8 * sizeof(sph_index) - 2)) - 1) * 2 + 1)
 
-/* Which pairs are neighbours; R: support radius. A gather list is what the operators of sph_ops.h need;
-   pair-symmetric operators need the larger of both. */
+/* Which pairs at the distance r are neighbours; R_i and R_j are their support radii. The operators of
+   sph_ops.h need a gather list. Pair-symmetric operators need the larger of both radii. */
 typedef enum sph_criterion {
     SPH_GATHER,  /* r < R_i */
     SPH_SCATTER, /* r < R_j */
@@ -134,53 +135,52 @@ typedef enum sph_criterion {
 } sph_criterion;
 
 typedef enum sph_list_flags {
-    SPH_LIST_SELF = 1,   /* a row holds its own particle, too */
+    SPH_LIST_SELF = 1,   /* a row also holds its own particle */
     SPH_LIST_HALF = 2,   /* each pair once: only j > i (for a symmetric criterion) */
-    SPH_LIST_SORTED = 4, /* ascending j in each row */
-    SPH_LIST_FOREIGN =
-        8 /* targets are not sources: target i has nothing to do with source i (excludes SELF and HALF) */
+    SPH_LIST_SORTED = 4, /* each row in ascending order of j */
+    SPH_LIST_FOREIGN = 8 /* target i has nothing to do with source i (not together with SELF or HALF) */
 } sph_list_flags;
 
-/* The sources in cells. Cells are rows along x of SPHI_FINE cells per reach, and reach wide in y and z, so
-   that the neighbours in y and z of a particle are a few contiguous runs of slots. Where the bounding box has
-   no more than 2 n cells a cell is its own number; where it is larger (mostly empty) cells are hashed into
-   about n buckets, a row along x still contiguous. Fields are for the functions below. */
+/* The sources, sorted into cells. The grid's radius is the width of a cell in y and z, and that of SPHI_FINE
+   cells in x. Cells that follow each other in x follow each other in memory, so that the neighbours of a
+   particle are a few contiguous runs of slots. If the bounding box has no more than 2 n cells, each cell has
+   its own bucket. If it has more (most of them empty), cells are hashed into about n buckets; a row along x
+   is still contiguous. The fields are for the functions below. */
 typedef struct sph_grid {
     sph_index n;
-    int dim, hashed,
-        scattered;    /* scattered: particles that follow each other are mostly not near each other */
-    int64_t cells[3]; /* along each axis */
-    size_t buckets;   /* a power of two if hashed */
-    sph_real reach;
+    int dim, hashed, scattered; /* scattered: many particles that follow each other are not near each other */
+    int64_t cells[3];           /* along each axis */
+    size_t buckets;             /* a power of two if hashed */
+    sph_real radius;            /* the one that will mostly be searched */
     sph_vec low, inverse_width, box;
     sph_index *first, *member; /* first slot of each bucket; particle of each slot */
     sph_real *x, *y, *z;       /* coordinates of each slot, inside the box along periodic axes */
 } sph_grid;
 
 enum {
-    SPHI_FINE = 8,      /* cells along x per reach */
+    SPHI_FINE = 8,      /* cells along x per radius */
     SPHI_PAD = 16,      /* slots beyond the last that whole lanes may read */
-    SPHI_FARTHEST = 32, /* largest radius / reach: bounds the number of cells that a row looks at */
-    SPHI_ALIGN = 8,     /* what memory is aligned to, inside the caller's */
-    SPHI_CROWDS = 8     /* crowded cells whose bounds are remembered from one target to the next */
+    SPHI_FARTHEST = 32, /* largest radius / the grid's: it bounds the number of cells that a row looks at */
+    SPHI_ALIGN = 8,     /* bytes to which memory is aligned, inside the caller's */
+    SPHI_CROWDS = 8     /* crowded cells whose bounds are kept from one target to the next */
 };
 #ifndef SPHI_CROWDED
-#define SPHI_CROWDED 1024 /* a cell of so many particles is crowded; tests take fewer */
+#define SPHI_CROWDED 1024 /* a cell with as many particles is crowded; tests take fewer */
 #endif
 
-/* Bytes of a slot's coordinates: in this memory the buckets of the particles wait until all have their slots.
-   */
+/* Bytes for the coordinates of a slot. The same memory first holds the bucket of each particle, until
+   all have their slots. */
 SPH_FN size_t sphi_place_size(int dim)
 {
     const size_t coordinates = (size_t)dim * sizeof(sph_real);
     return coordinates > sizeof(sph_index) ? coordinates : sizeof(sph_index);
 }
-/* even, so that arrays of four-byte numbers do not take those of eight bytes behind them off their alignment
-   */
+/* An even number of slots, so that an array of eight-byte numbers behind one of four-byte numbers
+   is aligned. */
 SPH_FN size_t sphi_padded(sph_index n) { return ((size_t)n + SPHI_PAD + 1) / 2 * 2; }
-/* Bytes of workspace that sph_grid_build needs for n sources, with some to align it; 0 if dim is not 1, 2
-   or 3, or if n is negative or more than can be counted. It is never 0 for 0 sources, though they need
-   none. */
+/* Bytes of workspace that sph_grid_build needs for n sources, with some to align it. It is 0 if dim is
+   not 1, 2 or 3, or if n is negative or more than can be counted. It is not 0 for 0 sources, although
+   they need no workspace. */
 SPH_FN size_t sph_grid_workspace(int dim, sph_index n)
 {
     const size_t bytes = sphi_place_size(dim > 0 && dim < 4 ? dim : 1) + 3 * sizeof(sph_index);
@@ -188,27 +188,27 @@ SPH_FN size_t sph_grid_workspace(int dim, sph_index n)
     if (n > SPHI_INDEX_MAX - SPHI_TILE) return 0; /* loops over slots go by tiles, and look a tile ahead */
     return sphi_padded(n) * bytes + SPHI_ALIGN;
 }
-/* the first aligned byte of memory */
+/* The first aligned byte of memory. */
 SPH_FN void *sphi_aligned(void *memory)
 {
     return (char *)memory + (SPHI_ALIGN - (uintptr_t)memory % SPHI_ALIGN) % SPHI_ALIGN;
 }
 
-/* Number of a cell along an axis, within [0, cells): never falls as x rises, so all between x - R and x + R
-   lie between the cells of these. */
+/* The number of a cell along an axis, within [0, cells). It never falls as x rises, so all particles between
+   x - radius and x + radius are in the cells between those of these two ends. */
 SPH_FN int64_t sphi_cell(sph_real x, sph_real low, sph_real inverse_width, int64_t cells)
 {
     const sph_real c = (x - low) * inverse_width, last = (sph_real)(cells - 1);
     return c > SPH_R(0) ? (c < last ? (int64_t)c : cells - 1) : 0;
 }
-/* The same along a periodic axis for the ends of a search range, which may lie outside. */
+/* The same along a periodic axis, for the ends of a search range, which may lie outside of the box. */
 SPH_FN int64_t sphi_cell_periodic(sph_real x, sph_real low, sph_real inverse_width)
 {
     const sph_real c = (x - low) * inverse_width;
     const int64_t i = (int64_t)c;
     return (sph_real)i > c ? i - 1 : i;
 }
-/* into [low, low + length), unchanged if it is there already */
+/* Moves x into [low, low + length). It does not change if it is there already. */
 SPH_FN sph_real sphi_wrap(sph_real x, sph_real low, sph_real length)
 {
     if (length > SPH_R(0) && !(x >= low && x < low + length)) {
@@ -230,7 +230,7 @@ SPH_FN int sphi_boxed(int dim, sph_vec box)
     return box.x > SPH_R(0) || (dim > 1 && box.y > SPH_R(0)) || (dim > 2 && box.z > SPH_R(0));
 }
 
-/* bucket of the first cell of a row along x */
+/* The bucket of the first cell of a row along x. */
 SPH_FN size_t sphi_row_bucket(const sph_grid *g, int64_t cy, int64_t cz)
 {
     if (!g->hashed) return (size_t)((cz * g->cells[1] + cy) * g->cells[0]);
@@ -249,19 +249,19 @@ SPH_FN size_t sphi_bucket(int dim, const sph_grid *g, sph_vec p)
     return g->hashed ? b & (g->buckets - 1) : b;
 }
 
-/* positive, and its square far from under- and overflow */
+/* A radius must be positive, and its square far from underflow and overflow. */
 SPH_FN int sphi_radius_ok(sph_real radius)
 {
     return sphi_finite(radius) && radius >= SPHI_TINY && radius <= SPH_R(1) / SPHI_TINY;
 }
 SPH_FN int sphi_check_points(int dim, sph_points x)
 {
-    if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
-    if (x.n < 0) return SPH_ERROR_COUNT;
+    int error;
+    if (dim < 1 || dim > 3) return sphi_refuse("dim", -1, SPH_ERROR_DIM);
+    if (x.n < 0) return sphi_refuse("points.n", -1, SPH_ERROR_COUNT);
     if (x.n == 0) return 0; /* nothing to point at */
-    if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z)) return SPH_ERROR_NULL;
-    if (x.stride < 1) return SPH_ERROR_COUNT;
-    return sphi_check_positions(dim, x);
+    error = sphi_check_arrays(dim, x);
+    return error ? error : sphi_check_positions(dim, x);
 }
 SPH_FN void sphi_enclose(sph_vec p, sph_vec *low, sph_vec *high)
 {
@@ -272,9 +272,9 @@ SPH_FN void sphi_enclose(sph_vec p, sph_vec *low, sph_vec *high)
     high->y = p.y > high->y ? p.y : high->y;
     high->z = p.z > high->z ? p.z : high->z;
 }
-/* Lays the grid out over the axes: low, inverse_width, cells. `fine` cells per reach. Returns their product,
-   which may be huge. */
-SPH_FN double sphi_axes(int dim, sph_grid *g, sph_vec low, sph_vec high, sph_real reach, int fine)
+/* Divides the axes into cells: sets low, inverse_width and cells. Along x there are `fine` cells per radius.
+   Returns the number of all cells, which may be huge. */
+SPH_FN double sphi_axes(int dim, sph_grid *g, sph_vec low, sph_vec high, sph_real radius, int fine)
 {
     sph_real lows[3] = {low.x, low.y, low.z};
     const sph_real highs[3] = {high.x, high.y, high.z}, box[3] = {g->box.x, g->box.y, g->box.z};
@@ -285,11 +285,11 @@ SPH_FN double sphi_axes(int dim, sph_grid *g, sph_vec low, sph_vec high, sph_rea
         sph_real count;
         g->cells[c] = 1;
         if (c >= dim) continue;
-        inverse[c] = SPH_R(c == 0 ? fine : 1) / reach;
+        inverse[c] = SPH_R(c == 0 ? fine : 1) / radius;
         if (box[c] > SPH_R(0) && !(highs[c] - lows[c] < box[c]))
-            lows[c] = SPH_R(0); /* some have to be moved: into [0, box) */
+            lows[c] = SPH_R(0); /* some are moved, into [0, box) */
         if (box[c] > SPH_R(0)) {
-            /* a whole number of cells around the box, none of them so narrow that rounding could matter (see
+            /* a whole number of cells around the box, none of them so narrow that rounding matters (see
                sphi_range) */
             const sph_real most = box[c] / (SPH_R(64) * SPH_EPSILON * (box[c] + SPHI_ABS(lows[c])));
             count = box[c] * inverse[c] < most ? box[c] * inverse[c] : most;
@@ -312,7 +312,7 @@ SPH_FN double sphi_axes(int dim, sph_grid *g, sph_vec low, sph_vec high, sph_rea
     return product;
 }
 
-/* part of n, in so many parts */
+/* Where a part of n begins, if n is divided into so many parts. */
 SPH_FN sph_index sphi_first(sph_index n, int part, int parts)
 {
     return (sph_index)((int64_t)n * part / parts);
@@ -326,18 +326,18 @@ SPH_FN int sphi_parts(void)
 #endif
 }
 
-/* Where a source is kept. The one compiled copy of its kind: the loop that finds a particle's bucket and the
-   one that stores its place must take it to the same side of the box to the last bit, also where the compiler
-   may round as it likes (-ffast-math). */
+/* Where a source is kept. There is only one compiled copy of this function. One loop finds the bucket of a
+   particle, another stores its place. Both must get the same place to the last bit, and so the same side of
+   the box, even where the compiler may round as it likes (-ffast-math). */
 SPHI_LARGE sph_vec sphi_source(int dim, const sph_grid *g, sph_points s, sph_index i)
 {
     return sphi_wrap_point(dim, g, sphi_point(dim, s, i));
 }
 
-/* Three loops over the particles - buckets, slots, coordinates - of which the second alone has to go in turn:
-   where the storage order is far from that of the cells, each then waits for one kind of far memory only, and
-   for many at a time. */
-SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real reach, sph_grid *g)
+/* Three loops over the particles find buckets, slots and coordinates. Only the second one cannot run in
+   parallel. If the particles are stored in an order far from that of the cells, each loop then waits for one
+   kind of distant memory only, and for many such accesses at a time. */
+SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real radius, sph_grid *g)
 {
     const double most =
         2.0 * (double)s.n < (double)SPHI_INDEX_MAX ? 2.0 * (double)s.n : (double)SPHI_INDEX_MAX;
@@ -367,7 +367,7 @@ SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real reach, sph_grid *
         }
     }
     g->hashed = 0;
-    for (fine = SPHI_FINE; sphi_axes(dim, g, low, high, reach, fine) > most; fine /= 2)
+    for (fine = SPHI_FINE; sphi_axes(dim, g, low, high, radius, fine) > most; fine /= 2)
         if (fine == 1) {
             g->hashed = 1;
             break;
@@ -387,8 +387,8 @@ SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real reach, sph_grid *
             bucket_of[k] = (sph_index)sphi_bucket(dim, g, p);
         }
     }
-    /* counting sort: first[b + 2] counts, then first[b + 1] is the next free slot of bucket b, and ends as
-       the first of b + 1 */
+    /* A counting sort. first[b + 2] counts bucket b. Then first[b + 1] is its next free slot, and in the end
+       the first slot of bucket b + 1. */
     for (b = 0; b < g->buckets + 2; b++) g->first[b] = 0;
     for (i = 0; i < s.n; i++) {
         const sph_index bucket = bucket_of[i];
@@ -412,7 +412,7 @@ SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real reach, sph_grid *
             if (dim > 2) g->z[k] = p.z;
         }
     }
-    for (i = 0; i < SPHI_PAD; i++) { /* read in whole lanes, never used */
+    for (i = 0; i < SPHI_PAD; i++) { /* whole lanes read these slots, but nothing uses them */
         g->member[s.n + i] = 0;
         g->x[s.n + i] = SPH_R(0);
         if (dim > 1) g->y[s.n + i] = SPH_R(0);
@@ -428,59 +428,61 @@ SPH_FN void sphi_grid_empty(int dim, sph_grid *grid)
     grid->hashed = grid->scattered = 0;
     grid->cells[0] = grid->cells[1] = grid->cells[2] = 0;
     grid->buckets = 0;
-    grid->reach = SPH_R(0);
+    grid->radius = SPH_R(0);
     grid->low.x = grid->low.y = grid->low.z = SPH_R(0);
     grid->inverse_width = grid->box = grid->low;
     grid->first = grid->member = 0;
     grid->x = grid->y = grid->z = 0;
 }
 
-/* Sorts the sources into cells; reach is the radius that will mostly be searched (others work, too). The
-   coordinates are copied: later changes of the arrays do not matter until the next build. work may be
-   aligned in any way. Along axes with a box length, reach may be half of it. Without sources the grid is
-   empty; work and reach are then not looked at, and work may be null. Returns 0 or a negative sph_error:
-   SPH_ERROR_CAPACITY if work_size is below sph_grid_workspace(dim, sources.n). */
-SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_real reach, void *work, size_t work_size,
+/* Sorts the sources into cells. radius is the one that will mostly be searched; others work, too. It may be
+   at most half of a box length. The coordinates are copied, so later changes of the arrays do not matter
+   until the next build. work may be aligned in any way. Without sources the grid is empty; work and radius
+   are then not read, and work may be null.
+   Returns 0 or a negative sph_error: SPH_ERROR_CAPACITY if work_size is below
+   sph_grid_workspace(dim, sources.n). */
+SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_real radius, void *work, size_t work_size,
                                 sph_grid *grid)
 {
     const int error = sphi_check_points(dim, sources);
     const size_t padded = sphi_padded(sources.n > 0 ? sources.n : 0);
     if (error) return error;
-    if (!grid || (!work && sources.n > 0)) return SPH_ERROR_NULL;
+    if (!grid || (!work && sources.n > 0)) return sphi_refuse("work, grid", -1, SPH_ERROR_NULL);
     if (sources.n == 0) {
         sphi_grid_empty(dim, grid);
         return 0;
     }
-    if (sph_grid_workspace(dim, sources.n) == 0) return SPH_ERROR_COUNT;
-    if (!sphi_radius_ok(reach)) return SPH_ERROR_H;
-    if (sphi_check_box(dim, sources, reach)) return SPH_ERROR_BOX;
+    if (sph_grid_workspace(dim, sources.n) == 0) return sphi_refuse("sources.n", -1, SPH_ERROR_COUNT);
+    if (!sphi_radius_ok(radius)) return sphi_refuse("radius", -1, SPH_ERROR_H);
+    if (sphi_check_box(dim, sources, radius, 0)) return SPH_ERROR_BOX;
     if (work_size < sph_grid_workspace(dim, sources.n)) return SPH_ERROR_CAPACITY;
     work = sphi_aligned(work);
     grid->n = sources.n;
     grid->dim = dim;
     grid->box = sources.box;
-    grid->reach = reach;
+    grid->radius = radius;
     grid->x = (sph_real *)work;
     grid->y = grid->x + (dim > 1 ? padded : 0);
     grid->z = grid->y + (dim > 2 ? padded : 0);
     grid->member = (sph_index *)(void *)((char *)work + padded * sphi_place_size(dim));
     grid->first = grid->member + padded;
-    if (dim == 1) sphi_grid_fill(1, sources, reach, grid);
-    else if (dim == 2) sphi_grid_fill(2, sources, reach, grid);
-    else sphi_grid_fill(3, sources, reach, grid);
+    if (dim == 1) sphi_grid_fill(1, sources, radius, grid);
+    else if (dim == 2) sphi_grid_fill(2, sources, radius, grid);
+    else sphi_grid_fill(3, sources, radius, grid);
     return 0;
 }
 
-/* order[slot] = particle: the permutation into cell order; null for no grid, or an empty one */
-SPH_FN const sph_index *sph_grid_order(const sph_grid *grid) { return grid ? grid->member : 0; }
+/* The permutation into cell order: order[slot] = particle. It is null if grid is null, or empty. */
+SPH_FN const sph_index *sph_grid_permutation(const sph_grid *grid) { return grid ? grid->member : 0; }
 
-/* For a host that has put all its arrays into cell order (sph_permute with sph_grid_order): from here on the
-   grid speaks of particles by their new numbers, as if it had been built of the new arrays, and
-   sph_grid_order is the identity. The old order is lost: permute first. Returns 0, or SPH_ERROR_NULL. */
+/* For a host that has put all its arrays into cell order (sph_permute with sph_grid_permutation).
+   The grid then uses the new numbers of the particles, as if it had been built from the new arrays,
+   and sph_grid_permutation is the identity. The old order is lost, so permute first. Returns 0, or
+   SPH_ERROR_NULL. */
 SPH_FN sph_index sph_grid_renumber(sph_grid *grid)
 {
     sph_index s;
-    if (!grid) return SPH_ERROR_NULL;
+    if (!grid) return sphi_refuse("grid", -1, SPH_ERROR_NULL);
     for (s = 0; s < grid->n; s++) grid->member[s] = s;
     grid->scattered = 0;
     return 0;
@@ -488,8 +490,8 @@ SPH_FN sph_index sph_grid_renumber(sph_grid *grid)
 
 /* ================================================================ lists */
 
-/* The particles of a crowded cell lie between these corners, and none of their radii is below the least one.
-   */
+/* A crowded cell: its particles lie between the corners low and high, and none of their radii is
+   below `least`. */
 typedef struct sphi_crowd {
     size_t bucket;
     sph_vec low, high;
@@ -497,22 +499,23 @@ typedef struct sphi_crowd {
 } sphi_crowd;
 typedef struct sphi_crowds {
     sphi_crowd of[SPHI_CROWDS];
-    int count, next; /* how many are known; the one that the next will replace */
+    int count, next; /* how many are known, and which one is replaced next */
 } sphi_crowds;
 
-/* What a row asks for. */
+/* What the search for one row needs. */
 typedef struct sphi_search {
-    sph_vec p;          /* the target, inside the box */
-    sph_real radius;    /* nothing farther is a neighbour */
-    sph_real own;       /* R_i */
-    sph_real widest;    /* half of the smallest box: at no larger radius is a pair seen in one image only */
-    sph_scalars source; /* R_j */
-    int criterion;      /* how own and source make the pair's radius */
-    sph_index skip, least; /* not the particle skip; only particles from least on */
+    sph_vec p;             /* the target, inside the box */
+    sph_real radius;       /* nothing farther is a neighbour */
+    sph_real own;          /* R_i */
+    sph_real widest;       /* half of the smallest box: within a larger radius a pair may have two images */
+    sph_scalars source;    /* R_j */
+    int criterion;         /* how the radius of a pair follows from own and source */
+    sph_index skip, least; /* without the particle skip, and only particles from least on */
     sphi_crowds *crowds;
 } sphi_search;
 
-/* Cells x0 ... x1 of a row along x, and the image they are seen in: `shift` is 0 or whole box lengths. */
+/* The cells x0 ... x1 of a row along x, and the image in which they are seen: `shift` is 0, or
+   whole box lengths. */
 typedef struct sphi_run {
     int64_t x0, x1, y, z;
     sph_vec shift;
@@ -533,7 +536,7 @@ SPH_FN sph_real sphi_pair_radius(int criterion, sph_real R_i, sph_real R_j)
     }
 }
 
-/* the place of a slot, inside the box */
+/* The place of a slot, inside the box. */
 SPH_FN sph_vec sphi_slot(int dim, const sph_grid *g, sph_index slot)
 {
     sph_vec p;
@@ -542,8 +545,8 @@ SPH_FN sph_vec sphi_slot(int dim, const sph_grid *g, sph_index slot)
     p.z = dim > 2 ? g->z[slot] : SPH_R(0);
     return p;
 }
-/* Whether a slot belongs to a run: buckets of a hashed grid hold other cells, too, and a slot must count in
-   its own row only. */
+/* Whether a place belongs to a run. The buckets of a hashed grid also hold particles of other cells, and each
+   must count in its own row only. */
 SPH_FN int sphi_in_run(int dim, const sph_grid *g, sph_vec p, const sphi_run *run)
 {
     const int64_t x = sphi_cell(p.x, g->low.x, g->inverse_width.x, g->cells[0]);
@@ -552,11 +555,11 @@ SPH_FN int sphi_in_run(int dim, const sph_grid *g, sph_vec p, const sphi_run *ru
     return dim < 3 || sphi_cell(p.z, g->low.z, g->inverse_width.z, g->cells[2]) == run->z;
 }
 
-/* What is known when the loops are compiled: hashed cells and any radii, or no hashed cells and radii of
-   pairs, one radius in some box, one radius in an open domain. */
+/* What is known when the loops are compiled: that cells are hashed, with any radii; or that they are not
+   hashed, with radii of pairs, with one radius in some box, or with one radius in an open domain. */
 enum { SPHI_HASHED, SPHI_RADII, SPHI_BOXED, SPHI_OPEN };
 
-/* The squares of the pairs' radii for slots m ... m + n - 1. */
+/* The squares of the radii of the pairs, for the slots m ... m + n - 1. */
 SPH_FN void sphi_limits_by(int criterion, const sph_grid *g, const sphi_search *s, sph_index m, int n,
                            sph_real *limit)
 {
@@ -580,7 +583,7 @@ SPH_FN void sphi_limits(const sph_grid *g, const sphi_search *s, sph_index m, in
         for (l = 0; l < n; l++) limit[l] = s->radius * s->radius;
 }
 
-/* 1 for numbers below 0, by the sign bit: read where it is, it costs less than a comparison */
+/* 1 for numbers below 0, by the sign bit. Reading this bit costs less than a comparison. */
 SPH_FN unsigned sphi_negative(sph_real x)
 {
 #if SPH_SINGLE
@@ -600,8 +603,8 @@ SPH_FN unsigned sphi_negative(sph_real x)
 #endif
 }
 
-/* Slots a ... b - 1: puts the neighbours to out[count] as long as count < room, and counts on; returns the
-   new count. */
+/* Of the slots a ... b - 1, stores the neighbours at out[count] and behind it, as long as count < room. It
+   counts all of them, and returns the new count. */
 SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const sphi_search *s,
                                     const sphi_run *run, sph_index a, sph_index b, sph_index *out,
                                     int64_t room, int64_t count)
@@ -614,7 +617,7 @@ SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const 
     for (; a < b; a += SPHI_TILE) {
         const int n = b - a < SPHI_TILE ? (int)(b - a) : (int)SPHI_TILE;
         const sph_index *const member = g->member + a;
-        /* excess: of the square of the distance over that of the radius: negative for neighbours */
+        /* excess: the square of the distance minus that of the radius; it is negative for neighbours */
         sph_real limits[SPHI_TILE], excess[SPHI_TILE];
         int c, l;
         if (kind <= SPHI_RADII) sphi_limits(g, s, a, (n + SPHI_LANES - 1) / SPHI_LANES * SPHI_LANES, limits);
@@ -627,7 +630,7 @@ SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const 
                 excess[l] = d2 - (kind <= SPHI_RADII ? limits[l] : limit);
             }
         if (store) {
-            /* without a branch: every candidate is stored, and overwritten by the next if it is none */
+            /* without a branch: every candidate is stored, and overwritten by the next if it is not near */
             sph_index *next = out + count;
             if (least == 0)
                 for (l = 0; l < n; l++) {
@@ -660,20 +663,20 @@ SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const 
 
 #if SPH_AVX512 || SPH_AVX2
 #define SPHI_WIDE_PATH (sizeof(sph_index) == 4)
-/* those of the eight indices that the mask names, packed; writes eight entries */
+/* Packs those of the eight indices that the mask names. It writes eight entries. */
 SPH_FN void sphi_compress8(sph_index *out, __m256i j, unsigned mask)
 {
 #if SPH_AVX512
     _mm256_storeu_si256((__m256i *)(void *)out, _mm256_maskz_compress_epi32((__mmask8)mask, j));
-#else /* the lanes' numbers, as bytes, packed by the mask */
+#else /* the numbers of the lanes, as bytes, are packed by the mask */
     const uint64_t bytes = _pext_u64(0x0706050403020100u, _pdep_u64(mask, 0x0101010101010101u) * 0xffu);
     const __m256i order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)bytes));
     _mm256_storeu_si256((__m256i *)(void *)out, _mm256_permutevar8x32_epi32(j, order));
 #endif
 }
 
-/* Of the eight slots from m on, those nearer than the limit, or than the eight limits if there are any.
-   Squares. */
+/* A mask of those of the eight slots from m on that are nearer than the limit, or than the eight limits if
+   there are any. The limits are squares of distances. */
 #if SPH_SINGLE
 SPH_FN __m256 sphi_square8(float p, const float *x, float shift)
 {
@@ -729,7 +732,7 @@ SPH_FN unsigned sphi_nearer8(int dim, const sph_grid *g, const sphi_search *s, s
 }
 #endif
 
-/* store = 0: counts only, and out is not touched */
+/* With store = 0 it only counts, and out is not touched. */
 SPH_FN int64_t sphi_filter_wide(int dim, int kind, const sph_grid *g, const sphi_search *s, sph_vec shift,
                                 sph_index a, sph_index b, sph_index *out, int store, int64_t count)
 {
@@ -752,9 +755,9 @@ SPH_FN int64_t sphi_filter_wide(int dim, int kind, const sph_grid *g, const sphi
     }
     return count;
 }
-/* The same where the room may not do for whole lanes: not the portable loop, because that may be rounded
-   otherwise (where the compiler contracts it to fused operations), and a row would not be as long as it was
-   counted. */
+/* The same where the room may be too small for whole lanes. This is not the portable loop, because that may
+   round differently (where the compiler contracts it to fused operations), and a row would then not be as
+   long as it was counted. */
 SPHI_LARGE int64_t sphi_filter_tight(int dim, int kind, const sph_grid *g, const sphi_search *s,
                                      sph_vec shift, sph_index a, sph_index b, sph_index *out, int64_t room,
                                      int64_t count)
@@ -783,14 +786,14 @@ SPH_FN int64_t sphi_filter(int dim, int kind, const sph_grid *g, const sphi_sear
     return sphi_filter_portable(dim, kind, g, s, run, a, b, out, room, count);
 }
 
-/* The cells from x - R to x + R along an axis; along a periodic one they may lie outside of the box. */
+/* The cells from x - radius to x + radius along an axis. Along a periodic axis they may lie outside
+   of the box. */
 SPH_FN void sphi_range(sph_real x, sph_real radius, sph_real low, sph_real inverse_width, sph_real length,
                        int64_t cells, int64_t *c0, int64_t *c1)
 {
     if (length > SPH_R(0)) {
-        const sph_real more =
-            radius +
-            SPH_R(16) * SPH_EPSILON * (length + SPHI_ABS(low)); /* rounding differs from image to image */
+        /* somewhat more than the radius, because rounding differs from image to image */
+        const sph_real more = radius + SPH_R(16) * SPH_EPSILON * (length + SPHI_ABS(low));
         *c0 = sphi_cell_periodic(x - more, low, inverse_width);
         *c1 = sphi_cell_periodic(x + more, low, inverse_width);
     } else {
@@ -798,7 +801,7 @@ SPH_FN void sphi_range(sph_real x, sph_real radius, sph_real low, sph_real inver
         *c1 = sphi_cell(x + radius, low, inverse_width, cells);
     }
 }
-/* a cell outside of the box: which image (0 inside), moving c inside */
+/* In which image a cell is (0: inside the box). Moves c inside. */
 SPH_FN int64_t sphi_image(int64_t cells, int64_t *c)
 {
     int64_t image;
@@ -808,14 +811,12 @@ SPH_FN int64_t sphi_image(int64_t cells, int64_t *c)
     return image;
 }
 
-/* ---- crowded cells: where many particles have collapsed into a small place, rows are as long as the cloud.
-   A cell
-   that lies within the radius as a whole is then taken, or counted, without a look at its particles. The
-   result is
-   the one that distances give. */
+/* -------- lists: crowded cells. Where many particles have collapsed into a small place, rows are as long as
+   the cloud. If a whole cell lies within the radius, all its particles are stored, or counted, without a look
+   at each. The result is the same as by distances. */
 
-/* the first slot of a ... b - 1 whose particle is not below j; the slots of a bucket are in the order of
-   their particles */
+/* The first of the slots a ... b - 1 whose particle is not below j. (The slots of a bucket are in the order
+   of their particles.) */
 SPH_FN sph_index sphi_lower_bound(const sph_grid *g, sph_index a, sph_index b, sph_index j)
 {
     while (a < b) {
@@ -847,14 +848,14 @@ SPH_FN sphi_crowd sphi_crowd_of(int dim, const sph_grid *g, const sphi_search *s
     sphi_crowd_add(dim, g, s, b - 1, &crowd);
     return crowd;
 }
-/* square of the distance to the farther end of an interval */
+/* The square of the distance to the farther end of an interval. */
 SPH_FN sph_real sphi_farther2(sph_real p, sph_real low, sph_real high, sph_real shift)
 {
     const sph_real l = SPHI_ABS((p - low) - shift), h = SPHI_ABS((p - high) - shift);
     return l > h ? l * l : h * h;
 }
-/* Whether all of a crowd are in the run and nearer than their radii, by so much that no rounding of theirs
-   can tell otherwise. */
+/* Whether all particles of a crowd are in the run and nearer than their radii. They must be nearer by so much
+   that the rounding of their distances cannot change this. */
 SPH_FN int sphi_crowd_near(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
                            const sphi_crowd *crowd)
 {
@@ -867,7 +868,7 @@ SPH_FN int sphi_crowd_near(int kind, const sph_grid *g, const sphi_search *s, co
     if (kind != SPHI_HASHED) return 1;
     return sphi_in_run(g->dim, g, low, run) && sphi_in_run(g->dim, g, high, run);
 }
-/* Whether all particles of a bucket are neighbours, as far as can be told without a look at each. */
+/* 1 if all particles of a bucket are known to be neighbours without a look at each, else 0. */
 SPH_FN int sphi_crowd_taken(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
                             size_t bucket)
 {
@@ -876,7 +877,7 @@ SPH_FN int sphi_crowd_taken(int kind, const sph_grid *g, const sphi_search *s, c
     sphi_crowd crowd;
     int i;
     if (b - a < SPHI_CROWDED) return 0;
-    /* of a few of them first: the bounds of a wide crowd would be of no use */
+    /* first the bounds of a few of them, because those of a wide crowd would be of no use */
     crowd = sphi_crowd_of(g->dim, g, s, bucket, a, b, (b - a) / 4 + 1);
     if (!sphi_crowd_near(kind, g, s, run, &crowd)) return 0;
     for (i = 0; i < known->count && known->of[i].bucket != bucket; i++) {}
@@ -894,7 +895,7 @@ SPHI_LARGE int sphi_has_crowd(int kind, const sph_grid *g, const sphi_search *s,
     while (from < to && !sphi_crowd_taken(kind, g, s, run, from)) from++;
     return from < to;
 }
-/* All of the slots a ... b - 1 of one bucket: as sphi_filter would, but for the distances. */
+/* Takes all slots a ... b - 1 of one bucket, as sphi_filter would, but without distances. */
 SPHI_LARGE int64_t sphi_take(const sph_grid *g, const sphi_search *s, sph_index a, sph_index b,
                              sph_index *out, int64_t room, int64_t count)
 {
@@ -907,7 +908,7 @@ SPHI_LARGE int64_t sphi_take(const sph_grid *g, const sphi_search *s, sph_index 
     }
     return end;
 }
-/* A run with a crowd in it; not specialised, because what is not taken as a whole is little. */
+/* A run with a crowd in it. The code is not specialised, because few particles are not taken as a whole. */
 SPHI_LARGE int64_t sphi_filter_crowded(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
                                        size_t from, size_t to, sph_index *out, int64_t room, int64_t count)
 {
@@ -918,7 +919,7 @@ SPHI_LARGE int64_t sphi_filter_crowded(int kind, const sph_grid *g, const sphi_s
     }
     return count;
 }
-/* The buckets from ... to - 1, which follow each other. */
+/* The consecutive buckets from ... to - 1. */
 SPH_FN int64_t sphi_buckets(int dim, int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
                             size_t from, size_t to, sph_index *out, int64_t room, int64_t count)
 {
@@ -928,8 +929,8 @@ SPH_FN int64_t sphi_buckets(int dim, int kind, const sph_grid *g, const sphi_sea
     return sphi_filter(dim, kind, g, s, run, a, b, out, room, count);
 }
 
-/* The neighbours of one target: filters, or with count_all just counts the candidates. Adds their number to
-   *candidates. */
+/* The neighbours of one target, or with count_all the number of candidates alone. Adds the number of
+   candidates to *candidates. */
 SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search *s, int count_all,
                         sph_index *out, int64_t room, int64_t *candidates)
 {
@@ -948,8 +949,8 @@ SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search 
     sphi_range(s->p.x, s->radius, g->low.x, g->inverse_width.x, boxed ? box.x : SPH_R(0), g->cells[0], &x0,
                &x1);
     if (kind == SPHI_OPEN) {
-        /* the same as below, with nothing to wrap. Looking at rows near the rim over less of their length, or
-           not at all, costs more than it saves. */
+        /* The same as below, with nothing to wrap. It would cost more than it saves to look at less of the
+           rows near the rim, or to leave them out. */
         for (z = z0; z <= z1; z++)
             for (y = y0; y <= y1; y++) {
                 const size_t row = (size_t)((z * g->cells[1] + y) * g->cells[0]), from = row + (size_t)x0,
@@ -968,7 +969,7 @@ SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search 
             if (dim > 1 && box.y > SPH_R(0)) run.shift.y = box.y * (sph_real)sphi_image(g->cells[1], &run.y);
             row = sphi_row_bucket(g, run.y, run.z);
             for (x = x0; x <= x1;
-                 x += run.x1 - run.x0 + 1) { /* more than once only where a row passes the end of the box */
+                 x += run.x1 - run.x0 + 1) { /* more than once only if a row passes the end of the box */
                 size_t from, left;
                 run.x0 = x;
                 if (box.x > SPH_R(0)) run.shift.x = box.x * (sph_real)sphi_image(g->cells[0], &run.x0);
@@ -976,7 +977,7 @@ SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search 
                 from = row + (size_t)run.x0;
                 left = (size_t)(run.x1 - run.x0) + 1;
                 if (hashed && left > g->buckets) left = g->buckets;
-                while (left > 0) { /* twice where a hashed row passes the end of the table */
+                while (left > 0) { /* twice if a hashed row passes the end of the table */
                     size_t to;
                     if (hashed) from &= g->buckets - 1;
                     to = from + left < g->buckets ? from + left : g->buckets;
@@ -991,7 +992,7 @@ SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search 
     return count;
 }
 
-/* ascending; heapsort, because a row of a collapsed cloud may be long */
+/* Sorts a row in ascending order. It is a heapsort, because a row of a collapsed cloud may be long. */
 SPH_FN void sphi_sort(sph_index *a, sph_index n)
 {
     sph_index i, parent, child, v;
@@ -1012,7 +1013,7 @@ SPH_FN void sphi_sort(sph_index *a, sph_index n)
     }
 }
 
-/* What a call of sph_grid_lists or sph_grid_count is about. */
+/* What a call of sph_grid_lists or sph_grid_count has to do. */
 typedef struct sphi_job {
     const sph_grid *g;
     sph_points targets;
@@ -1024,19 +1025,17 @@ typedef struct sphi_job {
     sph_index *start, *index;
 } sphi_job;
 
-/* SPHI_APPEND: rows one after the other to index[0 ... room - 1], lengths to start[i + 1]. In two passes:
-   SPHI_LENGTHS to start[i + 1], and, once these are starts, SPHI_PLACE each row where it belongs: for targets
-   stored in an order far from that of the cells, which are then visited by slots, where near targets follow
-   each other. */
+/* SPHI_APPEND stores the rows one after the other in index[0 ... room - 1], and their lengths in
+   start[i + 1]. The other way takes two passes: SPHI_LENGTHS stores the lengths in start[i + 1]; once
+   these have become starts, SPHI_PLACE stores each row where it belongs. This is for targets that are
+   stored in an order far from that of the cells. They are visited in the order of the slots, where
+   near targets follow each other. */
 enum { SPHI_APPEND, SPHI_LENGTHS, SPHI_PLACE, SPHI_BUFFER = 768 };
 
-/* One compiled copy for all three, so that a row is placed with the roundings with which it was counted:
-   start, which
-   PLACE reads, holds what LENGTHS or APPEND counted. Returns the sum of the lengths, none of them estimated,
-   and adds
-   the number of candidates, which is never less, to *candidates. Only once the sum is more than sph_index can
-   count,
-   where there will be no list, are candidates alone looked at. */
+/* One compiled copy serves all three modes, so that a row is placed with the same rounding with which it was
+   counted: PLACE reads start, which holds what LENGTHS or APPEND counted. Returns the sum of the lengths,
+   none of them estimated. Adds the number of candidates, which is never less, to *candidates. Once the sum is
+   more than sph_index can count there will be no list, and only candidates are counted from then on. */
 SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_index first, sph_index last,
                          sph_index *index, int64_t room, int64_t *candidates)
 {
@@ -1062,7 +1061,7 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
         if (job->by_slots) {
             s.p = sphi_slot(dim, g, k);
         } else s.p = sphi_wrap_point(dim, g, sphi_point(dim, job->targets, i));
-        if (mode == SPHI_PLACE) { /* by way of the buffer, which has the room that whole lanes want */
+        if (mode == SPHI_PLACE) { /* by way of the buffer, which has room for whole lanes */
             row_room = job->start[i + 1] - job->start[i];
             row = index + job->start[i];
         }
@@ -1137,15 +1136,14 @@ SPH_FN int64_t sphi_pass_part(int mode, const sphi_job *job, sph_index first, sp
     }
 }
 
-/* where a part's share of the room begins */
+/* Where the room of a part begins. */
 SPH_FN int64_t sphi_from(int64_t room, int part, int parts)
 {
     return part < parts ? room / parts * part : room;
 }
 
-/* A pass by all threads. Each part appends to its own part of index, or places where start says. *spilt: a
-   part of
-   index proved too small; all rows are counted all the same. */
+/* A pass by all threads. Each part appends to its own part of index, or places rows where start says. *spilt
+   is 1 if a part of index was too small; all rows are counted even then. */
 SPHI_LARGE int64_t sphi_pass_threads(int mode, const sphi_job *job, int parts, int *spilt,
                                      int64_t *candidates)
 {
@@ -1172,8 +1170,8 @@ SPHI_LARGE int64_t sphi_pass_threads(int mode, const sphi_job *job, int parts, i
     return total;
 }
 
-/* Moves entries down. Threads share as many at a time as the gap is wide: no further, because what lies there
-   is to be overwritten. */
+/* Moves entries down. The threads share as many entries at a time as the gap is wide, and not more, because
+   one of them could then overwrite an entry that another has not read yet. */
 SPHI_LARGE void sphi_close_gap(sph_index *to, const sph_index *from, int64_t length, int parts)
 {
     const int64_t gap = from - to;
@@ -1195,8 +1193,8 @@ SPHI_LARGE void sphi_close_gap(sph_index *to, const sph_index *from, int64_t len
     }
 }
 
-/* Returns the number of pairs. Where that is more than sph_index can count, the number of candidates stands
-   for it: no less than the pairs, and the same however the targets were shared among threads. */
+/* Returns the number of pairs. If that is more than sph_index can count, it returns the number of candidates
+   instead. This is never less, and does not depend on how the targets were shared among threads. */
 SPHI_LARGE int64_t sphi_lists(const sphi_job *job)
 {
     const sph_index n = job->targets.n;
@@ -1210,11 +1208,11 @@ SPHI_LARGE int64_t sphi_lists(const sphi_job *job)
     if (job->capacity > 0 && total > job->capacity) return total;
     start[0] = 0;
     for (i = 0; i < n; i++) start[i + 1] += start[i];
-    SPH_ASSERT(start[n] == total); /* every target was counted, once */
+    SPH_ASSERT(start[n] == total); /* every target was counted once */
     if (job->capacity == 0) return total;
     if (!append || spilt) sphi_pass_threads(SPHI_PLACE, job, parts, &spilt, &candidates);
     else
-        for (part = 1; part < parts; part++) { /* each part down to the end of the one before */
+        for (part = 1; part < parts; part++) { /* moves each part down to the end of the one before */
             const sph_index begin = start[sphi_first(n, part, parts)],
                             length = start[sphi_first(n, part + 1, parts)] - begin;
             sphi_close_gap(job->index + begin, job->index + sphi_from(job->capacity, part, parts), length,
@@ -1223,23 +1221,49 @@ SPHI_LARGE int64_t sphi_lists(const sphi_job *job)
     return total;
 }
 
-/* What is asked for, once it is found to make sense: a job, without the room for its lists. */
-SPH_FN int sphi_job_of(int dim, const sph_grid *grid, sph_points targets, int criterion,
-                       sph_scalars target_radius, sph_scalars source_radius, int flags, sph_index *start,
-                       sphi_job *job)
+/* What is looked for: the neighbours of these targets, by this criterion, within these support radii, in
+   lists with these flags. There is one radius for each target and source, or one for all (sph_scalars_same).
+   Radii that the criterion does not use are not read. */
+typedef struct sph_query {
+    sph_points targets;
+    int criterion; /* an sph_criterion */
+    sph_scalars target_radius, source_radius;
+    int flags; /* of sph_list_flags, added up */
+} sph_query;
+
+/* The neighbours of points among themselves: one radius for each particle, or one for all. */
+SPH_FN sph_query sph_query_of(sph_points points, int criterion, sph_scalars radius, int flags)
 {
+    sph_query q;
+    q.targets = points;
+    q.criterion = criterion;
+    q.target_radius = q.source_radius = radius;
+    q.flags = flags;
+    return q;
+}
+
+/* Checks what is asked for and makes a job of it, still without the room for its lists. */
+SPH_FN int sphi_job_of(int dim, const sph_grid *grid, sph_query query, sph_index *start, sphi_job *job)
+{
+    const sph_scalars target_radius = query.target_radius, source_radius = query.source_radius;
+    const int criterion = query.criterion, flags = query.flags;
+    sph_points targets = query.targets;
     const int by_source = criterion != SPH_GATHER, by_target = criterion != SPH_SCATTER;
     const int known = SPH_LIST_SELF | SPH_LIST_HALF | SPH_LIST_SORTED | SPH_LIST_FOREIGN;
     sph_real largest = SPH_R(0);
     sph_index i;
     int error, uniform, plain;
-    if (grid && grid->dim != dim) return SPH_ERROR_DIM;
-    if (grid && !(flags & SPH_LIST_FOREIGN) && targets.n > grid->n) return SPH_ERROR_RANGE;
+    if (grid && grid->dim != dim) return sphi_refuse("dim", -1, SPH_ERROR_DIM);
+    if (grid && !(flags & SPH_LIST_FOREIGN) && targets.n > grid->n)
+        return sphi_refuse("query.targets.n", -1, SPH_ERROR_RANGE);
     error = sphi_check_points(dim, targets);
     if (error) return error;
-    if (!grid || !start) return SPH_ERROR_NULL;
-    if (criterion < (int)SPH_GATHER || criterion > (int)SPH_MEAN || (flags & ~known)) return SPH_ERROR_VALUE;
-    if ((flags & SPH_LIST_FOREIGN) && (flags & (SPH_LIST_SELF | SPH_LIST_HALF))) return SPH_ERROR_VALUE;
+    if (!grid || !start) return sphi_refuse("grid, start", -1, SPH_ERROR_NULL);
+    if (criterion < (int)SPH_GATHER || criterion > (int)SPH_MEAN)
+        return sphi_refuse("query.criterion", -1, SPH_ERROR_VALUE);
+    if (flags & ~known) return sphi_refuse("query.flags", -1, SPH_ERROR_VALUE);
+    if ((flags & SPH_LIST_FOREIGN) && (flags & (SPH_LIST_SELF | SPH_LIST_HALF)))
+        return sphi_refuse("query.flags", -1, SPH_ERROR_VALUE);
     job->g = grid;
     job->targets = targets;
     job->start = start;
@@ -1247,23 +1271,24 @@ SPH_FN int sphi_job_of(int dim, const sph_grid *grid, sph_points targets, int cr
     job->capacity = 0;
     job->source_largest = SPH_R(0);
     if (targets.n == 0 || grid->n == 0) return 0; /* nothing to look at */
-    if ((by_target && !target_radius.p) || (by_source && !source_radius.p)) return SPH_ERROR_NULL;
+    if (by_target && !target_radius.p) return sphi_refuse("query.target_radius", -1, SPH_ERROR_NULL);
+    if (by_source && !source_radius.p) return sphi_refuse("query.source_radius", -1, SPH_ERROR_NULL);
     for (i = 0; by_target && i < (target_radius.stride ? targets.n : 1); i++) {
         const sph_real radius = sphi_at(target_radius, i);
-        if (!sphi_radius_ok(radius)) return SPH_ERROR_H;
+        if (!sphi_radius_ok(radius)) return sphi_refuse("query.target_radius", i, SPH_ERROR_H);
         if (radius > largest) largest = radius;
     }
     for (i = 0; by_source && i < (source_radius.stride ? grid->n : 1); i++) {
         const sph_real radius = sphi_at(source_radius, i);
-        if (!sphi_radius_ok(radius)) return SPH_ERROR_H;
+        if (!sphi_radius_ok(radius)) return sphi_refuse("query.source_radius", i, SPH_ERROR_H);
         if (radius > job->source_largest) job->source_largest = radius;
     }
     if (job->source_largest > largest) largest = job->source_largest;
     targets.box = job->targets.box = grid->box;
-    if (sphi_check_box(dim, targets, largest)) return SPH_ERROR_BOX;
-    if (largest > SPH_R(SPHI_FARTHEST) * grid->reach) return SPH_ERROR_RADIUS;
+    if (sphi_check_box(dim, targets, largest, 0)) return SPH_ERROR_BOX;
+    if (largest > SPH_R(SPHI_FARTHEST) * grid->radius) return sphi_refuse("query", -1, SPH_ERROR_RADIUS);
 
-    /* equal radii for all are one radius, whatever the criterion */
+    /* equal radii for all are one radius, by every criterion */
     uniform = by_source && source_radius.stride == 0;
     if (uniform && by_target && target_radius.stride) uniform = 0;
     if (uniform && by_target) uniform = sphi_at(target_radius, 0) == sphi_at(source_radius, 0);
@@ -1282,7 +1307,7 @@ SPH_FN int sphi_job_of(int dim, const sph_grid *grid, sph_points targets, int cr
     job->by_slots = grid->scattered && !(flags & SPH_LIST_FOREIGN);
     return 0;
 }
-/* Does it: the answer of sph_grid_lists and of sph_grid_count. */
+/* Does the job. Its answer is that of sph_grid_lists and sph_grid_count. */
 SPH_FN sph_index sphi_job_do(const sphi_job *job, int64_t *pairs)
 {
     sph_index i;
@@ -1294,65 +1319,63 @@ SPH_FN sph_index sphi_job_do(const sphi_job *job, int64_t *pairs)
     return *pairs > SPHI_INDEX_MAX ? SPH_ERROR_PAIRS : 0;
 }
 
-/* Neighbour lists of targets.n targets: start[0 ... n], and index[start[i]] ... index[start[i + 1] - 1]
-   for target i. Unless flags has SPH_LIST_FOREIGN, target i is source i (the targets may be the first of
-   the sources). Radii are support radii, one per target and source, or one for all (sph_scalars_same);
-   only those that the criterion uses are read. index has room for capacity entries (entries beyond *pairs
-   may be overwritten); it may be null if that is 0. *pairs is the number of entries of the lists. It is
-   set on every return, to 0 where nothing is known. Without targets start[0] is set to 0, without sources
-   all of start, and radii may be null.
+/* The neighbour lists of the n = query.targets.n targets: start[0 ... n], and for target i the entries
+   index[start[i]] ... index[start[i + 1] - 1]. Unless query.flags has SPH_LIST_FOREIGN, target i is source i
+   (the targets may be the first of the sources). index has room for capacity entries, of which those beyond
+   *pairs may be overwritten; it may be null if capacity is 0. *pairs is the number of entries of the lists.
+   It is set on every return, to 0 if nothing is known. Without targets start[0] is set to 0, and without
+   sources all of start is; the radii may then be null.
    Returns 0 or a negative sph_error.
    SPH_ERROR_CAPACITY: index has room for fewer than *pairs entries, which is their exact number. start and
    index then hold nothing of use, and nothing beyond capacity was written.
-   SPH_ERROR_PAIRS: there are more pairs than sph_index can count, so that no start can name them; *pairs
-   is an upper bound of their number. As above, start and index hold nothing of use.
-   SPH_ERROR_RADIUS: a radius is more than 32 times the reach that the grid was built for. SPH_ERROR_BOX: a
-   radius is more than half of a periodic box. SPH_ERROR_H: a radius is not within 1e-150 ... 1e150 (1e-18
-   ... 1e18 in float), so that its square is a number. On these and all other errors nothing is written but
-   *pairs. */
-SPH_FN sph_index sph_grid_lists(int dim, const sph_grid *grid, sph_points targets, int criterion,
-                                sph_scalars target_radius, sph_scalars source_radius, int flags,
-                                sph_index *start, sph_index *index, int64_t capacity, int64_t *pairs)
+   SPH_ERROR_PAIRS: there are more pairs than sph_index can count, so that start cannot hold their number.
+   *pairs is then an upper bound of it. As above, start and index hold nothing of use.
+   SPH_ERROR_RADIUS: a radius is more than 32 times the radius that the grid was built for.
+   SPH_ERROR_BOX: a radius is more than half of a periodic box.
+   SPH_ERROR_H: a radius is not within 1e-150 ... 1e150 (in float 1e-18 ... 1e18), where its square is still a
+   number. On these and all other errors nothing is written but *pairs. */
+SPH_FN sph_index sph_grid_lists(int dim, const sph_grid *grid, sph_query query, sph_index *start,
+                                sph_index *index, int64_t capacity, int64_t *pairs)
 {
     sphi_job job;
     sph_index error;
     if (pairs) *pairs = 0;
-    error = sphi_job_of(dim, grid, targets, criterion, target_radius, source_radius, flags, start, &job);
+    error = sphi_job_of(dim, grid, query, start, &job);
     if (error) return error;
-    if (capacity < 0) return SPH_ERROR_VALUE;
-    if (!pairs || (!index && capacity > 0 && targets.n > 0)) return SPH_ERROR_NULL;
+    if (capacity < 0) return sphi_refuse("capacity", -1, SPH_ERROR_VALUE);
+    if (!pairs || (!index && capacity > 0 && query.targets.n > 0))
+        return sphi_refuse("index, pairs", -1, SPH_ERROR_NULL);
     job.index = index;
     job.capacity = capacity;
     error = sphi_job_do(&job, pairs);
     return !error && *pairs > capacity ? SPH_ERROR_CAPACITY : error;
 }
 
-/* Counts only: start[0 ... n] and *pairs as sph_grid_lists would fill them, so that *pairs entries are
-   enough for its index. Errors are those of sph_grid_lists, but for SPH_ERROR_CAPACITY. */
-SPH_FN sph_index sph_grid_count(int dim, const sph_grid *grid, sph_points targets, int criterion,
-                                sph_scalars target_radius, sph_scalars source_radius, int flags,
-                                sph_index *start, int64_t *pairs)
+/* Only counts: fills start[0 ... n] and *pairs as sph_grid_lists would, so that *pairs entries are enough for
+   its index. The errors are those of sph_grid_lists, without SPH_ERROR_CAPACITY. */
+SPH_FN sph_index sph_grid_count(int dim, const sph_grid *grid, sph_query query, sph_index *start,
+                                int64_t *pairs)
 {
     sphi_job job;
     sph_index error;
     if (pairs) *pairs = 0;
-    error = sphi_job_of(dim, grid, targets, criterion, target_radius, source_radius, flags, start, &job);
+    error = sphi_job_of(dim, grid, query, start, &job);
     if (error) return error;
-    return pairs ? sphi_job_do(&job, pairs) : SPH_ERROR_NULL;
+    return pairs ? sphi_job_do(&job, pairs) : sphi_refuse("pairs", -1, SPH_ERROR_NULL);
 }
 
 /* ================================================================ the search in one call */
 
-/* What a search finds. list and grid lie in the block of memory that the search was given, and are good as
-   long as that is: for a cloud, for sph_grid_order, and for sph_grid_lists of other targets. */
+/* What a search finds. list and grid lie in the block of memory that the search was given, and may be used as
+   long as it exists: for a cloud, for sph_grid_permutation, and for sph_grid_lists of other targets. */
 typedef struct sph_neighbors {
-    int64_t pairs; /* entries of the list; after SPH_ERROR_CAPACITY, for how many there must be room */
+    int64_t pairs; /* entries of the list; after SPH_ERROR_CAPACITY, how many there must be room for */
     sph_list list; /* null pointers where there is none */
     sph_grid grid; /* empty where there is none */
 } sph_neighbors;
 
-/* Bytes of a block for the grid and the lists of n particles with so many pairs; 0 if dim is not 1, 2 or
-   3, if n or pairs is negative, or if no block can be so large. */
+/* Bytes of a block for the grid and the lists of n particles with so many pairs. It is 0 if dim is not 1, 2
+   or 3, if n or pairs is negative, or if no block can be so large. */
 SPH_FN size_t sph_search_size(int dim, sph_index n, int64_t pairs)
 {
     const size_t work = sph_grid_workspace(dim, n);
@@ -1360,16 +1383,17 @@ SPH_FN size_t sph_search_size(int dim, sph_index n, int64_t pairs)
     if ((uint64_t)n + 1 + (uint64_t)pairs > (SIZE_MAX - work) / sizeof(sph_index)) return 0;
     return work + ((size_t)n + 1 + (size_t)pairs) * sizeof(sph_index);
 }
-/* Pairs to have room for when nothing is known: 8, 32, 128 a particle, and no more than all with all. */
+/* How many pairs to have room for if nothing is known: 8, 32 or 128 for each particle, and not more than
+   all pairs there are. */
 SPH_FN int64_t sphi_search_guess(int dim, sph_index n)
 {
     const int64_t others = n - 1, each = dim == 1 ? 8 : dim == 2 ? 32 : 128;
     const int64_t pairs = n * (others < each ? others : each);
     return sph_search_size(dim, n, pairs) ? pairs : 0;
 }
-/* The largest radius, or 0 if one of them is bad. *reach: how far a target has to look for sources, in the
-   mean. */
-SPH_FN sph_real sphi_search_reach(sph_index n, sph_scalars radius, int criterion, sph_real *reach)
+/* The largest radius, or 0 if one of them is bad. *usual is how far a target has to look for
+   sources, on average. */
+SPH_FN sph_real sphi_search_radius(sph_index n, sph_scalars radius, int criterion, sph_real *usual)
 {
     const sph_index count = radius.stride ? n : 1;
     sph_real largest = SPH_R(0), mean;
@@ -1377,28 +1401,31 @@ SPH_FN sph_real sphi_search_reach(sph_index n, sph_scalars radius, int criterion
     sph_index i;
     for (i = 0; i < count; i++) {
         const sph_real own = sphi_at(radius, i);
-        if (!sphi_radius_ok(own)) return SPH_R(0);
+        if (!sphi_radius_ok(own)) {
+            sphi_refuse("radius", i, SPH_ERROR_H);
+            return SPH_R(0);
+        }
         if (own > largest) largest = own;
         sum += (double)own / (double)count;
     }
     mean = (sph_real)sum;
     if (criterion == SPH_MEAN) mean = SPH_R(0.5) * (mean + largest);
     if (criterion == SPH_SCATTER || criterion == SPH_LARGER || mean > largest) mean = largest;
-    *reach = mean * SPH_R(SPHI_FARTHEST) < largest ? largest / SPH_R(SPHI_FARTHEST) : mean;
+    *usual = mean * SPH_R(SPHI_FARTHEST) < largest ? largest / SPH_R(SPHI_FARTHEST) : mean;
     return largest;
 }
 
-/* The neighbours of all points, in one call: grid and lists in one block of memory, of `size` bytes and
-   aligned in any way. No point is its own neighbour. radius: support radii (kernel support times h), one
-   for each particle, or one for all (sph_scalars_same). The block may be empty at first (null, 0), and may
-   be used again and again: what it holds does not matter before a call, and is of no use after an error.
-   *found is set on every return. After an error it has no list and an empty grid, and pairs is 0 where
-   nothing is known. Without points it has no list, either, and the answer is 0.
+/* Finds the neighbours of all points in one call. Grid and lists are in one block of memory, which has `size`
+   bytes and may be aligned in any way. No point is its own neighbour. radius: support radii (kernel support
+   times h), one for each particle, or one for all (sph_scalars_same). The block may be empty at first (null,
+   0), and may be used again and again: what it holds does not matter before a call, and is of no use after an
+   error. *found is set on every return. After an error it has no list and an empty grid, and pairs is 0 if
+   nothing is known. Without points there is no list either, and the answer is 0.
    Returns 0 or a negative sph_error.
-   SPH_ERROR_CAPACITY: the block is too small. sph_search_size(dim, points.n, found->pairs) bytes are
-   enough. Where there was no room for the grid, found->pairs is a guess: 8, 32 or 128 for each point in 1,
-   2 or 3 dimensions. To enlarge the block and to call again ends after three calls at most.
-   SPH_ERROR_PAIRS: there are more pairs than sph_index can count, or a block can hold.
+   SPH_ERROR_CAPACITY: the block is too small. sph_search_size(dim, points.n, found->pairs) bytes are enough.
+   If there was no room for the grid, found->pairs is a guess: 8, 32 or 128 for each point in 1, 2 or 3
+   dimensions. If you enlarge the block and call again, three calls are enough in every case.
+   SPH_ERROR_PAIRS: there are more pairs than sph_index can count, or than a block can hold.
    SPH_ERROR_H and SPH_ERROR_BOX: as for sph_grid_lists. On these and all other errors the block is not
    touched. */
 SPH_FN sph_index sph_search(int dim, sph_points points, sph_scalars radius, int criterion, void *memory,
@@ -1407,31 +1434,33 @@ SPH_FN sph_index sph_search(int dim, sph_points points, sph_scalars radius, int 
     const size_t fixed = sph_search_size(dim, points.n, 0), work = sph_grid_workspace(dim, points.n);
     const size_t left = size > fixed ? (size - fixed) / sizeof(sph_index) : 0;
     const int64_t room = left < (size_t)SPHI_INDEX_MAX ? (int64_t)left : SPHI_INDEX_MAX;
-    sph_real largest, reach = SPH_R(0);
+    sph_real largest, usual = SPH_R(0);
     sph_index error, *start, *index;
-    if (!found) return SPH_ERROR_NULL;
+    if (!found) return sphi_refuse("found", -1, SPH_ERROR_NULL);
     found->pairs = 0;
     found->list.start = found->list.index = 0;
     sphi_grid_empty(dim, &found->grid);
     error = sphi_check_points(dim, points);
     if (error) return error;
-    if (criterion < (int)SPH_GATHER || criterion > (int)SPH_MEAN) return SPH_ERROR_VALUE;
+    if (criterion < (int)SPH_GATHER || criterion > (int)SPH_MEAN)
+        return sphi_refuse("criterion", -1, SPH_ERROR_VALUE);
     if (points.n == 0) return 0;
-    if (!radius.p || (!memory && size > 0)) return SPH_ERROR_NULL;
-    if (fixed == 0) return SPH_ERROR_COUNT;
-    largest = sphi_search_reach(points.n, radius, criterion, &reach);
+    if (!radius.p) return sphi_refuse("radius", -1, SPH_ERROR_NULL);
+    if (!memory && size > 0) return sphi_refuse("memory", -1, SPH_ERROR_NULL);
+    if (fixed == 0) return sphi_refuse("points.n", -1, SPH_ERROR_COUNT);
+    largest = sphi_search_radius(points.n, radius, criterion, &usual);
     if (!(largest > SPH_R(0))) return SPH_ERROR_H;
-    if (sphi_check_box(dim, points, largest)) return SPH_ERROR_BOX;
+    if (sphi_check_box(dim, points, largest, 0)) return SPH_ERROR_BOX;
     if (size < fixed) {
         found->pairs = sphi_search_guess(dim, points.n);
         return SPH_ERROR_CAPACITY;
     }
-    error = sph_grid_build(dim, points, reach, memory, work, &found->grid);
+    error = sph_grid_build(dim, points, usual, memory, work, &found->grid);
     start = (sph_index *)(void *)((char *)sphi_aligned(memory) + (work - SPHI_ALIGN));
     index = start + points.n + 1;
     if (!error)
-        error = sph_grid_lists(dim, &found->grid, points, criterion, radius, radius, 0, start, index, room,
-                               &found->pairs);
+        error = sph_grid_lists(dim, &found->grid, sph_query_of(points, criterion, radius, 0), start, index,
+                               room, &found->pairs);
     if (error) {
         const int too_many = sph_search_size(dim, points.n, found->pairs) == 0;
         sphi_grid_empty(dim, &found->grid);
@@ -1444,36 +1473,36 @@ SPH_FN sph_index sph_search(int dim, sph_points points, sph_scalars radius, int 
 
 /* ================================================================ order, and lists kept for several steps */
 
-/* out[s * stride] = in[order[s] * stride] for s = 0 ... n - 1; in and out must not overlap. With
-   sph_grid_order this puts an array of the caller's into cell order. */
-SPH_FN sph_index sph_permute(sph_index n, const sph_index *order, const sph_real *in, size_t stride,
+/* out[s * stride] = in[permutation[s] * stride] for s = 0 ... n - 1. in and out must not overlap. With
+   sph_grid_permutation this puts an array of the caller into cell order. */
+SPH_FN sph_index sph_permute(sph_index n, const sph_index *permutation, const sph_real *in, size_t stride,
                              sph_real *out)
 {
     sph_index s;
-    if (n < 0) return SPH_ERROR_COUNT;
+    if (n < 0) return sphi_refuse("n", -1, SPH_ERROR_COUNT);
     if (n == 0) return 0;
-    if (!order || !in || !out) return SPH_ERROR_NULL;
-    if (stride < 1) return SPH_ERROR_COUNT;
+    if (!permutation || !in || !out) return sphi_refuse("permutation, in, out", -1, SPH_ERROR_NULL);
+    if (stride < 1) return sphi_refuse("stride", -1, SPH_ERROR_COUNT);
     for (s = 0; s < n && SPH_CHECK; s++)
-        if (order[s] < 0 || order[s] >= n) return SPH_ERROR_LIST;
-    for (s = 0; s < n; s++) out[(size_t)s * stride] = in[(size_t)order[s] * stride];
+        if (permutation[s] < 0 || permutation[s] >= n) return sphi_refuse("permutation", s, SPH_ERROR_LIST);
+    for (s = 0; s < n; s++) out[(size_t)s * stride] = in[(size_t)permutation[s] * stride];
     return 0;
 }
 
-/* inverse[order[s]] = s: where each particle has gone */
-SPH_FN sph_index sph_permute_inverse(sph_index n, const sph_index *order, sph_index *inverse)
+/* inverse[permutation[s]] = s: where each particle has gone. */
+SPH_FN sph_index sph_permute_inverse(sph_index n, const sph_index *permutation, sph_index *inverse)
 {
     sph_index s;
-    if (n < 0) return SPH_ERROR_COUNT;
+    if (n < 0) return sphi_refuse("n", -1, SPH_ERROR_COUNT);
     if (n == 0) return 0;
-    if (!order || !inverse) return SPH_ERROR_NULL;
+    if (!permutation || !inverse) return sphi_refuse("permutation, inverse", -1, SPH_ERROR_NULL);
     for (s = 0; s < n && SPH_CHECK; s++)
-        if (order[s] < 0 || order[s] >= n) return SPH_ERROR_LIST;
-    for (s = 0; s < n; s++) inverse[order[s]] = s;
+        if (permutation[s] < 0 || permutation[s] >= n) return sphi_refuse("permutation", s, SPH_ERROR_LIST);
+    for (s = 0; s < n; s++) inverse[permutation[s]] = s;
     return 0;
 }
 
-/* |v| > length, for lengths whose squares over- or underflow, too */
+/* Whether |v| > length. It also works for lengths whose squares overflow or underflow. */
 SPH_FN int sphi_longer(int dim, sph_vec v, sph_real length)
 {
     const sph_real x = SPHI_ABS(v.x), y = dim > 1 ? SPHI_ABS(v.y) : SPH_R(0),
@@ -1484,22 +1513,23 @@ SPH_FN int sphi_longer(int dim, sph_vec v, sph_real length)
     v.x = x / most;
     v.y = y / most;
     v.z = z / most;
-    length /= most; /* no less than 1, as is |v| now */
+    length /= most; /* length and |v| are not below 1 now */
     return sph_dot(dim, v, v) > length * length;
 }
 
-/* Lists that were built at the positions `then`, with the radius + skin, still hold all pairs within the
-   radius unless this returns 1: a particle has moved by more than skin / 2 (by the minimum image, if now.box
-   is set). Negative: an sph_error. */
+/* 1 if a particle has moved by more than skin / 2 from its position `then` (by the minimum image, if now.box
+   is set), else 0 or a negative sph_error. As long as it is 0, lists that were built at the positions `then`
+   with the radius + skin still hold all pairs within the radius. */
 SPH_FN int sph_rebuild_due(int dim, sph_points now, sph_points then, sph_real skin)
 {
-    const int error = sphi_check_points(dim, now), error_then = sphi_check_points(dim, then);
+    int error = sphi_check_points(dim, now);
     sph_index i;
-    if (error || error_then) return error ? error : error_then;
-    if (now.n != then.n) return SPH_ERROR_COUNT;
-    if (!sphi_finite(skin) || skin < SPH_R(0)) return SPH_ERROR_VALUE;
+    if (!error) error = sphi_check_points(dim, then);
+    if (error) return error;
+    if (now.n != then.n) return sphi_refuse("then.n", -1, SPH_ERROR_COUNT);
+    if (!sphi_finite(skin) || skin < SPH_R(0)) return sphi_refuse("skin", -1, SPH_ERROR_VALUE);
     then.box = now.box;
-    if (sphi_check_box(dim, now, SPH_R(0)) || sphi_check_box(dim, then, SPH_R(0))) return SPH_ERROR_BOX;
+    if (sphi_check_box(dim, now, SPH_R(0), 0) || sphi_check_box(dim, then, SPH_R(0), 0)) return SPH_ERROR_BOX;
     for (i = 0; i < now.n; i++) {
         const sph_vec moved = sphi_separation(dim, now, sphi_point(dim, now, i), sphi_point(dim, then, i));
         if (sphi_longer(dim, moved, SPH_R(0.5) * skin)) return 1;

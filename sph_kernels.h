@@ -1,83 +1,105 @@
 /* SPDX-License-Identifier: MIT
  *
- * sph_kernels.h - smoothing kernels for smoothed particle hydrodynamics (SPH), as scalar functions.
+ * sph_kernels.h - smoothing kernels of smoothed particle hydrodynamics (SPH), as functions of numbers.
  *
- * The lowest of three headers: sph_kernels.h (this one), sph_ops.h (operators), sph.h (neighbour search;
- * includes the other two). Nothing is allocated, nothing is global, nothing is printed. C99, C++11, OpenCL C
- * 1.2, CUDA.
+ * This is the lowest of three headers: sph_kernels.h (this one), sph_ops.h (operators) and sph.h (neighbour
+ * search; it includes the other two). Nothing is allocated, nothing is global and nothing is printed. The
+ * code is C99, C++11, OpenCL C 1.2 and CUDA at the same time.
  *
  *     double w  = sph_kernel_w(SPH_WENDLAND_C2, 3, r, h);         W(r, h)
  *     double f  = sph_kernel_f(SPH_WENDLAND_C2, 3, r, h);         F = (1/r) dW/dr, grad_i W = F (x_i - x_j)
  *
+ * The file is a book of three chapters: kernels, gravity, names and texts. Each begins with its mathematics
+ * and sources; then come its types and its functions, in the order of the index below. Before the chapters
+ * stands what adapts the code to the compiler.
+ *
  * CONVENTIONS, here and in the headers above
- *   x_ij = x_i - x_j,  r = |x_ij|,  gradients are taken at x_i:
- *   grad_i W(|x_i - x_j|, h) = F x_ij  with  F = (1/r) dW/dr.
- *   h is the smoothing length: a length scale of the kernel, NOT its support. W = 0 for
- *   r >= sph_kernel_support(k) * h, which is 2 h for most kernels, 2.5 h for M5, 3 h for M6 and the
- *   Gaussians.
- *   A host whose "h" is the support radius H converts once, with sph_kernel_h_from_support.
- *   W(r, h) = sigma / h^dim * w(q),  q = r / h,  integral of W over dim-dimensional space = 1
- *   (sigma is exact, see sph_kernel_sigma).
- *   On the edge itself rounding of r/h decides, which matters for the kernels that jump there only: the
- *   Gaussians (by 1e-4 W(0)), and F of schuessler-schmitt.
- *   Units: W is 1/length^dim, F is 1/length^(dim+2). dim is 1, 2 or 3.
- *   Kernel and dimension come first in every call. Pass them as constants: everything then folds to a few
+ *   x_ij = x_i - x_j and r = |x_ij|. Gradients are taken at x_i:
+ *       grad_i W(|x_i - x_j|, h) = F x_ij  with  F = (1/r) dW/dr.
+ *   h is the smoothing length. It is a length scale of the kernel, NOT the radius of its support: W = 0 for
+ *   r >= sph_kernel_support_ratio(k) * h. This radius is 2 h for most kernels, 2.5 h for M5, and 3 h for M6
+ *   and the Gaussians. A host whose "h" is the support radius converts it once, by sph_kernel_h_from_support.
+ *       W(r, h) = sigma / h^dim * w(q)  with  q = r / h.
+ *   The integral of W over the space of dim dimensions is 1. sigma is exact (see sph_kernel_sigma).
+ *   Exactly on the edge of the support, the rounding of r/h decides what is inside. This matters only for
+ *   the functions that jump there: those of the Gaussians (by 1e-4 W(0)), and F of schuessler-schmitt.
+ *   The unit of W is 1/length^dim, that of F is 1/length^(dim+2). dim is 1, 2 or 3.
+ *   Kernel and dimension come first in every call. Pass them as constants: the call then becomes a few
  *   multiplications.
  *
- * INDEX
- *   sph_real    sph_kernel_w(k, dim, r, h)              W
- *   sph_real    sph_kernel_f(k, dim, r, h)              F = (1/r) dW/dr; its limit at r = 0 where that is
- *               finite, else 0
- *   sph_wf      sph_kernel_wf(k, dim, r, h)             both at once
- *   sph_real    sph_kernel_dwdr(k, dim, r, h)           dW/dr
- *   sph_real    sph_kernel_d2wdr2(k, dim, r, h)         d2W/dr2
- *   sph_real    sph_kernel_dwdh(k, dim, r, h)           dW/dh at fixed r
- *   sph_real    sph_kernel_sigma(k, dim)                normalisation
- *   sph_real    sph_kernel_shape(k, dim, q)             w(q) = W h^dim / sigma
- *   sph_real    sph_kernel_shape_f(k, dim, q)           (1/q) dw/dq
- *   sph_real    sph_kernel_shape_d2(k, dim, q)          d2w/dq2
- *   sph_real    sph_kernel_support(k)                   support radius / h
- *   sph_real    sph_kernel_h_over_dx(k)                 recommended h / particle spacing
- *   sph_real    sph_kernel_h_from_support(k, support)   h of a kernel that ends at the radius support
- *   sph_real    sph_kernel_support_from_h(k, h)         the radius at which it ends
- *   int         sph_kernel_has_cusp(k)                  1: slope at the origin (F = 0 there by convention)
- *   sph_real    sph_gravity_potential(k, r, h)          phi of a unit mass smeared over the kernel, G = 1;
- *               -1/r beyond the support (3D)
- *   sph_real    sph_gravity_force(k, r, h)              (1/r) dphi/dr: the acceleration is -G m times it
- *               times x_ij
- *   sph_real    sph_gravity_dphidh(k, r, h)             dphi/dh at fixed r
- *   sph_real    sph_gravity_shape(k, q), sph_gravity_shape_f(k, q)   h phi, h^3 (1/r) dphi/dr
- *   int         sph_kernel_has_gravity(k)               1: the kernels for which these are there
- *   int         sph_kernel_may_convexify(k, dim)        1: W >= 0 and W' <= 0, so that its tail integral is a
- *               convex kernel
- *   const char *sph_kernel_name(k)                      "wendland-c2"
- *   int         sph_kernel_from_name(name)              the kernel, or -1; knows the usual aliases (m4,
- *               cubic, w2, wendland_c2, lucy, ...)
- *   const char *sph_status_text(status)                 what a status means, in words
- *   SPH_KERNELS(X, A), SPH_SWITCH_KERNEL(k, CALL)       all kernels; one dispatch of a run-time kernel
+ * INDEX   (k: kernel, dim: dimension)
+ *   kernels
+ *   SPH_KERNELS(each, context)                        the table of all kernels
+ *   sph_kernel                                        which kernel
+ *   SPH_SWITCH_KERNEL(k, CALL)                        turns a kernel of run time into a constant
+ *   sph_wf                                            W and F
+ *   sph_real  sph_kernel_support_ratio(k)             support radius / h
+ *   sph_real  sph_kernel_h_over_dx(k)                 recommended h / particle spacing
+ *   sph_real  sph_kernel_h_from_support(k, support)   the h of a kernel whose support has this radius
+ *   sph_real  sph_kernel_support(k, h)                support radius
+ *   sph_real  sph_kernel_sigma(k, dim)                normalisation
+ *   sph_real  sph_kernel_shape(k, dim, q)             w(q) = W h^dim / sigma
+ *   sph_real  sph_kernel_shape_f(k, dim, q)           (1/q) dw/dq
+ *   sph_real  sph_kernel_shape_d2(k, dim, q)          d2w/dq2
+ *   sph_real  sph_kernel_w(k, dim, r, h)              W
+ *   sph_real  sph_kernel_f(k, dim, r, h)              F = (1/r) dW/dr. At r = 0: its limit where that is
+ *                                                     finite, else 0
+ *   sph_wf    sph_kernel_wf(k, dim, r, h)             W and F at once
+ *   sph_real  sph_kernel_dwdr(k, dim, r, h)           dW/dr
+ *   sph_real  sph_kernel_d2wdr2(k, dim, r, h)         d2W/dr2
+ *   sph_real  sph_kernel_dwdh(k, dim, r, h)           dW/dh at fixed r
+ *   int       sph_kernel_has_cusp(k)                  1 if the slope at the origin is not 0 (F = 0 there, by
+ *                                                     convention)
+ *   int       sph_kernel_may_convexify(k, dim)        1 if W >= 0 and W' <= 0, so that the integral of its
+ *                                                     tail is a convex kernel
+ *   gravity
+ *   int       sph_kernel_has_gravity(k)               1 for the kernels that the following functions know
+ *   sph_real  sph_gravity_shape_f(k, q)               h^3 (1/r) dphi/dr
+ *   sph_real  sph_gravity_shape(k, q)                 h phi
+ *   sph_real  sph_gravity_potential(k, r, h)          phi of a unit mass that is spread out like the kernel,
+ *                                                     with G = 1 in 3D; it is -1/r beyond the support
+ *   sph_real  sph_gravity_force(k, r, h)              (1/r) dphi/dr: the acceleration is -G m x_ij times it
+ *   sph_real  sph_gravity_dphidh(k, r, h)             dphi/dh at fixed r
+ *   names and texts   (the functions are not there in OpenCL)
+ *   sph_error                                         what an array-level function answers
+ *   sph_status                                        what it answers for each particle
+ *   const char *sph_kernel_name(k)                    "wendland-c2"
+ *   int       sph_kernel_from_name(name)              the kernel, or -1. It also knows the usual aliases: m4,
+ *                                                     cubic, w2, wendland_c2, lucy, ...
+ *   const char *sph_status_text(status)               the meaning of an error or status, in words
  *
- * OPTIONS (0 or 1; set them with -D or before the first inclusion; the same in every header)
- *   SPH_SINGLE      0  1: sph_real is float (1 where double is no wider than float, as on AVR)
- *   SPH_SIMD        1 under OpenMP >= 4, else 0.  1: the compiler obeys "omp simd" (-fopenmp, or
- *                   -fopenmp-simd -DSPH_SIMD=1)
- *   SPH_PURE_SQRT   1 on gcc and clang, else 0.   1: tells the compiler that sqrt has no side effect (it then
- *                   no longer sets errno in this file); without it, or -fno-math-errno, no loop with a square
- *                   root vectorises
- *   SPH_CHECK       1  1: array-level functions scan positions, h, values and lists before they touch
- *                   anything; 0: arguments only
- *   SPH_INDEX       int32_t   type of particle and list indices
- *   SPH_ASSERT(x)   nothing   called with the precondition of each scalar function (r >= 0, h > 0); define it
- *                   as assert to find a caller's fault. r/h must also be below 1e9 (the polynomials overflow
- *                   somewhere beyond; sweeps of sph_ops.h report what is not finite)
+ * OPTIONS (0 or 1, unless a type or macro is asked for. Set them with -D or before the first inclusion. They
+ * are the same in every header.)
+ *   SPH_SINGLE      0, but 1 where double is no wider than float, as on AVR.
+ *                   1: sph_real is float.
+ *   SPH_SIMD        1 under OpenMP 4 or later, else 0.
+ *                   1: the compiler obeys "omp simd". It needs -fopenmp, or -fopenmp-simd -DSPH_SIMD=1.
+ *   SPH_PURE_SQRT   1 on gcc and clang, else 0.
+ *                   1: the compiler is told that sqrt has no side effect. sqrt then no longer sets errno in
+ *                   the files that include this header. Without this option, or -fno-math-errno, no loop with
+ *                   a square root vectorises.
+ *   SPH_CHECK       1.
+ *                   1: array-level functions scan positions, h, values and lists before they touch anything.
+ *                   0: they check their arguments only.
+ *   SPH_INDEX       int32_t. The type of particle indices and list indices.
+ *   SPH_ASSERT(x)   nothing. It is called with the precondition of each scalar function (r >= 0, h > 0).
+ *                   Define it as assert to find a fault of the caller. r/h must also be below 1e9, because
+ *                   the polynomials overflow somewhere beyond. (The sweeps of sph_ops.h report what is not
+ *                   finite.)
+ *   SPH_REFUSED(argument, particle, error)
+ *                   nothing. It is called where an array-level function refuses an argument, with the name
+ *                   of the argument, the first particle at fault (-1: no particle) and the negative
+ *                   sph_error. Define it to print them ("rho: a value is not finite and positive, first at
+ *                   particle 17"), or to keep them.
  */
 #ifndef SPH_KERNELS_H
 #define SPH_KERNELS_H
 
 #define SPH_VERSION_MAJOR 0
-#define SPH_VERSION_MINOR 1
+#define SPH_VERSION_MINOR 2
 #define SPH_VERSION_PATCH 0
-/* 10000 major + 100 minor + patch; the headers above refuse to be mixed with another release */
-#define SPH_VERSION 100
+/* 10000 major + 100 minor + patch. The headers above refuse to be mixed with another release. */
+#define SPH_VERSION 200
 
 /* ================================================================ portability */
 
@@ -110,6 +132,9 @@
 #ifndef SPH_ASSERT
 #  define SPH_ASSERT(x) ((void)0)
 #endif
+#ifndef SPH_REFUSED
+#  define SPH_REFUSED(argument, particle, error) ((void)0)
+#endif
 #ifndef SPH_INDEX
 #  if SPH_OPENCL
 #    define SPH_INDEX int
@@ -132,16 +157,22 @@
 #  endif
 #endif
 
-/* The last line of a struct of 12 bytes that functions return: where tcc stores such a result it writes 16
-   bytes, and the variable beside it is lost. */
+#if SPH_OPENCL
+#  define SPHI_TEXT __constant const char
+#else
+#  define SPHI_TEXT const char
+#endif
+
+/* The last line of a struct of 12 bytes that functions return. tcc writes 16 bytes where it stores such a
+   result, so that the variable beside it would be lost. */
 #ifdef __TINYC__
 #  define SPHI_TCC_PAD float sphi_unused;
 #else
 #  define SPHI_TCC_PAD
 #endif
 
-/* Forced inline: with a plain `static inline` neither gcc nor clang folds the kernel and the dimension once a
-   program uses several of them. */
+/* Functions are inlined by force. With a plain `static inline`, neither gcc nor clang folds the kernel and
+   the dimension once a program uses several of them. */
 #ifndef SPH_FN
 #  if defined(__CUDACC__)
 #    define SPH_FN static __host__ __device__ __forceinline__
@@ -153,6 +184,21 @@
 #    define SPH_FN static inline
 #  endif
 #endif
+/* For functions that are long and called once a sweep at most, such as the scans of arguments: inlined, they
+   would cost the compiler so much that it gives up on the loops that matter. Without optimisation they are
+   marked inline all the same: nothing is inlined then, but gcc would keep a static function that is never
+   called. */
+#if defined(__CUDACC__)
+#  define SPHI_LARGE static __host__ __device__ __noinline__
+#elif SPH_OPENCL
+#  define SPHI_LARGE SPH_FN
+#elif (defined(__GNUC__) || defined(__clang__)) && defined(__OPTIMIZE__)
+#  define SPHI_LARGE static __attribute__((unused, noinline))
+#elif defined(__GNUC__) || defined(__clang__)
+#  define SPHI_LARGE static inline __attribute__((unused))
+#else
+#  define SPHI_LARGE static
+#endif
 #ifndef SPH_RESTRICT
 #  if defined(__GNUC__) || defined(__clang__) || defined(_MSC_VER)
 #    define SPH_RESTRICT __restrict
@@ -161,9 +207,9 @@
 #  endif
 #endif
 
-/* SPH_SUM(a, b): the next loop adds to a and b, in any order. SPH_EACH: the passes of the next loop are
-   independent.
-   clang obeys its own pragma without a flag (and warns about omp simd at -Os); gcc wants -fopenmp, or
+/* SPH_SUM(a, b): the next loop adds to a and b, in any order.
+   SPH_EACH: the passes of the next loop are independent.
+   clang obeys its own pragma without a flag (and warns about omp simd at -Os). gcc needs -fopenmp, or
    -fopenmp-simd -DSPH_SIMD=1. */
 #define SPHI_PRAGMA(x) _Pragma(#x)
 #if defined(__clang__) && !SPH_OPENCL
@@ -200,7 +246,7 @@ typedef SPH_INDEX sph_index;
 #if SPH_OPENCL
 typedef int sphi_int32;
 #else
-typedef int32_t sphi_int32; /* where int may have 16 bits */
+typedef int32_t sphi_int32; /* because int may have 16 bits */
 #endif
 #define SPH_R(x) ((sph_real)(x))
 
@@ -215,8 +261,8 @@ typedef int32_t sphi_int32; /* where int may have 16 bits */
 #endif
 /* clang-format on */
 
-/* Unit round-off, and a length ratio so short that its square is still a normal number but nothing nearer to
-   a particle matters. */
+/* The unit round-off, and a ratio of lengths so small that nothing nearer to a particle matters, while its
+   square is still a normal number. */
 #if SPH_SINGLE
 #define SPH_EPSILON SPH_R(1.1920928955078125e-7)
 #define SPHI_TINY SPH_R(1e-18)
@@ -225,83 +271,80 @@ typedef int32_t sphi_int32; /* where int may have 16 bits */
 #define SPHI_TINY SPH_R(1e-150)
 #endif
 
-/* ================================================================ status codes */
+/* ================================================================ kernels
+ *
+ * With q = r / h, a kernel is a shape w(q), a support beyond which w = 0, and a normalisation sigma:
+ *     W       = sigma / h^dim w(q)
+ *     sigma   = 1 / (S_dim integral_0^support w(q) q^(dim-1) dq),   S_1 = 2, S_2 = 2 pi, S_3 = 4 pi
+ *     F       = (1/r) dW/dr = sigma / h^(dim+2) (1/q) dw/dq,        grad_i W = F x_ij
+ *     d2W/dr2 = sigma / h^(dim+2) d2w/dq2,                          lap W = d2W/dr2 + (dim - 1) F
+ *     dW/dh   = -(dim W + r dW/dr) / h                              at fixed r
+ *
+ * Sources. "Clustering paper": Korzilius et al., 'two remedies for particle clustering'. "ICSPM paper":
+ * Korzilius, Schilders & Anthonissen 2017, J. Appl. Math. Phys. 5, 168.
+ *   cubic-, quartic-, quintic-spline (M4, M5, M6)
+ *       Schoenberg 1946, Quart. Appl. Math. 4, 45. In SPH: Monaghan & Lattanzio 1985, A&A 149, 135 (M4).
+ *   wendland-c2, -c4, -c6; wendland-c2-1d, -c4-1d, -c6-1d
+ *       Wendland 1995, Adv. Comput. Math. 4, 389; Dehnen & Aly 2012, MNRAS 425, 1068, table 1. The first
+ *       three are his functions phi_{3,1}, phi_{3,2}, phi_{3,3} of two and three dimensions, the others his
+ *       functions phi_{2,1}, phi_{3,2}, phi_{4,3} of one dimension. A kernel named -1d is positive definite
+ *       in one dimension only, but it is normalised in all three. wendland-c2-1d is (1.1) of the clustering
+ *       paper, and the kernel of Lucy 1977, AJ 82, 1013. wendland-c4-1d is the kernel of the ICSPM paper.
+ *   gaussian, super-gaussian
+ *       Gingold & Monaghan 1977, MNRAS 181, 375; Monaghan & Gingold 1983, JCP 52, 374. Both are cut at 3 h,
+ *       and normalised for the cut. The super-Gaussian is negative for q^2 > dim/2 + 1.
+ *   liu-quartic
+ *       Liu & Liu 2003, Smoothed Particle Hydrodynamics. It is negative for 1.6957 < q < 2.
+ *   hermite, schuessler-schmitt, johnson-beissel, convex
+ *       (3.7), (3.5), (3.6) and (3.9) of the clustering paper. Schuessler & Schmitt 1981, A&A 97, 373;
+ *       Johnson & Beissel 1996, IJNME 39, 2725.
+ *   convex-cubic-spline, convex-wendland-c2, convex-wendland-c4
+ *       The recipe of the clustering paper, K(q) = integral_q^2 w dq, scaled to K(0) = 1. (The kernel named
+ *       convex is this recipe applied to hermite.)
+ *   core-triangle
+ *       Read, Hayfield & Agertz 2010, MNRAS 405, 1513, with alpha = 1/3. Its slope is constant for q < 2/3.
+ * The recommended h / dx of M4, M5, M6 and the Wendland family are those of Phantom (Price et al. 2018,
+ * PASA 35, e031). Those of the clustering kernels come from the papers that propose these kernels.
+ */
 
-/* Answers of array-level functions: 0 or a count of particles that are not ok, or one of these: nothing was
-   written. */
-typedef enum sph_error {
-    SPH_ERROR_NULL = -1,     /* a pointer is null */
-    SPH_ERROR_DIM = -2,      /* dim is not 1, 2 or 3 (or not 1 where only 1 makes sense) */
-    SPH_ERROR_KERNEL = -3,   /* no such kernel */
-    SPH_ERROR_COUNT = -4,    /* fewer than one particle, or a stride of 0 where positions need one */
-    SPH_ERROR_RANGE = -5,    /* not 0 <= first <= last <= n */
-    SPH_ERROR_H = -6,        /* h is not finite and positive */
-    SPH_ERROR_POSITION = -7, /* a position is not finite, or so large that the difference of two may not be */
-    SPH_ERROR_VALUE =
-        -8, /* a field value, mass or volume is not finite (or a parameter is out of its range) */
-    SPH_ERROR_LIST = -9,  /* list rows do not ascend, or an entry is no particle */
-    SPH_ERROR_SELF = -10, /* a row holds its own particle, but this operator adds that term itself */
-    SPH_ERROR_CAPACITY =
-        -11, /* the caller's memory is too small; the size that is needed has been reported */
-    SPH_ERROR_BOX =
-        -12, /* a box length is negative or not finite, or a support reaches beyond half the box */
-    SPH_ERROR_RADIUS = -13, /* a radius exceeds what the grid was built for */
-    SPH_ERROR_PAIRS = -14   /* more pairs than sph_index can count */
-} sph_error;
+/* -------- kernels: types */
 
-/* Answers per particle, where an array of them is asked for. */
-typedef enum sph_status {
-    SPH_OK = 0,
-    SPH_TOO_FEW = 1, /* fewer neighbours inside the support than unknowns: outputs are 0 */
-    SPH_SINGULAR =
-        2, /* neighbours do not determine the derivative (collinear, coincident, ...): outputs are 0 */
-    SPH_ILL_CONDITIONED = 3, /* computed, but the conditioning number is below the caller's limit */
-    SPH_FELL_BACK = 4,       /* as before, and replaced by the fallback that the caller allowed */
-    SPH_NOT_AVAILABLE = 5,   /* the operator is not defined at this particle: outputs are 0 */
-    SPH_NOT_FINITE = 6,      /* the result overflowed: outputs are 0 */
-    SPH_LIST_TOO_SHORT =
-        7 /* the list does not reach as far as the answer needs; the operator says what comes back instead */
-} sph_status;
-
-/* ================================================================ kernels */
-
-/* All kernels, one X(A, identifier, name, support / h, recommended h / dx) each; A is passed on.
-   h / dx: M4..M6 and the Wendland family as Phantom sets them (Price et al. 2018, PASA 35, e031); the
-   clustering kernels as the papers that propose them. */
+/* All kernels, one each(context, identifier, name, support / h, recommended h / dx) for each. `each` is a
+   macro of yours, which also gets the context that you give. */
 /* clang-format off */
-#define SPH_KERNELS(X, A) \
-    X(A, SPH_CUBIC_SPLINE, "cubic-spline", 2.0, 1.2) \
-    X(A, SPH_QUARTIC_SPLINE, "quartic-spline", 2.5, 1.1) \
-    X(A, SPH_QUINTIC_SPLINE, "quintic-spline", 3.0, 1.0) \
-    X(A, SPH_WENDLAND_C2, "wendland-c2", 2.0, 1.3) \
-    X(A, SPH_WENDLAND_C4, "wendland-c4", 2.0, 1.5) \
-    X(A, SPH_WENDLAND_C6, "wendland-c6", 2.0, 1.6) \
-    X(A, SPH_WENDLAND_C2_1D, "wendland-c2-1d", 2.0, 1.3) \
-    X(A, SPH_WENDLAND_C4_1D, "wendland-c4-1d", 2.0, 1.5) \
-    X(A, SPH_WENDLAND_C6_1D, "wendland-c6-1d", 2.0, 1.6) \
-    X(A, SPH_GAUSSIAN, "gaussian", 3.0, 1.0) \
-    X(A, SPH_SUPER_GAUSSIAN, "super-gaussian", 3.0, 1.0) \
-    X(A, SPH_LIU_QUARTIC, "liu-quartic", 2.0, 1.2) \
-    X(A, SPH_HERMITE, "hermite", 2.0, 1.5) \
-    X(A, SPH_SCHUESSLER_SCHMITT, "schuessler-schmitt", 2.0, 1.5) \
-    X(A, SPH_JOHNSON_BEISSEL, "johnson-beissel", 2.0, 1.5) \
-    X(A, SPH_CONVEX, "convex", 2.0, 1.5) \
-    X(A, SPH_CONVEX_CUBIC_SPLINE, "convex-cubic-spline", 2.0, 1.5) \
-    X(A, SPH_CONVEX_WENDLAND_C2, "convex-wendland-c2", 2.0, 1.5) \
-    X(A, SPH_CONVEX_WENDLAND_C4, "convex-wendland-c4", 2.0, 1.5) \
-    X(A, SPH_CORE_TRIANGLE, "core-triangle", 2.0, 1.5)
+#define SPH_KERNELS(each, context) \
+    each(context, SPH_CUBIC_SPLINE, "cubic-spline", 2.0, 1.2) \
+    each(context, SPH_QUARTIC_SPLINE, "quartic-spline", 2.5, 1.1) \
+    each(context, SPH_QUINTIC_SPLINE, "quintic-spline", 3.0, 1.0) \
+    each(context, SPH_WENDLAND_C2, "wendland-c2", 2.0, 1.3) \
+    each(context, SPH_WENDLAND_C4, "wendland-c4", 2.0, 1.5) \
+    each(context, SPH_WENDLAND_C6, "wendland-c6", 2.0, 1.6) \
+    each(context, SPH_WENDLAND_C2_1D, "wendland-c2-1d", 2.0, 1.3) \
+    each(context, SPH_WENDLAND_C4_1D, "wendland-c4-1d", 2.0, 1.5) \
+    each(context, SPH_WENDLAND_C6_1D, "wendland-c6-1d", 2.0, 1.6) \
+    each(context, SPH_GAUSSIAN, "gaussian", 3.0, 1.0) \
+    each(context, SPH_SUPER_GAUSSIAN, "super-gaussian", 3.0, 1.0) \
+    each(context, SPH_LIU_QUARTIC, "liu-quartic", 2.0, 1.2) \
+    each(context, SPH_HERMITE, "hermite", 2.0, 1.5) \
+    each(context, SPH_SCHUESSLER_SCHMITT, "schuessler-schmitt", 2.0, 1.5) \
+    each(context, SPH_JOHNSON_BEISSEL, "johnson-beissel", 2.0, 1.5) \
+    each(context, SPH_CONVEX, "convex", 2.0, 1.5) \
+    each(context, SPH_CONVEX_CUBIC_SPLINE, "convex-cubic-spline", 2.0, 1.5) \
+    each(context, SPH_CONVEX_WENDLAND_C2, "convex-wendland-c2", 2.0, 1.5) \
+    each(context, SPH_CONVEX_WENDLAND_C4, "convex-wendland-c4", 2.0, 1.5) \
+    each(context, SPH_CORE_TRIANGLE, "core-triangle", 2.0, 1.5)
 /* clang-format on */
 
 /* clang-format off */
-#define SPHI_KERNEL_ENUM(A, id, name, support, h_over_dx) id,
+#define SPHI_KERNEL_ENUM(unused, id, name, support, h_over_dx) id,
 typedef enum sph_kernel {
     SPH_KERNELS(SPHI_KERNEL_ENUM, 0) SPH_KERNEL_COUNT,
-    SPH_LUCY = SPH_WENDLAND_C2_1D /* the same function, see sph_kernel_shape */
+    SPH_LUCY = SPH_WENDLAND_C2_1D /* the same function */
 } sph_kernel;
 /* clang-format on */
 
-/* A kernel chosen at run time: one switch around the whole sweep. CALL(K) is a macro (or function) that is
-   given the constant. */
+/* For a kernel that is chosen at run time: one switch around the whole sweep. CALL is a macro (or a function)
+   of one argument; it is given the kernel as a constant. */
 /* clang-format off */
 #define SPHI_KERNEL_CASE(CALL, id, name, support, h_over_dx) case id: CALL(id); break;
 #define SPH_SWITCH_KERNEL(k, CALL) \
@@ -311,8 +354,15 @@ typedef enum sph_kernel {
     }
 /* clang-format on */
 
-/* Positive part without a branch: gcc leaves control flow in a loop for `x > 0 ? x : 0`, and then does not
-   vectorise it. Exact for finite x. */
+/* W and F = (1/r) dW/dr of one pair */
+typedef struct sph_wf {
+    sph_real w, f;
+} sph_wf;
+
+/* -------- kernels: functions */
+
+/* The positive part of x, without a branch: for `x > 0 ? x : 0` gcc leaves control flow in a loop, and then
+   does not vectorise it. Exact for finite x. */
 SPH_FN sph_real sphi_pos(sph_real x) { return SPH_R(0.5) * (x + SPHI_ABS(x)); }
 SPH_FN sph_real sphi_by_dim(int dim, sph_real one, sph_real two, sph_real three)
 {
@@ -320,18 +370,18 @@ SPH_FN sph_real sphi_by_dim(int dim, sph_real one, sph_real two, sph_real three)
 }
 SPH_FN sph_real sphi_power(sph_real x, int dim) { return sphi_by_dim(dim, x, x * x, x * x * x); }
 
-/* slope / q for kernels with a slope at the origin; 0 at q = 0, where the direction is undefined. No branch,
-   no division by zero. */
+/* slope / q, for kernels with a slope at the origin. It is 0 at q = 0, where the direction is undefined. It
+   has no branch, and never divides by zero. */
 SPH_FN sph_real sphi_over_q(sph_real slope, sph_real q)
 {
     const sph_real p = q + SPHI_TINY;
     return slope * q / (p * p);
 }
 
-/* support radius / h */
-SPH_FN sph_real sph_kernel_support(sph_kernel k)
+/* Support radius / h. */
+SPH_FN sph_real sph_kernel_support_ratio(sph_kernel k)
 {
-#define SPHI_KERNEL_SUPPORT(A, id, name, support, h_over_dx) \
+#define SPHI_KERNEL_SUPPORT(unused, id, name, support, h_over_dx) \
     case id: \
         return SPH_R(support);
     switch (k) {
@@ -343,10 +393,10 @@ SPH_FN sph_real sph_kernel_support(sph_kernel k)
 #undef SPHI_KERNEL_SUPPORT
 }
 
-/* recommended h / dx: a default for programs, not a law. */
+/* Recommended h / particle spacing: a default for programs, not a law. */
 SPH_FN sph_real sph_kernel_h_over_dx(sph_kernel k)
 {
-#define SPHI_KERNEL_H_OVER_DX(A, id, name, support, h_over_dx) \
+#define SPHI_KERNEL_H_OVER_DX(unused, id, name, support, h_over_dx) \
     case id: \
         return SPH_R(h_over_dx);
     switch (k) {
@@ -358,14 +408,16 @@ SPH_FN sph_real sph_kernel_h_over_dx(sph_kernel k)
 #undef SPHI_KERNEL_H_OVER_DX
 }
 
+/* The h of a kernel that ends at the radius `support`. */
 SPH_FN sph_real sph_kernel_h_from_support(sph_kernel k, sph_real support)
 {
-    return support / sph_kernel_support(k);
+    return support / sph_kernel_support_ratio(k);
 }
-SPH_FN sph_real sph_kernel_support_from_h(sph_kernel k, sph_real h) { return h * sph_kernel_support(k); }
+/* The radius at which a kernel ends. */
+SPH_FN sph_real sph_kernel_support(sph_kernel k, sph_real h) { return h * sph_kernel_support_ratio(k); }
 
-/* sigma = 1 / (S_dim * integral_0^support w(q) q^(dim-1) dq), S = 2, 2 pi, 4 pi. The comments give the exact
-   value; tests/known/derive_kernels.py derives it. */
+/* sigma = 1 / (S_dim integral_0^support w(q) q^(dim-1) dq) with S_dim = 2, 2 pi, 4 pi. The comments give the
+   exact values for 1, 2 and 3 dimensions; tests/known/derive_kernels.py derives them. */
 SPH_FN sph_real sph_kernel_sigma(sph_kernel k, int dim)
 {
     switch (k) {
@@ -428,21 +480,7 @@ SPH_FN sph_real sph_kernel_sigma(sph_kernel k, int dim)
     }
 }
 
-/* w(q), the kernel without its normalisation; 0 for q >= support.
-   M4, M5, M6: Schoenberg 1946, Quart. Appl. Math. 4, 45; in SPH: Monaghan & Lattanzio 1985, A&A 149, 135
-   (M4).
-   Wendland C2, C4, C6 of 2D and 3D (phi_{3,1}, phi_{3,2}, phi_{3,3}) and of 1D (phi_{2,1}, phi_{3,2},
-   phi_{4,3} of one dimension): Wendland 1995, Adv. Comput. Math. 4, 389; Dehnen & Aly 2012, MNRAS 425, 1068,
-   table 1. A kernel named _1D is positive definite in one dimension only, but normalised in all three.
-   wendland-c2-1d is (1.1) of the clustering paper, and Lucy 1977, AJ 82, 1013. wendland-c4-1d is the kernel
-   of the ICSPM paper. Gaussian: Gingold & Monaghan 1977, MNRAS 181, 375; super-Gaussian: Monaghan & Gingold
-   1983, JCP 52, 374: both cut at 3 h and normalised for the cut; the super-Gaussian is negative beyond q^2 =
-   dim/2 + 1. Quartic: Liu & Liu 2003, Smoothed Particle Hydrodynamics: negative for 1.6957 < q < 2. hermite,
-   schuessler-schmitt, johnson-beissel, convex: (3.7), (3.5), (3.6), (3.9) of Korzilius et al., 'two remedies
-   for particle clustering' (Schuessler & Schmitt 1981, A&A 97, 373; Johnson & Beissel 1996, IJNME 39, 2725).
-   convex-*: that paper's recipe K(q) = integral_q^2 w dq, scaled to K(0) = 1. convex itself is the recipe
-   applied to hermite. core-triangle: Read, Hayfield & Agertz 2010, MNRAS 405, 1513, with alpha = 1/3:
-   constant slope for q < 2/3. */
+/* w(q): the kernel without its normalisation; 0 for q >= support. The sources stand above. */
 SPH_FN sph_real sph_kernel_shape(sph_kernel k, int dim, sph_real q)
 {
     const sph_real a = sphi_pos(SPH_R(2) - q), b = SPH_R(0.5) * a, c = sphi_pos(SPH_R(1) - q);
@@ -503,12 +541,12 @@ SPH_FN sph_real sph_kernel_shape(sph_kernel k, int dim, sph_real q)
     }
 }
 
-/* (1/q) dw/dq; 0 for q >= support. At q = 0: the limit, or 0 for a kernel with a cusp.
-   Splines: with the knot q0 next to the origin, q = t + s - q0 where t = min(q, q0), s = max(q, q0), and f(q)
-   = [f(t) - f(q0)] + f(s): the first part is written without the division by q, the second without the inner
-   piece, so nothing branches and nothing cancels.
-   schuessler-schmitt: the slope is held at its value at q = 1e-6, because the true one is infinite at the
-   origin. */
+/* (1/q) dw/dq; 0 for q >= support. At q = 0 it is the limit, or 0 for a kernel with a cusp.
+   Splines: let q0 be the knot next to the origin, t = min(q, q0) and s = max(q, q0), so that q = t + s - q0.
+   Then f(q) = [f(t) - f(q0)] + f(s). The first part is written without a division by q, the second without
+   the inner piece, so that nothing branches and nothing cancels.
+   schuessler-schmitt: for q < 1e-6 the slope is kept at its value at q = 1e-6, because the true slope is
+   infinite at the origin. */
 SPH_FN sph_real sph_kernel_shape_f(sph_kernel k, int dim, sph_real q)
 {
     const sph_real a = sphi_pos(SPH_R(2) - q), b = SPH_R(0.5) * a, c = sphi_pos(SPH_R(1) - q);
@@ -576,12 +614,12 @@ SPH_FN sph_real sph_kernel_shape_f(sph_kernel k, int dim, sph_real q)
     }
 }
 
-/* d2w/dq2; 0 for q >= support, where liu-quartic, hermite, schuessler-schmitt, johnson-beissel and the
-   Gaussians jump. At q = 0 of a kernel with a cusp: the limit from q > 0. */
+/* d2w/dq2; 0 for q >= support, where it jumps for liu-quartic, hermite, schuessler-schmitt, johnson-beissel
+   and the Gaussians. At q = 0 of a kernel with a cusp it is the limit from q > 0. */
 SPH_FN sph_real sph_kernel_shape_d2(sph_kernel k, int dim, sph_real q)
 {
     const sph_real a = sphi_pos(SPH_R(2) - q), b = SPH_R(0.5) * a, c = sphi_pos(SPH_R(1) - q);
-    const sph_real b2 = b * b, b4 = b2 * b2, inside = q < sph_kernel_support(k) ? SPH_R(1) : SPH_R(0);
+    const sph_real b2 = b * b, b4 = b2 * b2, inside = q < sph_kernel_support_ratio(k) ? SPH_R(1) : SPH_R(0);
     SPH_ASSERT(q >= SPH_R(0));
     switch (k) {
     case SPH_CUBIC_SPLINE:
@@ -639,7 +677,7 @@ SPH_FN sph_real sph_kernel_shape_d2(sph_kernel k, int dim, sph_real q)
     }
 }
 
-/* W = sigma / h^dim w(r/h) */
+/* W = sigma / h^dim w(r/h). */
 SPH_FN sph_real sph_kernel_w(sph_kernel k, int dim, sph_real r, sph_real h)
 {
     const sph_real u = SPH_R(1) / h;
@@ -647,8 +685,8 @@ SPH_FN sph_real sph_kernel_w(sph_kernel k, int dim, sph_real r, sph_real h)
     return sph_kernel_sigma(k, dim) * sphi_power(u, dim) * sph_kernel_shape(k, dim, r * u);
 }
 
-/* F = (1/r) dW/dr, so that grad_i W = F x_ij. F <= 0 for every kernel that falls monotonically (all but
-   liu-quartic and super-gaussian). */
+/* F = (1/r) dW/dr, so that grad_i W = F x_ij. F <= 0 for every kernel that falls monotonically: all but
+   liu-quartic and super-gaussian. */
 SPH_FN sph_real sph_kernel_f(sph_kernel k, int dim, sph_real r, sph_real h)
 {
     const sph_real u = SPH_R(1) / h;
@@ -656,11 +694,7 @@ SPH_FN sph_real sph_kernel_f(sph_kernel k, int dim, sph_real r, sph_real h)
     return sph_kernel_sigma(k, dim) * sphi_power(u, dim) * u * u * sph_kernel_shape_f(k, dim, r * u);
 }
 
-typedef struct sph_wf {
-    sph_real w, f;
-} sph_wf;
-
-/* W and F in one call */
+/* W and F in one call. */
 SPH_FN sph_wf sph_kernel_wf(sph_kernel k, int dim, sph_real r, sph_real h)
 {
     const sph_real u = SPH_R(1) / h, scale = sph_kernel_sigma(k, dim) * sphi_power(u, dim), q = r * u;
@@ -671,7 +705,7 @@ SPH_FN sph_wf sph_kernel_wf(sph_kernel k, int dim, sph_real r, sph_real h)
     return v;
 }
 
-/* dW/dr = r F; 0 at r = 0, also for a kernel with a cusp */
+/* dW/dr = r F. It is 0 at r = 0, also for a kernel with a cusp. */
 SPH_FN sph_real sph_kernel_dwdr(sph_kernel k, int dim, sph_real r, sph_real h)
 {
     return r * sph_kernel_f(k, dim, r, h);
@@ -685,15 +719,15 @@ SPH_FN sph_real sph_kernel_d2wdr2(sph_kernel k, int dim, sph_real r, sph_real h)
     return sph_kernel_sigma(k, dim) * sphi_power(u, dim) * u * u * sph_kernel_shape_d2(k, dim, r * u);
 }
 
-/* dW/dh at fixed r = -(dim W + r dW/dr) / h, because W is h^-dim times a function of r/h */
+/* dW/dh = -(dim W + r dW/dr) / h at fixed r, because W is h^-dim times a function of r/h. */
 SPH_FN sph_real sph_kernel_dwdh(sph_kernel k, int dim, sph_real r, sph_real h)
 {
     const sph_wf v = sph_kernel_wf(k, dim, r, h);
     return -(SPH_R(dim) * v.w + r * r * v.f) / h;
 }
 
-/* 1 for the kernels whose slope at the origin is not zero: their gradient has no direction at r = 0, and F is
-   0 there */
+/* 1 for the kernels whose slope at the origin is not zero. Their gradient has no direction at r = 0, and F is
+   0 there. */
 SPH_FN int sph_kernel_has_cusp(sph_kernel k)
 {
     switch (k) {
@@ -710,38 +744,44 @@ SPH_FN int sph_kernel_has_cusp(sph_kernel k)
     }
 }
 
-/* Whether K(q) = integral_q^support w dq is again a kernel: decreasing needs w >= 0, convex needs w' <= 0.
-   Looked up on 1024 points of the kernel itself. 'The result will always be decreasing' (the clustering
-   paper) is not so for liu-quartic and super-gaussian, which have negative lobes. */
+/* 1 if K(q) = integral_q^support w dq is again a kernel. It decreases where w >= 0, and is convex where
+   w' <= 0. Both are tested at the ends of 1024 equal intervals of the support. The clustering paper says that
+   'the result will always be decreasing'; this is not so for liu-quartic and super-gaussian, which have
+   negative lobes. */
 SPH_FN int sph_kernel_may_convexify(sph_kernel k, int dim)
 {
     int i;
     for (i = 0; i <= 1024; i++) {
-        const sph_real q = sph_kernel_support(k) * SPH_R(i) / SPH_R(1024);
+        const sph_real q = sph_kernel_support_ratio(k) * SPH_R(i) / SPH_R(1024);
         if (sph_kernel_shape(k, dim, q) < SPH_R(0) || sph_kernel_shape_f(k, dim, q) > SPH_R(0)) return 0;
     }
     return 1;
 }
 
-/* ================================================================ gravity softened by the kernel, three
- * dimensions
+/* ================================================================ gravity
  *
- * The potential of a unit mass that is smeared out like W: Poisson's equation lap phi = 4 pi W gives phi =
- * phi^(q) / h with
- *     (1/q) dphi^/dq = 4 pi sigma / q^3 integral_0^q w s^2 ds,   phi^ = -integral_q^inf dphi^/ds ds,   phi^ =
- *     -1/q and dphi^/dq = 1/q^2 beyond the support.
- * Price & Monaghan 2007, MNRAS 374, 1347, (A1)-(A7) for the cubic spline (their appendix A); the others by
- * the same integrals, in exact rationals. Finite and smooth at r = 0. Error: rounding alone, of which terms
- * that alternate in sign make up to some hundred units in the last place towards the edge of the Wendland
- * kernels (in float three to four digits are right there).
+ * Softening by the kernel, in three dimensions: the potential phi of a unit mass that is spread out like W,
+ * with G = 1. With q = r / h, Poisson's equation lap phi = 4 pi W gives phi = phi^(q) / h, where
+ *     (1/q) dphi^/dq = 4 pi sigma / q^3 integral_0^q w(s) s^2 ds,   phi^(q) = -integral_q^inf (dphi^/ds) ds.
+ * Beyond the support phi^ = -1/q and dphi^/dq = 1/q^2. At r = 0 the potential is finite and smooth. The
+ * acceleration of particle i by a mass m at x_j is -G m (1/r) dphi/dr x_ij.
+ *
+ * Source: Price & Monaghan 2007, MNRAS 374, 1347, (A1)-(A7) in appendix A, for the cubic spline. The others
+ * come from the same integrals, in exact rational numbers.
+ * Errors are rounding errors alone. Towards the edge of the Wendland kernels, terms that alternate in sign
+ * make them as large as some hundred units in the last place; in float three to four digits are right there.
  */
-/* cubic-spline, wendland-c2, wendland-c4, wendland-c6 */
+
+/* -------- gravity: functions */
+
+/* 1 for cubic-spline, wendland-c2, wendland-c4 and wendland-c6. */
 SPH_FN int sph_kernel_has_gravity(sph_kernel k)
 {
     return k == SPH_CUBIC_SPLINE || k == SPH_WENDLAND_C2 || k == SPH_WENDLAND_C4 || k == SPH_WENDLAND_C6;
 }
 
-/* (1/q) dphi^/dq; Newton's 1/q^3 beyond the support and for kernels that have no gravity */
+/* (1/q) dphi^/dq = h^3 (1/r) dphi/dr. It is Newton's 1/q^3 beyond the support, and for kernels that have no
+   gravity. */
 SPH_FN sph_real sph_gravity_shape_f(sph_kernel k, sph_real q)
 {
     const sph_real a = q * q;
@@ -772,7 +812,9 @@ SPH_FN sph_real sph_gravity_shape_f(sph_kernel k, sph_real q)
                SPH_R(1) / (SPH_R(15) * a * q);
     }
 }
-/* phi^, negative */
+
+/* phi^ = h phi, which is negative. It is Newton's -1/q beyond the support, and for kernels that have no
+   gravity. */
 SPH_FN sph_real sph_gravity_shape(sph_kernel k, sph_real q)
 {
     const sph_real a = q * q;
@@ -807,17 +849,23 @@ SPH_FN sph_real sph_gravity_shape(sph_kernel k, sph_real q)
                SPH_R(1) / (SPH_R(15) * q);
     }
 }
+
+/* phi = phi^(r/h) / h. */
 SPH_FN sph_real sph_gravity_potential(sph_kernel k, sph_real r, sph_real h)
 {
     SPH_ASSERT(r >= SPH_R(0) && h > SPH_R(0) && sph_kernel_has_gravity(k));
     return sph_gravity_shape(k, r / h) / h;
 }
+
+/* (1/r) dphi/dr: the acceleration is -G m x_ij times it. */
 SPH_FN sph_real sph_gravity_force(sph_kernel k, sph_real r, sph_real h)
 {
     SPH_ASSERT(r >= SPH_R(0) && h > SPH_R(0) && sph_kernel_has_gravity(k));
     return sph_gravity_shape_f(k, r / h) / (h * h * h);
 }
-/* phi = phi^(r/h) / h, so dphi/dh = -(phi^ + q dphi^/dq) / h^2: 0 beyond the support */
+
+/* dphi/dh = -(phi^ + q dphi^/dq) / h^2 at fixed r, because phi = phi^(r/h) / h. It is 0 beyond the
+   support. */
 SPH_FN sph_real sph_gravity_dphidh(sph_kernel k, sph_real r, sph_real h)
 {
     const sph_real q = r / h;
@@ -826,14 +874,55 @@ SPH_FN sph_real sph_gravity_dphidh(sph_kernel k, sph_real r, sph_real h)
     return -(sph_gravity_shape(k, q) + q * q * sph_gravity_shape_f(k, q)) / (h * h);
 }
 
-/* ================================================================ names, for programs that take them from
-   the command line */
+/* ================================================================ names and texts
+ *
+ * The names of the kernels, for programs that take them from the command line, and the codes that functions
+ * answer, with their meaning in words. There is no mathematics here, and there are no sources. OpenCL has the
+ * codes only.
+ */
+
+/* -------- names and texts: types */
+
+/* What array-level functions answer: 0, or the number of particles that are not ok, or one of these codes.
+   After one of these codes nothing was written. */
+typedef enum sph_error {
+    SPH_ERROR_NULL = -1,     /* a pointer is null */
+    SPH_ERROR_DIM = -2,      /* dim is not 1, 2 or 3 (or not 1 where only 1 makes sense) */
+    SPH_ERROR_KERNEL = -3,   /* no such kernel */
+    SPH_ERROR_COUNT = -4,    /* fewer than one particle, or a stride of 0 where positions need one */
+    SPH_ERROR_RANGE = -5,    /* not 0 <= first <= last <= n */
+    SPH_ERROR_H = -6,        /* h is not finite and positive */
+    SPH_ERROR_POSITION = -7, /* a position is not finite, or so large that the difference of two may not be */
+    SPH_ERROR_VALUE = -8,    /* a field value, mass or volume is not finite, or a parameter is out of range */
+    SPH_ERROR_LIST = -9,     /* list rows do not ascend, or an entry is not a particle */
+    SPH_ERROR_SELF = -10,    /* a row holds its own particle, but this operator adds that term itself */
+    SPH_ERROR_CAPACITY = -11, /* the caller's memory is too small; the size that is needed was reported */
+    SPH_ERROR_BOX = -12,    /* a box length is negative or not finite, or a support exceeds half of the box */
+    SPH_ERROR_RADIUS = -13, /* a radius exceeds what the grid was built for */
+    SPH_ERROR_PAIRS = -14   /* more pairs than sph_index can count */
+} sph_error;
+
+/* What they answer for each particle, where an array of such answers is asked for. The outputs of a particle
+   are 0 if it is SPH_TOO_FEW, SPH_SINGULAR, SPH_NOT_AVAILABLE or SPH_NOT_FINITE. */
+typedef enum sph_status {
+    SPH_OK = 0,
+    SPH_TOO_FEW = 1,         /* fewer neighbours inside the support than unknowns */
+    SPH_SINGULAR = 2,        /* the neighbours (collinear, coincident, ...) do not determine the derivative */
+    SPH_ILL_CONDITIONED = 3, /* computed, but the conditioning number is below the caller's limit */
+    SPH_FELL_BACK = 4,       /* as before, and replaced by the fallback that the caller allowed */
+    SPH_NOT_AVAILABLE = 5,   /* the operator is not defined at this particle */
+    SPH_NOT_FINITE = 6,      /* the result overflowed */
+    SPH_LIST_TOO_SHORT = 7   /* the list is too short for the answer; the operator says what it returns */
+} sph_status;
 
 #if !SPH_OPENCL
 
+/* -------- names and texts: functions */
+
+/* The name of a kernel, as "wendland-c2". */
 SPH_FN const char *sph_kernel_name(sph_kernel k)
 {
-#define SPHI_KERNEL_NAME(A, id, name, support, h_over_dx) \
+#define SPHI_KERNEL_NAME(unused, id, name, support, h_over_dx) \
     case id: \
         return name;
     switch (k) {
@@ -845,7 +934,7 @@ SPH_FN const char *sph_kernel_name(sph_kernel k)
 #undef SPHI_KERNEL_NAME
 }
 
-/* equal but for case, with '_' and ' ' taken as '-' */
+/* 1 if two names are equal: a may have capital letters, and '_' or ' ' in the place of '-'. */
 SPH_FN int sphi_same_name(const char *a, const char *b)
 {
     for (;; a++, b++) {
@@ -858,24 +947,24 @@ SPH_FN int sphi_same_name(const char *a, const char *b)
 }
 
 /* clang-format off */
-#define SPHI_KERNEL_ALIASES(X) \
-    X("m4", SPH_CUBIC_SPLINE) X("cubic", SPH_CUBIC_SPLINE) \
-    X("m5", SPH_QUARTIC_SPLINE) X("quartic", SPH_QUARTIC_SPLINE) \
-    X("m6", SPH_QUINTIC_SPLINE) X("quintic", SPH_QUINTIC_SPLINE) \
-    X("w2", SPH_WENDLAND_C2) X("c2", SPH_WENDLAND_C2) X("wendland", SPH_WENDLAND_C2) \
-    X("wendlandc2", SPH_WENDLAND_C2) \
-    X("w4", SPH_WENDLAND_C4) X("c4", SPH_WENDLAND_C4) X("wendlandc4", SPH_WENDLAND_C4) \
-    X("w6", SPH_WENDLAND_C6) X("c6", SPH_WENDLAND_C6) X("wendlandc6", SPH_WENDLAND_C6) \
-    X("lucy", SPH_WENDLAND_C2_1D) X("w2-1d", SPH_WENDLAND_C2_1D) X("w4-1d", SPH_WENDLAND_C4_1D) \
-    X("w6-1d", SPH_WENDLAND_C6_1D) \
-    X("gauss", SPH_GAUSSIAN) X("supergaussian", SPH_SUPER_GAUSSIAN) X("liu", SPH_LIU_QUARTIC) \
-    X("read", SPH_CORE_TRIANGLE) X("ct", SPH_CORE_TRIANGLE)
+#define SPHI_KERNEL_ALIASES(each) \
+    each("m4", SPH_CUBIC_SPLINE) each("cubic", SPH_CUBIC_SPLINE) \
+    each("m5", SPH_QUARTIC_SPLINE) each("quartic", SPH_QUARTIC_SPLINE) \
+    each("m6", SPH_QUINTIC_SPLINE) each("quintic", SPH_QUINTIC_SPLINE) \
+    each("w2", SPH_WENDLAND_C2) each("c2", SPH_WENDLAND_C2) each("wendland", SPH_WENDLAND_C2) \
+    each("wendlandc2", SPH_WENDLAND_C2) \
+    each("w4", SPH_WENDLAND_C4) each("c4", SPH_WENDLAND_C4) each("wendlandc4", SPH_WENDLAND_C4) \
+    each("w6", SPH_WENDLAND_C6) each("c6", SPH_WENDLAND_C6) each("wendlandc6", SPH_WENDLAND_C6) \
+    each("lucy", SPH_WENDLAND_C2_1D) each("w2-1d", SPH_WENDLAND_C2_1D) each("w4-1d", SPH_WENDLAND_C4_1D) \
+    each("w6-1d", SPH_WENDLAND_C6_1D) \
+    each("gauss", SPH_GAUSSIAN) each("supergaussian", SPH_SUPER_GAUSSIAN) each("liu", SPH_LIU_QUARTIC) \
+    each("read", SPH_CORE_TRIANGLE) each("ct", SPH_CORE_TRIANGLE)
 /* clang-format on */
 
-/* the kernel of a name or alias, or -1 (also for a null pointer) */
+/* The kernel of a name or alias, or -1 if there is none, or name is null. */
 SPH_FN int sph_kernel_from_name(const char *name)
 {
-#define SPHI_KERNEL_MATCH(A, id, text, support, h_over_dx) \
+#define SPHI_KERNEL_MATCH(unused, id, text, support, h_over_dx) \
     if (sphi_same_name(name, text)) return (int)id;
 #define SPHI_ALIAS_MATCH(text, id) \
     if (sphi_same_name(name, text)) return (int)id;
@@ -887,7 +976,7 @@ SPH_FN int sph_kernel_from_name(const char *name)
 #undef SPHI_ALIAS_MATCH
 }
 
-/* what an sph_error (negative) or an sph_status (0 or positive) means */
+/* What an sph_error (negative) or an sph_status (0 or positive) means. */
 SPH_FN const char *sph_status_text(int status)
 {
     switch (status) {
@@ -916,7 +1005,7 @@ SPH_FN const char *sph_status_text(int status)
     case SPH_ERROR_BOX:
         return "a box length is negative or not finite, or a support reaches beyond half the box";
     case SPH_ERROR_RADIUS:
-        return "a radius exceeds the reach that the grid was built for";
+        return "a radius is more than 32 times the one that the grid was built for";
     case SPH_ERROR_PAIRS:
         return "there are more pairs than sph_index can count: take a wider SPH_INDEX, or smaller radii";
     case SPH_OK:
@@ -940,7 +1029,7 @@ SPH_FN const char *sph_status_text(int status)
     }
 }
 
-#endif
+#endif /* !SPH_OPENCL */
 
 #endif /* SPH_KERNELS_H */
 

@@ -1,174 +1,166 @@
 /* SPDX-License-Identifier: MIT
  *
- * sph_ops.h - operators of smoothed particle hydrodynamics on the caller's arrays and the caller's neighbour
- * lists.
+ * sph_ops.h - operators of smoothed particle hydrodynamics on the caller's arrays and neighbour lists.
  *
- * The middle of three headers: it includes sph_kernels.h (kernels, conventions, options, status codes: read
- * its opening first); sph.h adds a neighbour search. The file is a book of chapters, one for each subject, in
- * the order of the
- * index below. Each begins with its mathematics and sources, then come its types and its two tiers:
- *   Pair functions   Every formula, once, as a function of values. Hosts with loops of their own, and GPU
- *                    kernels, call these.
- *   Sweeps           The loops over particles and neighbours. Call them with a constant kernel and dimension,
- *                    so that
- *                    both fold away (SPH_SWITCH_KERNEL turns a run-time kernel into constants).
+ * The middle one of three headers. It includes sph_kernels.h (kernels, conventions, options, status codes:
+ * read its opening first); sph.h adds a neighbour search. The file is a book of chapters, one for each
+ * subject, in the order of the index below. A chapter begins with its mathematics and sources. Then come its
+ * types and its functions in two tiers:
+ *   Pair functions   Every formula, once, as a function of values: what one particle adds to another, and
+ *                    what the sums make. Hosts with loops of their own, and GPU kernels, call these.
+ *   Sweeps           The loops over particles and neighbours, which hold no formula. Call them with a
+ *                    constant kernel and dimension, so that both fold away (SPH_SWITCH_KERNEL turns a kernel
+ *                    that is known at run time into constants).
  *
  * A CALL
  *     sph_cloud cloud = sph_cloud_of(points, list, h, volume);
  *     failed = sph_gradient_cspm(SPH_WENDLAND_C2, 3, cloud, sph_scalars_array(f), out);
- *   A cloud says who interacts: positions, neighbour lists, smoothing lengths and volumes. It is a small
- *   struct of
- *   pointers, made wherever it is needed. sph_cloud_range(cloud, first, last) has the targets first <= i <
- *   last only, so that the host's threads can share the work; results do not depend on how.
+ *   The cloud says who interacts: positions, neighbour lists, smoothing lengths, volumes. It is a small
+ *   struct of pointers; make it wherever you need it. sph_cloud_range(cloud, first, last) has the targets
+ *   first ... last - 1 only, so that threads of the host can share the work; results do not depend on how
+ *   they do. A new program calls sph_cloud_examine once: it finds the mistakes that a sweep cannot see.
  *
  * DATA
- *   sph_points    positions where they are: sph_points_separate (x[], y[], z[]), sph_points_interleaved
- *                 (xyzxyz...),
- *                 sph_points_strided (array of structs)
- *   sph_scalars   one number per particle: sph_scalars_array(p), sph_scalars_strided(p, stride),
- *                 sph_scalars_same(&value) for one value for all, sph_scalars_none() where there is nothing
- *   sph_vectors   one vector per particle: sph_vectors_separate (x[], y[], z[]), or any three sph_scalars
- *   sph_list      neighbour lists in CSR form: neighbours of target i are index[start[i]] ... index[start[i +
- *                 1] - 1]
- *   sph_..._out   where results go: pointers and a stride; a null pointer is not wanted, where that makes
- *                 sense
- *   sph_points_periodic(points, lx, ly, lz) makes points periodic: every pair vector is then that to the
- *   nearest image. Positions need not be wrapped. All strides count sph_real.
- *   Sources are the particles 0 ... n - 1, targets some of them; ghost, boundary and halo particles are
- *   sources that are not targets, probes (points where a field is wanted) are targets with the volume 0.
- *   Lists must hold every source with r < support * h_i (more do no harm) and not the particle itself. h is
- *   the
- *   target's: h_i.
- *   V is the volume of a particle (m / rho; an area in 2D, a length in 1D). Outputs must not overlap inputs.
- *   Far from the origin positions share their leading digits, and pair vectors lose them: errors grow from
- *   eps to
- *   eps |x| / spacing (float at 1000 spacings: 6e-5). Only differences of positions are ever used, so a host
- *   in float
- *   passes them relative to a near point: of each patch or cell of its own, of a box its middle (a periodic
- *   box needs no wrapping).
- *   Nothing here allocates memory; nothing is remembered between calls.
+ *   sph_points    positions, where they are: sph_points_separate (x[], y[], z[]), sph_points_interleaved
+ *                 (xyzxyz...), sph_points_strided (array of structs)
+ *   sph_scalars   one number a particle: sph_scalars_array(p), sph_scalars_strided(p, stride),
+ *                 sph_scalars_same(&value): one value for all; sph_scalars_none(): there is nothing
+ *   sph_vectors   one vector a particle: sph_vectors_separate (x[], y[], z[]), or any three sph_scalars
+ *   sph_list      neighbour lists in CSR form: target i has index[start[i]] ... index[start[i + 1] - 1]
+ *   sph_..._out   where results go: pointers with a stride, so that members of structs are written in
+ *                 place; a stride of 0 counts as 1. A null pointer is not wanted, where that makes sense.
+ *                 `status` holds an sph_status of each target, and is contiguous.
+ *   sph_..._options   what an operator may be told: all zeros are the defaults.
+ *   All strides count sph_real.
  *
- * ANSWERS of sweeps: the number of targets that are not ok (0: all well), or a negative sph_error, and then
- * nothing was
- *   written. The optional array `status` says more per particle (sph_status). Outputs of a target that is
- *   SPH_TOO_FEW, SPH_SINGULAR, SPH_NOT_AVAILABLE or SPH_NOT_FINITE are 0: never a NaN. (What is both input
- *   and output, the h of
- *   sph_density_adaptive, stays positive.) With SPH_CHECK = 1 every call scans all positions, h and values
- *   and its part of the list first, so call it on long ranges, or switch the scan off.
+ *   Sources are the particles 0 ... n - 1, targets some of them. Ghost, boundary and halo particles are
+ *   sources that are not targets. Probes (points where a field is wanted) are targets with the volume 0.
+ *   Nothing is a valid number: without targets every sweep answers 0 and looks at no array.
+ *
+ *   Lists must hold every source with r < support (more do no harm), and not the particle itself. h is that
+ *   of the target, h_i, unless the operator says otherwise. volume is m / rho (an area in 2D, a length in 1D).
+ *   Outputs must not overlap inputs.
+ *
+ *   sph_points_periodic(points, lx, ly, lz) makes points periodic: every pair vector is then the one to the
+ *   nearest image; positions need not be wrapped.
+ *
+ *   Far from the origin positions share their leading digits, and pair vectors lose them: errors grow from
+ *   eps to eps |x| / spacing (float at 1000 spacings: 6e-5). Only differences of positions are ever used, so
+ *   a host in float passes them relative to a point near by: the corner of a patch, the middle of a box.
+ *
+ *   Nothing here allocates memory, and nothing is remembered between calls.
+ *
+ * ANSWERS of sweeps: how many targets are not ok (0: all well), or a negative sph_error, and then nothing was
+ *   written. `status` says more about each target. Outputs of a target that is SPH_TOO_FEW, SPH_SINGULAR,
+ *   SPH_NOT_AVAILABLE or SPH_NOT_FINITE are 0, never a NaN (where there are several outputs, those that are not
+ *   finite; h of sph_density_adaptive, which is input and output, stays positive). SPH_REFUSED tells which argument was at fault. With SPH_CHECK = 1 a sweep first
+ *   scans all that it reads: positions, h, lists, values. sph_cloud_checked does that once for a cloud.
  *
  * INDEX   (k: kernel, dim: dimension; a name alone: a pair function, or a sibling of the one above)
  *   vectors        sph_dot  sph_scale  sph_subtract  sph_length
- *   views          sph_points_separate  sph_points_interleaved  sph_points_strided  sph_points_periodic
- *                  sph_scalars_array  sph_scalars_strided  sph_scalars_same  sph_scalars_none
+ *   views          sph_points_strided  sph_points_separate  sph_points_interleaved  sph_points_periodic
+ *                  sph_scalars_strided  sph_scalars_array  sph_scalars_same  sph_scalars_none
  *                  sph_vectors_separate
- *                  sph_vector_out_separate  sph_vector_out_strided  sph_scalar_out_array
- *                  sph_scalar_out_strided
+ *                  sph_vector_out_strided  sph_vector_out_separate
+ *                  sph_scalar_out_strided  sph_scalar_out_array
  *   clouds         sph_cloud_of(points, list, h, volume)
  *                  sph_cloud_range(cloud, first, last)
- *   interpolation  sph_shepard_sum(k, dim, cloud, out)  gamma_i = sum_j V_j W_ij, with itself
+ *                  sph_cloud_checked(dim, cloud)                     scanned once, and marked
+ *   interpolation  sph_shepard_sum(k, dim, cloud, out)               gamma_i = sum_j V_j W_ij, with itself
  *                  sph_interpolate_shepard(k, dim, cloud, f, out)    sum_j V_j f_j W_ij / gamma_i
- *   density        sph_density_summation(k, dim, cloud, m, rho)
- *                      sum_j m_j W_ij, the particle itself included
+ *   density        sph_density_pair  sph_density_value  sph_density_omega  sph_density_mismatch
+ *                  sph_density_summation(k, dim, cloud, m, out)      sum_j m_j W_ij, with itself
  *                  sph_density_adaptive(k, dim, cloud, m, options, out)
  *                      with the h that belongs to it, and Omega
- *                  sph_density_pair  sph_density_value  sph_density_omega  sph_density_mismatch
- *   gradients      sph_gradient_difference(k, dim, cloud, f, out)    sum_j V_j (f_j - f_i) grad_i W_ij
- *                  sph_gradient_cspm(k, dim, cloud, f, out)  renormalised: exact for linear fields
- *                  sph_gradient_rows_cspm(k, dim, cloud, out)        the same as stencil rows
- *                  sph_gradient_pair_difference  sph_moment_weight_gradient  sph_solve_gradient
- *   Laplacians     sph_laplacian_brookshaw(k, dim, cloud, f, out)    sum_j 2 V_j (f_i - f_j) F_ij
- *                  sph_laplacian_rows_brookshaw(k, dim, cloud, row)
- *                  sph_laplacian_kernel(k, dim, cloud, f, out)
- *                      sum_j V_j (f_j - f_i) lap W_ij; to compare with
- *                  sph_laplacian_rows_kernel(k, dim, cloud, row)
- *                  sph_laplacian_weight_brookshaw  sph_laplacian_weight_kernel
- *   second         sph_derivatives_cspm(k, dim, cloud, f, conditioning_min, out)
- *                      gradient, Hessian, Laplacian
- *   derivatives    sph_derivatives_icspm(k, dim, cloud, f, conditioning_min, fallback_wls, out)
- *                      exact for quadratics
- *                  sph_derivatives_wls(k, dim, cloud, f, conditioning_min, out)
- *                      likewise, by least squares: robust
- *                  sph_derivative_rows_cspm(k, dim, cloud, d, out)
- *                      rows of a combination d of derivatives
- *                  sph_derivative_rows_icspm(k, dim, cloud, d, out)
- *                      with the factor kappa of the right-hand side
- *                  sph_derivative_rows_wls(k, dim, cloud, d, out)
- *                  sph_second_derivative_bim(k, cloud, f, left, right, out)  1D, with boundary integrals
- *                  sph_second_derivative_rows_bim(k, cloud, left, right, row, status)
- *                  sph_test_weights_cspm  sph_test_weights_wls  sph_moments_zero  sph_moments_add
- *                  sph_moments_add_value  sph_jet_laplacian  sph_solve_cspm  sph_solve_block
- *                  sph_row_cspm
- *                  sph_row_block  sph_row_weight  sph_boundary_weight_bim
- *   elliptic       (div(m grad u) with a scalar m of each particle; options from sph_elliptic_defaults())
- *   operator       sph_elliptic_brookshaw(k, dim, cloud, m, options, u, out)
+ *   gradients      sph_gradient_pair_difference  sph_moment_weight_gradient  sph_solve_gradient
+ *                  sph_gradient_difference(k, dim, cloud, f, out)    sum_j V_j (f_j - f_i) grad_i W_ij
+ *                  sph_gradient_cspm(k, dim, cloud, f, out)          corrected: exact for linear fields
+ *                  sph_gradient_rows_cspm(k, dim, cloud, out)        the same as rows
+ *   Laplacians     sph_laplacian_weight_brookshaw
+ *                  sph_laplacian_brookshaw(k, dim, cloud, f, out)    sum_j 2 V_j (f_i - f_j) F_ij
+ *                  sph_laplacian_rows_brookshaw(k, dim, cloud, out)
+ *   second         sph_test_weights_cspm  sph_test_weights_wls  sph_moments_zero  sph_moments_add
+ *   derivatives    sph_moments_add_value  sph_jet_laplacian  sph_solve_cspm  sph_solve_block
+ *                  sph_coefficients_weight  sph_coefficients_cspm  sph_coefficients_block
+ *                  sph_derivatives_cspm(k, dim, cloud, f, options, out)   gradient, Hessian, Laplacian
+ *                  sph_derivatives_icspm(k, dim, cloud, f, options, out)  exact for quadratics
+ *                  sph_derivatives_wls(k, dim, cloud, f, options, out)    likewise, by least squares: robust
+ *                  sph_derivatives_rows_cspm(k, dim, cloud, d, out)  rows of a combination d of derivatives
+ *                  sph_derivatives_rows_icspm(k, dim, cloud, d, out) with the factor kappa
+ *                  sph_derivatives_rows_wls(k, dim, cloud, d, out)
+ *                  sph_boundary_weight_bim
+ *                  sph_second_derivative_bim(k, cloud, f, left, right, out)   1D, with boundary integrals
+ *                  sph_second_derivative_rows_bim(k, cloud, left, right, out)
+ *   elliptic       (div(m grad u), m a number of each particle)
+ *   operator       sph_elliptic_gradient_pair  sph_elliptic_gradient_vector  sph_elliptic_projection
+ *                  sph_mobility_pair  sph_elliptic_weight  sph_elliptic_moments_radial
+ *                  sph_elliptic_inverse_times  sph_elliptic_invert  sph_sym_eigenvalues
+ *                  sph_elliptic_brookshaw(k, dim, cloud, m, options, u, out)
  *                      sum_j V_j (m_i + m_j) (u_i - u_j) F_ij
- *                  sph_elliptic_brookshaw_corrected(k, dim, cloud, m, options, u, out)  times tr C / dim
+ *                  sph_elliptic_brookshaw_corrected(k, dim, cloud, m, options, u, out)   times tr C / dim
  *                  sph_elliptic_schwaiger(k, dim, cloud, m, options, u, out)
  *                      exact for linear u and constant m
  *                  sph_elliptic_msph(k, dim, cloud, m, options, u, out)
  *                      the same numbers for radial gradients
  *                  sph_elliptic_rows_brookshaw(k, dim, cloud, m, options, out)
  *                      rows (meshless transmissibilities)
- *                  sph_elliptic_rows_brookshaw_corrected  sph_elliptic_rows_schwaiger
- *                  sph_elliptic_rows_msph
- *                  sph_elliptic_rows_anisotropic(k, dim, cloud, mobility, out)  div(M grad u), M diagonal
- *                  sph_elliptic_rows_msph_diagonal(k, dim, cloud, mobility, options, out)
- *                      as published; to compare with
- *                  sph_elliptic_rows_boundary(k, dim, cloud, m, options, boundary, out)
- *                      Dirichlet, Neumann, Robin
+ *                  sph_elliptic_rows_brookshaw_corrected  sph_elliptic_rows_schwaiger  sph_elliptic_rows_msph
  *                  sph_elliptic_diagnose(k, dim, cloud, options, out)
  *                      signs, moments, free-surface indicator
- *                  sph_elliptic_gradient_pair  sph_elliptic_gradient_vector  sph_elliptic_projection
- *                  sph_mobility_pair  sph_elliptic_weight
- *                  sph_elliptic_moments_radial  sph_elliptic_invert  sph_elliptic_inverse_times
- *                  sph_sym_eigenvalues
+ *                  sph_elliptic_rows_anisotropic(k, dim, cloud, mobility, out)  div(M grad u), M diagonal
+ *                  sph_elliptic_rows_boundary(k, dim, cloud, m, options, boundary, out)
+ *                      Dirichlet, Neumann, Robin
  *   rows           sph_rows_apply(cloud, row, diagonal, u, out)      sum_p row[p] (u_j - u_i)
- *                  sph_rows_monotone(cloud, row, diagonal, monotone)
- *                      how many rows are not those of an M-matrix
+ *                  sph_rows_monotone(cloud, row, diagonal, monotone) how many rows are not of an M-matrix
  *                  sph_rows_time_step(cloud, row, dt)                longest stable explicit step
- *                  sph_rows_growth(dim, cloud, row, tau, wave, re, im) von Neumann's growth factor
- *                  sph_csr_size(cloud)  entries of the matrix of these rows, at most
+ *                  sph_rows_growth(dim, cloud, row, tau, wave, re, im)   von Neumann's growth factor
+ *                  sph_csr_size(cloud)                               entries of the matrix, at most
  *                  sph_csr_assemble(cloud, row, diagonal, drop_zeros, out, entries)
- *   fluid          sph_fluid_rates_monaghan(k, dim, cloud, fluid, acceleration, rate, heating)
- *                      (2.2), (2.3)
- *                  sph_fluid_rates_colagrossi, sph_fluid_rates_hu_adams    for density jumps
- *                  sph_density_number(k, dim, cloud, m, rho)         m_i sum_j W_ij
- *                  sph_viscous_mu_morris(k, dim, cloud, fluid, mu, acceleration)  physical viscosity
- *                  sph_viscous_mu_monaghan_cleary(k, dim, cloud, fluid, mu, acceleration)
+ *   fluid          sph_pressure_pair_monaghan  sph_pressure_pair_colagrossi  sph_pressure_pair_hu_adams
+ *                  sph_viscosity_pair_monaghan  sph_viscosity_pair_linear  sph_signal_speed
+ *                  sph_viscosity_signal  sph_viscosity_pair_signal  sph_viscosity_mu_pair_morris
+ *                  sph_viscosity_mu_pair_monaghan_cleary  sph_kernel_f_apart  sph_density_rate_pair_mass
+ *                  sph_density_rate_pair_volume
+ *                  sph_fluid_pair_monaghan  sph_fluid_pair_colagrossi  sph_fluid_pair_hu_adams
+ *                  sph_velocity_pair_xsph  sph_wall_pair_adami  sph_wall_pressure  sph_wall_fluid_velocity
+ *                  sph_wall_velocity_no_slip  sph_wall_velocity_free_slip
+ *                  sph_pressure_tait  sph_density_tait  sph_sound_speed_tait
+ *                  sph_time_step_sound  sph_time_step_force  sph_time_step_viscous_nu
+ *                  sph_density_number(k, dim, cloud, m, out)         m_i sum_j W_ij
+ *                  sph_fluid_rates_monaghan(k, dim, cloud, fluid, out)    acceleration, density, heating
+ *                  sph_fluid_rates_colagrossi, sph_fluid_rates_hu_adams   where the density jumps
+ *                  sph_viscosity_mu_morris(k, dim, cloud, fluid, mu, acceleration)   physical viscosity
+ *                  sph_viscosity_mu_monaghan_cleary(k, dim, cloud, fluid, mu, acceleration)
  *                  sph_velocity_xsph(k, dim, cloud, fluid, epsilon, change)
- *                  sph_wall_adami(k, dim, cloud, wall, out)  pressure and velocity of wall particles
- *                  sph_pressure_pair_monaghan  sph_pressure_pair_colagrossi  sph_pressure_pair_hu_adams
- *                  sph_viscosity_pair_monaghan  sph_viscosity_pair_linear  sph_viscosity_pair_signal
- *                  sph_viscosity_mu_pair_morris  sph_viscosity_mu_pair_monaghan_cleary  sph_pressure_tait
- *                  sph_density_tait  sph_sound_speed_tait  sph_time_step_sound  sph_time_step_force
- *                  sph_time_step_viscous_nu
- *   collisions     sph_collide_sequential(dim, cloud, collision, velocity, out)
+ *                  sph_wall_adami(k, dim, cloud, wall, out)          pressure and velocity of wall particles
+ *   collisions     sph_collision_pair
+ *                  sph_collision_sequential(dim, cloud, collision, velocity, out)
  *                  sph_collision_count(dim, cloud, collision, v, count)
  *                  sph_collision_change_weighted(dim, cloud, collision, v, count, change)
- *                  sph_collision_change_literal, sph_collision_acceleration_literal  
- *                  as printed: energy grows
- *                  sph_collision_pair  sph_collision_acceleration_pair
- *   magneto-       (gas: m, rho, Omega; a state: gas and what else is needed)
- *   hydrodynamics  sph_mhd_rates(k, dim, cloud, state, out)
+ *   magneto-       sph_mhd_traction  sph_mhd_fast_speed  sph_conductivity_speed
+ *   hydrodynamics  sph_cleaning_rate  sph_cleaning_rate_scaled  sph_cleaning_sigma
+ *   and            sph_cleaning_rate_velocity  sph_euler_potentials  sph_viscosity_switch_rate
+ *   divergence     sph_resistivity_switch  sph_medium_weight  sph_pair_weights_of
+ *   cleaning       sph_divergence_pair_difference  sph_curl_pair_difference  sph_medium_difference
+ *                  sph_divergence_pair_symmetric  sph_gradient_pair_symmetric
+ *                  sph_induction_pair  sph_resistivity_pair  sph_mhd_pair  sph_mhd_value
+ *                  sph_divergence_difference(k, dim, cloud, medium, field, out)
+ *                  sph_divergence_symmetric(k, dim, cloud, medium, field, out)
+ *                  sph_gradient_symmetric(k, dim, cloud, medium, f, out)
+ *                  sph_curl_difference(k, dim, cloud, medium, field, out)
+ *                  sph_cleaning_rates(k, dim, cloud, state, out)     conservative cleaning of B alone
+ *                  sph_mhd_rates(k, dim, cloud, state, out)
  *                      momentum, induction, energy, psi, div B, v_sig
- *   divergence     sph_cleaning_rates(k, dim, cloud, state, out)     conservative cleaning of B alone
- *   cleaning       sph_cleaning_rates_symmetric, sph_cleaning_rates_nonconservative    to compare with
- *                  sph_divergence_difference(k, dim, cloud, gas, field, out)  sph_divergence_symmetric
- *                  sph_gradient_symmetric(k, dim, cloud, gas, f, out)  sph_curl_difference
- *                  sph_mhd_traction  sph_mhd_fast_speed  sph_mhd_signal_speed  sph_conductivity_speed
- *                  sph_cleaning_rate  sph_cleaning_rate_scaled  sph_cleaning_rate_velocity
- *                  sph_cleaning_sigma
- *                  sph_euler_potentials  sph_viscosity_switch_rate  sph_resistivity_switch
- *   gravity        sph_gravity_direct(k, cloud, m, newton, acceleration, potential)  all pairs
- *                  sph_gravity_zeta(k, cloud, m, rho, zeta)
- *                  sph_gravity_correction(k, cloud, gas, zeta, newton, acceleration)
+ *   gravity        sph_gravity_pair  sph_gravity_correction_pair  sph_gravity_zeta_value
+ *                  sph_gravity_direct(k, cloud, m, newton, acceleration, potential)   all pairs
+ *                  sph_gravity_zeta(k, cloud, m, rho, out)
+ *                  sph_gravity_correction(k, cloud, medium, zeta, newton, acceleration)
  *                      where h follows the density
- *                  sph_gravity_pair
  *   measures       sph_nearest_distance(dim, cloud, sources, out)
  *                  sph_hexatic_order(cloud, out)
- *                  sph_radial_distribution(dim, cloud, reach, number_density, bins, g)
- *                  sph_count_coincident(dim, cloud, distance)
- *                  sph_separate_coincident(dim, cloud, within, distance, position)
+ *                  sph_radial_distribution(dim, cloud, farthest, number_density, bins, g)
+ *                  sph_coincident_count(dim, cloud, distance)
+ *                  sph_coincident_separate(dim, cloud, within, distance, position)
  *                  sph_conserved_sums(dim, cloud, m, v, out)
  *                      mass, momentum, angular momentum, kinetic energy
  *   mistakes       sph_cloud_examine(k, dim, cloud, both_sides, samples, found)
@@ -179,7 +171,7 @@
 #define SPH_OPS_H
 
 #include "sph_kernels.h"
-#if SPH_VERSION != 100
+#if SPH_VERSION != 200
 #error "sph_ops.h and sph_kernels.h are of different releases"
 #endif
 
@@ -380,6 +372,10 @@ typedef struct sph_cloud {
     sph_list list;
     sph_scalars h, volume;
     sph_index first, last;
+    /* 0: every sweep scans what it reads; 1: sph_cloud_checked has done so, and the largest h; negative: it
+       found this sph_error, which every sweep then answers */
+    int checked;
+    sph_real largest_h;
 } sph_cloud;
 /* All particles as targets. What a sweep does not need may be left out with sph_scalars_none(): volumes where
    it takes masses, h where there is no kernel. */
@@ -392,36 +388,43 @@ SPH_FN sph_cloud sph_cloud_of(sph_points points, sph_list list, sph_scalars h, s
     c.volume = volume;
     c.first = 0;
     c.last = points.n;
+    c.checked = 0;
+    c.largest_h = SPH_R(0);
     return c;
 }
 /* The same cloud with the targets first ... last - 1 only: for a host's threads, and for ghosts, which are
-   sources alone. */
+   sources alone. Targets that were not checked before have to be checked again. */
 SPH_FN sph_cloud sph_cloud_range(sph_cloud cloud, sph_index first, sph_index last)
 {
+    if (cloud.checked == 1 && (first < cloud.first || last > cloud.last)) cloud.checked = 0;
     cloud.first = first;
     cloud.last = last;
     return cloud;
 }
 
 /* Where the derivatives go. */
-typedef struct sph_derivative_out {
+typedef struct sph_derivatives_out {
     SPH_GLOBAL sph_real *gx, *gy, *gz, *hxx, *hxy, *hyy, *hxz, *hyz, *hzz, *laplacian, *conditioning;
     size_t stride;
     SPH_GLOBAL unsigned char *status; /* sph_status, contiguous */
-} sph_derivative_out;
+} sph_derivatives_out;
 
 /* Where stencil rows go: D f_i * factor[i] = diagonal[i] f_i + sum_p row[p] f_index[p], p from start[i] to
-   start[i + 1] - 1; diagonal = -sum row. All but row may be null. */
-typedef struct sph_row_out {
+   start[i + 1] - 1; diagonal = -sum row. All but row may be null. The stride is that of the others, which
+   have one number a target. */
+typedef struct sph_rows_out {
     SPH_GLOBAL sph_real *row, *diagonal, *factor, *conditioning;
+    size_t stride;
     SPH_GLOBAL unsigned char *status;
-} sph_row_out;
+} sph_rows_out;
 
-/* Where the rows of a gradient go: one weight a pair and component; conditioning and status may be null. */
-typedef struct sph_gradient_row_out {
+/* Where the rows of a gradient go: one weight a pair and component; conditioning and status may be null. The
+   stride is that of conditioning. */
+typedef struct sph_gradient_rows_out {
     SPH_GLOBAL sph_real *x, *y, *z, *conditioning;
+    size_t stride;
     SPH_GLOBAL unsigned char *status;
-} sph_gradient_row_out;
+} sph_gradient_rows_out;
 
 SPH_FN sph_real sphi_at(sph_scalars a, sph_index i) { return a.p[(size_t)i * a.stride]; }
 SPH_FN sph_vec sphi_point(int dim, sph_points p, sph_index i)
@@ -455,11 +458,6 @@ SPH_FN sph_vec sphi_separation(int dim, sph_points p, sph_vec a, sph_vec b)
     if (dim > 2) d.z = sphi_nearest_image(d.z, p.box.z);
     return d;
 }
-SPH_FN void sphi_put(SPH_GLOBAL sph_real *p, size_t stride, sph_index i, sph_real value)
-{
-    if (p) p[(size_t)i * stride] = value;
-}
-
 /* ================================================================ checks */
 
 /* By the bits, because -ffast-math compiles comparisons with NaN away. */
@@ -483,17 +481,18 @@ SPH_FN int sphi_finite(sph_real x)
     return (v.u & 0x7ff0000000000000u) != 0x7ff0000000000000u;
 #endif
 }
-/* Stores a sum, or 0 if it overflowed; returns 1 then. */
-SPH_FN int sphi_store_finite(SPH_GLOBAL sph_real *out, sph_index i, sph_real value)
+/* Stores a value, or 0 if it is not finite; returns 1 then. A null pointer is not wanted. */
+SPH_FN int sphi_put(SPH_GLOBAL sph_real *p, size_t stride, sph_index i, sph_real value)
 {
     const int ok = sphi_finite(value);
-    out[i] = ok ? value : SPH_R(0);
-    return !ok;
+    if (p) p[(size_t)i * stride] = ok ? value : SPH_R(0);
+    return p && !ok;
 }
+SPH_FN size_t sphi_stride(size_t given) { return given ? given : 1; }
 /* Stores a vector, or 0 if a component overflowed; returns 1 then. */
 SPH_FN int sphi_store_vector(int dim, sph_vector_out out, sph_index i, sph_vec a)
 {
-    const size_t at = (size_t)i * (out.stride ? out.stride : 1);
+    const size_t at = (size_t)i * sphi_stride(out.stride);
     const int lost = !sphi_finite(a.x) || (dim > 1 && !sphi_finite(a.y)) || (dim > 2 && !sphi_finite(a.z));
     out.x[at] = lost ? SPH_R(0) : a.x;
     if (dim > 1) out.y[at] = lost ? SPH_R(0) : a.y;
@@ -503,9 +502,19 @@ SPH_FN int sphi_store_vector(int dim, sph_vector_out out, sph_index i, sph_vec a
 /* What a target got: the value, or 0 without one, and why. Returns 1 if it is not ok. */
 SPH_FN int sphi_answer(sph_scalar_out out, sph_index i, sph_real value, int state)
 {
-    out.p[(size_t)i * (out.stride ? out.stride : 1)] = value;
+    out.p[(size_t)i * sphi_stride(out.stride)] = value;
     if (out.status) out.status[i] = (unsigned char)state;
     return state != SPH_OK;
+}
+SPH_FN void sphi_tell(SPH_GLOBAL unsigned char *status, sph_index i, int lost)
+{
+    if (status) status[i] = (unsigned char)(lost ? SPH_NOT_FINITE : SPH_OK);
+}
+/* The same for a value that always exists, but may overflow. */
+SPH_FN int sphi_store(sph_scalar_out out, sph_index i, sph_real value)
+{
+    const int ok = sphi_finite(value);
+    return sphi_answer(out, i, ok ? value : SPH_R(0), ok ? (int)SPH_OK : (int)SPH_NOT_FINITE);
 }
 /* The same for the entries first ... last - 1 of a row: all 0 if one overflowed, or their sum, the diagonal.
    */
@@ -520,90 +529,190 @@ SPH_FN int sphi_row_finite(SPH_GLOBAL sph_real *row, sph_index first, sph_index 
         for (p = first; p < last; p++) row[p] = SPH_R(0);
     return lost;
 }
-SPH_FN int sphi_all_finite(sph_scalars a, sph_index n)
+/* What goes with the row of a target; with_diagonal: what the row lacks to the sum 0. */
+SPH_FN void sphi_row_answer(sph_rows_out out, sph_list list, sph_index i, int with_diagonal,
+                            sph_real conditioning, int state)
+{
+    const size_t stride = sphi_stride(out.stride);
+    sph_index p;
+    if (out.diagonal && with_diagonal) {
+        sph_real sum = SPH_R(0);
+        for (p = list.start[i]; p < list.start[i + 1]; p++) sum += out.row[p];
+        sphi_put(out.diagonal, stride, i, -sum);
+    }
+    sphi_put(out.factor, stride, i, SPH_R(1));
+    sphi_put(out.conditioning, stride, i, conditioning);
+    if (out.status) out.status[i] = (unsigned char)state;
+}
+
+/* What a sweep refuses: the name of an argument, and the first particle at fault, or -1. */
+SPH_FN int sphi_refuse(SPHI_TEXT *argument, sph_index particle, int error)
+{
+    (void)argument;
+    (void)particle;
+    SPH_REFUSED(argument, particle, error);
+    return error;
+}
+/* Checks return 0, a negative sph_error, or this: there are no targets, so nothing else is looked at. */
+enum { SPHI_NO_TARGETS = 1 };
+SPH_FN int sphi_answer_of(int error) { return error < 0 ? error : 0; }
+
+/* Scans, in two passes, because the first vectorises: is there a fault, and where? */
+SPHI_LARGE int sphi_scan_finite(SPHI_TEXT *name, sph_scalars a, sph_index n, int error)
 {
     const sph_index count = a.stride ? n : 1;
     sph_index i;
     int bad = 0;
     for (i = 0; i < count; i++) bad |= !sphi_finite(sphi_at(a, i));
-    return !bad;
+    if (!bad) return 0;
+    for (i = 0; sphi_finite(sphi_at(a, i));) i++;
+    return sphi_refuse(name, i, error);
 }
-
-/* One axis: the length, that no radius (support * h) of the largest h reaches beyond half of it, and that the
-   images of positions can be counted in 32 bits. */
-SPH_FN int sphi_check_axis(sph_real length, sph_real largest, const SPH_GLOBAL sph_real *x, size_t stride,
-                           sph_index n)
+SPHI_LARGE int sphi_scan_positive(SPHI_TEXT *name, sph_scalars a, sph_index n)
 {
-    const sph_real furthest = SPH_R(1048576) * length;
+    const sph_index count = a.stride ? n : 1;
     sph_index i;
-    int outside = 0;
-    if (!sphi_finite(length) || length < SPH_R(0)) return SPH_ERROR_BOX;
-    if (!(length > SPH_R(0))) return 0;
-    if (!sphi_finite(SPH_R(1) / length)) return SPH_ERROR_BOX; /* a denormal number */
-    if (!(largest <= SPH_R(0.5) * length * (SPH_R(1) + SPH_R(4) * SPH_EPSILON)))
-        return SPH_ERROR_BOX; /* a host may have computed h from half the box */
-    for (i = 0; i < n && SPH_CHECK; i++) outside |= !(SPHI_ABS(x[(size_t)i * stride]) <= furthest);
-    return outside ? SPH_ERROR_BOX : 0;
+    int bad = 0;
+    for (i = 0; i < count; i++) bad |= !(sphi_at(a, i) > SPH_R(0));
+    if (!bad) return 0;
+    for (i = 0; sphi_at(a, i) > SPH_R(0);) i++;
+    return sphi_refuse(name, i, SPH_ERROR_VALUE);
 }
-SPH_FN int sphi_check_box(int dim, sph_points x, sph_real largest)
+SPHI_LARGE int sphi_scan_not_negative(SPHI_TEXT *name, sph_scalars a, sph_index n)
 {
-    int error = sphi_check_axis(x.box.x, largest, x.x, x.stride, x.n);
-    if (!error && dim > 1) error = sphi_check_axis(x.box.y, largest, x.y, x.stride, x.n);
-    if (!error && dim > 2) error = sphi_check_axis(x.box.z, largest, x.z, x.stride, x.n);
-    return error;
+    const sph_index count = a.stride ? n : 1;
+    sph_index i;
+    int bad = 0;
+    for (i = 0; i < count; i++) bad |= sphi_at(a, i) < SPH_R(0);
+    if (!bad) return 0;
+    for (i = 0; !(sphi_at(a, i) < SPH_R(0));) i++;
+    return sphi_refuse(name, i, SPH_ERROR_VALUE);
 }
-
-/* The arguments that all sweeps over lists share. */
-SPH_FN int sphi_check_frame(int dim, sph_cloud cloud)
+/* Smoothing lengths or radii; *largest grows to the largest. */
+SPHI_LARGE int sphi_scan_h(SPHI_TEXT *name, sph_scalars h, sph_index n, sph_real *largest)
 {
-    if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
-    if (!cloud.points.x || (dim > 1 && !cloud.points.y) || (dim > 2 && !cloud.points.z) || !cloud.list.start)
-        return SPH_ERROR_NULL;
-    if (cloud.points.n < 1 || cloud.points.stride < 1) return SPH_ERROR_COUNT;
-    return cloud.first < 0 || cloud.first > cloud.last || cloud.last > cloud.points.n ? SPH_ERROR_RANGE : 0;
+    const sph_index count = h.stride ? n : 1;
+    sph_index i;
+    for (i = 0; i < count; i++) {
+        const sph_real h_i = sphi_at(h, i);
+        if (!sphi_finite(h_i) || !(h_i > SPH_R(0))) return sphi_refuse(name, i, SPH_ERROR_H);
+        if (h_i > *largest) *largest = h_i;
+    }
+    return 0;
 }
-/* finite, and so is the difference of any two */
-SPH_FN int sphi_all_places(const SPH_GLOBAL sph_real *x, size_t stride, sph_index n)
+/* Coordinates: finite, and so is the difference of any two. */
+SPHI_LARGE int sphi_scan_places(SPHI_TEXT *name, const SPH_GLOBAL sph_real *x, size_t stride, sph_index n)
 {
     sph_index i;
     int bad = 0;
     for (i = 0; i < n; i++) bad |= !sphi_finite(SPH_R(2) * x[(size_t)i * stride]);
-    return !bad;
+    if (!bad) return 0;
+    for (i = 0; sphi_finite(SPH_R(2) * x[(size_t)i * stride]);) i++;
+    return sphi_refuse(name, i, SPH_ERROR_POSITION);
 }
-SPH_FN int sphi_check_positions(int dim, sph_points x)
+/* Coordinates on a periodic axis: the images can be counted in 32 bits. */
+SPHI_LARGE int sphi_scan_images(sph_real length, const SPH_GLOBAL sph_real *x, size_t stride, sph_index n)
 {
-    if (!SPH_CHECK) return 0;
-    if (!sphi_all_places(x.x, x.stride, x.n)) return SPH_ERROR_POSITION;
-    if (dim > 1 && !sphi_all_places(x.y, x.stride, x.n)) return SPH_ERROR_POSITION;
-    if (dim > 2 && !sphi_all_places(x.z, x.stride, x.n)) return SPH_ERROR_POSITION;
-    return 0;
+    const sph_real furthest = SPH_R(1048576) * length;
+    sph_index i;
+    int outside = 0;
+    for (i = 0; i < n; i++) outside |= !(SPHI_ABS(x[(size_t)i * stride]) <= furthest);
+    if (!outside) return 0;
+    for (i = 0; SPHI_ABS(x[(size_t)i * stride]) <= furthest;) i++;
+    return sphi_refuse("points", i, SPH_ERROR_BOX);
 }
-/* The rows first ... last - 1 of a list of n sources, which the targets are themselves unless foreign.
-   Without SPH_CHECK their ends alone. */
-SPH_FN int sphi_check_entries(sph_index first, sph_index last, sph_list list, sph_index n, int foreign)
+/* The rows first ... last - 1 of a list of n sources, which the targets are themselves unless foreign. */
+SPHI_LARGE int sphi_scan_entries(sph_index first, sph_index last, sph_list list, sph_index n, int foreign)
 {
     sph_index i, p;
     int outside = 0, self = 0;
-    if (first == last) return 0;
-    if (list.start[first] < 0 || list.start[last] < list.start[first]) return SPH_ERROR_LIST;
-    if (list.start[last] > list.start[first] && !list.index) return SPH_ERROR_NULL;
-    for (i = first; SPH_CHECK && i < last; i++)
-        if (list.start[i + 1] < list.start[i]) return SPH_ERROR_LIST;
-    for (i = first; SPH_CHECK && i < last; i++)
+    for (i = first; i < last; i++)
+        if (list.start[i + 1] < list.start[i]) return sphi_refuse("list", i, SPH_ERROR_LIST);
+    for (i = first; i < last; i++)
         for (p = list.start[i]; p < list.start[i + 1]; p++) {
             const sph_index j = list.index[p];
             outside |= (j < 0) | (j >= n);
             self |= j == i;
         }
-    if (outside) return SPH_ERROR_LIST;
-    return self && !foreign ? SPH_ERROR_SELF : 0;
+    if (!outside && (!self || foreign)) return 0;
+    for (i = first; i < last; i++)
+        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+            const sph_index j = list.index[p];
+            if (outside ? j < 0 || j >= n : j == i)
+                return sphi_refuse("list", i, outside ? (int)SPH_ERROR_LIST : (int)SPH_ERROR_SELF);
+        }
+    return SPH_ERROR_LIST;
 }
-/* The positions, the box for sums that reach as far as `largest`, and the rows first ... last - 1. */
+
+/* One axis: the length, that no radius (support * h) of the largest h reaches beyond half of it, and that the
+   images of positions can be counted in 32 bits (unless a scan has found that). */
+SPH_FN int sphi_check_axis(sph_real length, sph_real largest, const SPH_GLOBAL sph_real *x, size_t stride,
+                           sph_index n, int scanned)
+{
+    if (!sphi_finite(length) || length < SPH_R(0)) return sphi_refuse("box", -1, SPH_ERROR_BOX);
+    if (!(length > SPH_R(0))) return 0;
+    /* a denormal number */
+    if (!sphi_finite(SPH_R(1) / length)) return sphi_refuse("box", -1, SPH_ERROR_BOX);
+    /* with room for rounding: a host may have computed h from half the box */
+    if (!(largest <= SPH_R(0.5) * length * (SPH_R(1) + SPH_R(4) * SPH_EPSILON)))
+        return sphi_refuse("box", -1, SPH_ERROR_BOX);
+    return SPH_CHECK && !scanned ? sphi_scan_images(length, x, stride, n) : 0;
+}
+SPH_FN int sphi_check_box(int dim, sph_points x, sph_real largest, int scanned)
+{
+    int error = sphi_check_axis(x.box.x, largest, x.x, x.stride, x.n, scanned);
+    if (!error && dim > 1) error = sphi_check_axis(x.box.y, largest, x.y, x.stride, x.n, scanned);
+    if (!error && dim > 2) error = sphi_check_axis(x.box.z, largest, x.z, x.stride, x.n, scanned);
+    return error;
+}
+
+/* The arrays of positions, of points that there are. */
+SPH_FN int sphi_check_arrays(int dim, sph_points x)
+{
+    if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z)) return sphi_refuse("points", -1, SPH_ERROR_NULL);
+    return x.stride < 1 ? sphi_refuse("points.stride", -1, SPH_ERROR_COUNT) : 0;
+}
+/* Which targets: what all sweeps over clouds share. */
+SPH_FN int sphi_check_targets(int dim, sph_cloud cloud)
+{
+    if (dim < 1 || dim > 3) return sphi_refuse("dim", -1, SPH_ERROR_DIM);
+    if (cloud.checked < 0) return cloud.checked;
+    if (cloud.points.n < 0) return sphi_refuse("points.n", -1, SPH_ERROR_COUNT);
+    if (cloud.first < 0 || cloud.first > cloud.last || cloud.last > cloud.points.n)
+        return sphi_refuse("first, last", -1, SPH_ERROR_RANGE);
+    return cloud.first == cloud.last ? SPHI_NO_TARGETS : 0;
+}
+SPH_FN int sphi_check_frame(int dim, sph_cloud cloud)
+{
+    int error = sphi_check_targets(dim, cloud);
+    if (!error) error = sphi_check_arrays(dim, cloud.points);
+    return error || cloud.list.start ? error : sphi_refuse("list", -1, SPH_ERROR_NULL);
+}
+SPH_FN int sphi_check_positions(int dim, sph_points x)
+{
+    int error = SPH_CHECK ? sphi_scan_places("x", x.x, x.stride, x.n) : 0;
+    if (SPH_CHECK && !error && dim > 1) error = sphi_scan_places("y", x.y, x.stride, x.n);
+    if (SPH_CHECK && !error && dim > 2) error = sphi_scan_places("z", x.z, x.stride, x.n);
+    return error;
+}
+/* The rows first ... last - 1 of a list of n sources, which the targets are themselves unless foreign.
+   Without SPH_CHECK their ends alone. */
+SPH_FN int sphi_check_entries(sph_index first, sph_index last, sph_list list, sph_index n, int foreign)
+{
+    if (first == last) return 0;
+    if (list.start[first] < 0 || list.start[last] < list.start[first])
+        return sphi_refuse("list", first, SPH_ERROR_LIST);
+    if (list.start[last] > list.start[first] && !list.index) return sphi_refuse("list", -1, SPH_ERROR_NULL);
+    return SPH_CHECK ? sphi_scan_entries(first, last, list, n, foreign) : 0;
+}
+/* The positions, the box for sums that reach as far as `largest`, and the rows of the targets. */
 SPH_FN int sphi_check_scan(int dim, sph_cloud cloud, sph_real largest)
 {
-    int error = sphi_check_positions(dim, cloud.points);
-    if (!error) error = sphi_check_box(dim, cloud.points, largest);
-    return error ? error : sphi_check_entries(cloud.first, cloud.last, cloud.list, cloud.points.n, 0);
+    const int scanned = cloud.checked == 1;
+    int error = scanned ? 0 : sphi_check_positions(dim, cloud.points);
+    if (!error) error = sphi_check_box(dim, cloud.points, largest, scanned);
+    if (error || scanned) return error;
+    return sphi_check_entries(cloud.first, cloud.last, cloud.list, cloud.points.n, 0);
 }
 /* Sweeps without a kernel: lists that reach as far as `distance`. */
 SPH_FN int sphi_check_list(int dim, sph_cloud cloud, sph_real distance)
@@ -611,38 +720,63 @@ SPH_FN int sphi_check_list(int dim, sph_cloud cloud, sph_real distance)
     const int error = sphi_check_frame(dim, cloud);
     return error ? error : sphi_check_scan(dim, cloud, distance);
 }
-/* Sweeps with one: h and V, too. The sums reach as far as support * h. */
-SPH_FN int sphi_check_reach(sph_kernel k, int dim, sph_cloud cloud, sph_real support, sph_scalars weights)
+SPH_FN int sphi_check_h(SPHI_TEXT *name, sph_scalars h, sph_index n, sph_real *largest)
 {
-    sph_real largest = SPH_R(0);
-    const int error = sphi_check_frame(dim, cloud);
-    sph_index i;
-    if (error == SPH_ERROR_DIM) return error;
-    if ((unsigned)k >= (unsigned)SPH_KERNEL_COUNT) return SPH_ERROR_KERNEL;
-    if (!cloud.h.p || !weights.p) return SPH_ERROR_NULL;
-    if (error) return error;
-    for (i = 0; SPH_CHECK && i < (cloud.h.stride ? cloud.points.n : 1); i++) {
-        if (!sphi_finite(sphi_at(cloud.h, i)) || !(sphi_at(cloud.h, i) > SPH_R(0))) return SPH_ERROR_H;
-        if (sphi_at(cloud.h, i) > largest) largest = sphi_at(cloud.h, i);
-    }
-    if (SPH_CHECK && !sphi_all_finite(weights, cloud.points.n)) return SPH_ERROR_VALUE;
-    return sphi_check_scan(dim, cloud, support * largest);
+    return SPH_CHECK ? sphi_scan_h(name, h, n, largest) : 0;
 }
-/* V: what weighs the neighbours, volumes or masses. */
-SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_cloud cloud, sph_scalars weights)
+/* nothing else is said of values that there are */
+SPH_FN int sphi_check_finite(SPHI_TEXT *name, sph_scalars a, sph_index n, int error)
 {
-    return sphi_check_reach(k, dim, cloud, sph_kernel_support(k), weights);
+    return SPH_CHECK ? sphi_scan_finite(name, a, n, error) : 0;
 }
-SPH_FN int sphi_check_field(sph_scalars f, sph_index n)
+SPH_FN int sphi_check_kernel(sph_kernel k)
 {
-    if (!f.p) return SPH_ERROR_NULL;
-    return SPH_CHECK && !sphi_all_finite(f, n) ? SPH_ERROR_VALUE : 0;
+    return (unsigned)k >= (unsigned)SPH_KERNEL_COUNT ? sphi_refuse("kernel", -1, SPH_ERROR_KERNEL) : 0;
 }
-/* after the checks of the sweep: an output vector of dim arrays */
-SPH_FN int sphi_check_vector(int dim, const SPH_GLOBAL sph_real *x, const SPH_GLOBAL sph_real *y,
-                             const SPH_GLOBAL sph_real *z)
+SPH_FN int sphi_check_field(SPHI_TEXT *name, sph_scalars f, sph_index n)
 {
-    return !x || (dim > 1 && !y) || (dim > 2 && !z) ? SPH_ERROR_NULL : 0;
+    return f.p ? sphi_check_finite(name, f, n, SPH_ERROR_VALUE) : sphi_refuse(name, -1, SPH_ERROR_NULL);
+}
+/* Sweeps with a kernel: h, and what weighs the neighbours (volumes or masses), too. */
+SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_cloud cloud, SPHI_TEXT *name, sph_scalars weights)
+{
+    const int scanned = cloud.checked == 1;
+    sph_real largest = cloud.largest_h;
+    int error = sphi_check_frame(dim, cloud);
+    if (error >= 0 && sphi_check_kernel(k)) return SPH_ERROR_KERNEL;
+    if (!error && !cloud.h.p) error = sphi_refuse("h", -1, SPH_ERROR_NULL);
+    if (!error && !weights.p) error = sphi_refuse(name, -1, SPH_ERROR_NULL);
+    if (!error && !scanned) error = sphi_check_h("h", cloud.h, cloud.points.n, &largest);
+    if (!error && !(scanned && weights.p == cloud.volume.p && weights.stride == cloud.volume.stride))
+        error = sphi_check_finite(name, weights, cloud.points.n, SPH_ERROR_VALUE);
+    return error ? error : sphi_check_scan(dim, cloud, sph_kernel_support_ratio(k) * largest);
+}
+/* after the checks of the sweep: where a vector goes */
+SPH_FN int sphi_check_out(SPHI_TEXT *name, int dim, sph_vector_out out)
+{
+    const int there = out.x && (dim < 2 || out.y) && (dim < 3 || out.z);
+    return there ? 0 : sphi_refuse(name, -1, SPH_ERROR_NULL);
+}
+
+/* Scans positions, box, lists, h and volumes (if the cloud has them) once, and returns the cloud marked:
+   sweeps then scan only what they read besides, until something changes and the mark is made anew. If
+   something is wrong the mark is the sph_error, and every sweep answers that. */
+SPH_FN sph_cloud sph_cloud_checked(int dim, sph_cloud cloud)
+{
+    int error;
+    cloud.checked = 0;
+    cloud.largest_h = SPH_R(0);
+    error = sphi_check_targets(dim, cloud);
+    if (!error) error = sphi_check_arrays(dim, cloud.points);
+    if (!error) error = sphi_check_positions(dim, cloud.points);
+    if (!error) error = sphi_check_box(dim, cloud.points, SPH_R(0), 0);
+    if (!error && cloud.list.start)
+        error = sphi_check_entries(cloud.first, cloud.last, cloud.list, cloud.points.n, 0);
+    if (!error && cloud.h.p) error = sphi_check_h("h", cloud.h, cloud.points.n, &cloud.largest_h);
+    if (!error && cloud.volume.p)
+        error = sphi_check_finite("volume", cloud.volume, cloud.points.n, SPH_ERROR_VALUE);
+    cloud.checked = error < 0 ? error : !error;
+    return cloud;
 }
 
 /* Only asked for where a system was singular: was it for want of neighbours? */
@@ -650,7 +784,7 @@ SPH_FN int sphi_singular_status(sph_kernel k, int dim, sph_index i, sph_points x
                                 int needed)
 {
     const sph_vec x_i = sphi_point(dim, x, i);
-    const sph_real support = sph_kernel_support(k) * h;
+    const sph_real support = sph_kernel_support_ratio(k) * h;
     sph_index p;
     int count = 0;
     for (p = list.start[i]; p < list.start[i + 1]; p++) {
@@ -669,25 +803,22 @@ SPH_FN sph_vec sphi_vector_at(int dim, sph_vectors v, sph_index i)
     a.z = dim > 2 ? sphi_at(v.z, i) : SPH_R(0);
     return a;
 }
-SPH_FN int sphi_check_vectors(int dim, sph_vectors v, sph_index n)
+SPH_FN int sphi_check_vectors(SPHI_TEXT *name, int dim, sph_vectors v, sph_index n)
 {
-    int error = sphi_check_field(v.x, n);
-    if (!error && dim > 1) error = sphi_check_field(v.y, n);
-    if (!error && dim > 2) error = sphi_check_field(v.z, n);
+    int error = sphi_check_field(name, v.x, n);
+    if (!error && dim > 1) error = sphi_check_field(name, v.y, n);
+    if (!error && dim > 2) error = sphi_check_field(name, v.z, n);
     return error;
 }
-SPH_FN int sphi_all_positive(sph_scalars a, sph_index n)
+SPH_FN int sphi_check_positive(SPHI_TEXT *name, sph_scalars a, sph_index n)
 {
-    sph_index i;
-    int bad = 0;
-    for (i = 0; i < (a.stride ? n : 1); i++) bad |= !(sphi_at(a, i) > SPH_R(0));
-    return !bad;
+    const int error = sphi_check_field(name, a, n);
+    return error || !SPH_CHECK ? error : sphi_scan_positive(name, a, n);
 }
-SPH_FN int sphi_check_positive(sph_scalars a, sph_index n)
+SPH_FN int sphi_check_not_negative(SPHI_TEXT *name, sph_scalars a, sph_index n)
 {
-    const int error = sphi_check_field(a, n);
-    if (error) return error;
-    return SPH_CHECK && !sphi_all_positive(a, n) ? SPH_ERROR_VALUE : 0;
+    const int error = sphi_check_field(name, a, n);
+    return error || !SPH_CHECK ? error : sphi_scan_not_negative(name, a, n);
 }
 
 /* ================================================================ small systems: dense, at most 6 x 6. Rows
@@ -817,30 +948,36 @@ SPH_FN sph_real sph_density_mismatch(sph_kernel k, int dim, sph_density_sums s, 
 
 /* -------- interpolation: sweeps */
 
-/* gamma_i = sum_j V_j W_ij, the particle itself included: 1 in the interior of a regular cloud, about 1/2 at
-   a plane boundary. Shepard 1968; (4.10) of the ICSPM paper. */
-SPH_FN sph_index sph_shepard_sum(sph_kernel k, int dim, sph_cloud cloud, SPH_GLOBAL sph_real *out)
+/* sum_j w_j W_ij, the particle itself included; w: volumes or masses */
+SPH_FN sph_index sphi_sum_of_weights(sph_kernel k, int dim, sph_cloud cloud, SPHI_TEXT *name,
+                                     sph_scalars weights, sph_scalar_out out)
 {
-    const int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
+    int error = sphi_check_sweep(k, dim, cloud, name, weights);
     sph_index i, p, failed = 0;
-    if (error) return error;
-    if (!out) return SPH_ERROR_NULL;
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i);
-        sph_real sum = sphi_at(cloud.volume, i) * sph_kernel_w(k, dim, SPH_R(0), h_i);
+        sph_real sum = sphi_at(weights, i) * sph_kernel_w(k, dim, SPH_R(0), h_i);
         SPH_SUM(sum)
         for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
             const sph_index j = cloud.list.index[p];
-            sum += sphi_at(cloud.volume, j) *
+            sum += sphi_at(weights, j) *
                    sph_kernel_w(k, dim,
                                 sph_length(dim, sphi_separation(dim, cloud.points, x_i,
                                                                 sphi_point(dim, cloud.points, j))),
                                 h_i);
         }
-        failed += sphi_store_finite(out, i, sum);
+        failed += sphi_store(out, i, sum);
     }
     return failed;
+}
+/* gamma_i = sum_j V_j W_ij, the particle itself included: 1 in the interior of a regular cloud, about 1/2 at
+   a plane boundary. Shepard 1968; (4.10) of the ICSPM paper. */
+SPH_FN sph_index sph_shepard_sum(sph_kernel k, int dim, sph_cloud cloud, sph_scalar_out out)
+{
+    return sphi_sum_of_weights(k, dim, cloud, "volume", cloud.volume, out);
 }
 
 /* f_i = sum_j V_j f_j W_ij / sum_j V_j W_ij, the particle itself included: exact for constants, O(h^2) in the
@@ -849,11 +986,11 @@ SPH_FN sph_index sph_shepard_sum(sph_kernel k, int dim, sph_cloud cloud, SPH_GLO
 SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                          sph_scalar_out out)
 {
-    int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_field(f, cloud.points.n);
-    if (!error && !out.p) error = SPH_ERROR_NULL;
-    if (error) return error;
+    if (!error) error = sphi_check_field("f", f, cloud.points.n);
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i),
@@ -885,10 +1022,9 @@ SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_cloud cloud,
    the interior of a regular cloud, about rho/2 at a free surface. h is given: for one that follows rho see
    below. */
 SPH_FN sph_index sph_density_summation(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
-                                       SPH_GLOBAL sph_real *rho)
+                                       sph_scalar_out out)
 {
-    cloud.volume = m; /* the same sum, with m for V */
-    return sph_shepard_sum(k, dim, cloud, rho);
+    return sphi_sum_of_weights(k, dim, cloud, "m", m, out);
 }
 
 SPH_FN sph_density_sums sphi_density_sums(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list,
@@ -922,7 +1058,7 @@ SPH_FN sph_real sphi_density_h_alone(sph_kernel k, int dim, sph_index i, sph_poi
         const sph_real r = sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, list.index[p])));
         if (r > SPH_R(0) && (!(nearest > SPH_R(0)) || r < nearest)) nearest = r;
     }
-    return nearest / sph_kernel_support(k) * (SPH_R(1) - SPH_R(8) * SPH_EPSILON);
+    return nearest / sph_kernel_support_ratio(k) * (SPH_R(1) - SPH_R(8) * SPH_EPSILON);
 }
 
 /* Newton's method in ln h (exact in one step where rho h^dim is a power of h) between bounds low < root <=
@@ -985,7 +1121,7 @@ SPH_FN int sphi_density_longer(sph_kernel k, int dim, sph_index i, sph_points x,
     if (x.box.x > SPH_R(0)) longest = x.box.x;
     if (dim > 1 && x.box.y > SPH_R(0) && !(longest > SPH_R(0) && longest < x.box.y)) longest = x.box.y;
     if (dim > 2 && x.box.z > SPH_R(0) && !(longest > SPH_R(0) && longest < x.box.z)) longest = x.box.z;
-    longest *= SPH_R(0.5) / sph_kernel_support(k);
+    longest *= SPH_R(0.5) / sph_kernel_support_ratio(k);
     if (longest > SPH_R(0)) {
         if (!(*h < longest * (SPH_R(1) - SPH_R(8) * SPH_EPSILON))) return SPH_TOO_FEW;
     } else if (list.start[i + 1] - list.start[i] >=
@@ -1009,16 +1145,15 @@ SPH_FN int sphi_density_longer(sph_kernel k, int dim, sph_index i, sph_points x,
     return SPH_LIST_TOO_SHORT;
 }
 
-/* reach: how far the lists of each target reach. eta: h = eta (m / rho)^(1/dim); sph_kernel_h_over_dx(k) is a
-   good
-   choice. tolerance: of ln(h); 0 takes what rounding allows. */
 typedef struct sph_density_options {
-    sph_scalars reach;
-    sph_real eta, tolerance;
+    sph_scalars list_radius; /* row i of the list holds every source with r < list_radius_i; has no default */
+    sph_real eta;            /* h = eta (m / rho)^(1/dim); 0: sph_kernel_h_over_dx(k) */
+    sph_real tolerance;      /* of h, relative, below 1; 0: 1e-3. Less than 64 round-offs counts as that */
 } sph_density_options;
-/* h holds the guess, and the answer; omega and status may be null. */
+/* h holds the guess, and the answer; omega and status may be null. The stride is that of h, rho and omega. */
 typedef struct sph_density_out {
     SPH_GLOBAL sph_real *h, *rho, *omega;
+    size_t stride;
     SPH_GLOBAL unsigned char *status;
 } sph_density_out;
 
@@ -1027,19 +1162,15 @@ typedef struct sph_density_out {
    + h_i / (dim rho_i) sum_j m_j dW_ij/dh_i, the factor of equations of motion with that h (see the pair tier:
    sources, sign). On a lattice of spacing dx, h = eta dx but for the kernel's error there. Never diverges; a
    good guess costs two or three passes over the row.
-   eta       > 0; sph_kernel_h_over_dx(k) is the usual one.   tolerance: in [0, 1); 1e-3 is usual; less than
-             64 round-offs counts as that.
-   reach     row i of the list holds every source with r < reach_i: h_i is never made longer than reach_i /
-             support. At most half a periodic length.
-   h         in: a guess for the targets (any positive number); out: the result. n numbers, one a particle,
-             like rho, omega (may be null) and status (may be null).
+   list_radius  h_i is never made longer than list_radius_i / support. At most half a periodic length.
+   h            in: a guess for the targets (any positive number); out: the result.
    SPH_LIST_TOO_SHORT   h would have to be longer. h[i] is the one to try next (at most twice the longest that
-                        was allowed), rho and omega are those at reach_i / support. Build a list that is
-                        longer where h[i] * support exceeds reach_i and call again; or stop at the longest h
-                        that makes sense, and keep rho and omega.
+                        was allowed), rho and omega are those at list_radius_i / support. Build a list that is
+                        longer where h[i] * support exceeds list_radius_i and call again; or stop at the
+                        longest h that makes sense, and keep rho and omega.
    SPH_TOO_FEW          no h will do, because all the sources there are (or, in a periodic box, all within
                         half of it) have too little mass: a particle alone, for which rho h^dim is a constant
-                        and every h or none fits. h[i] = reach_i / support, rho and omega 0.
+                        and every h or none fits. h[i] = list_radius_i / support, rho and omega 0.
    SPH_SINGULAR         no h is short enough: the particle (and what coincides with it) has more than eta^dim
                         allows at any h: eta is too small, or particles have clumped in one point. rho and
                         omega 0, h[i] too short to hold any other particle (or the guess, if that was).
@@ -1047,51 +1178,58 @@ typedef struct sph_density_out {
    SPH_ILL_CONDITIONED  rho jumps across the solution, as kernels do that are cut off at their edge (the
                         Gaussians): h[i] is the place of the jump, the rest as computed there.
    SPH_NOT_FINITE       the sums overflowed: rho and omega 0, h[i] where that happened.
-   Besides the errors of all sweeps: SPH_ERROR_H for a guess or a reach that is not finite and positive,
-   SPH_ERROR_VALUE for eta or tolerance out of range, SPH_ERROR_BOX for a reach beyond half the box. Ranges
+   Besides the errors of all sweeps: SPH_ERROR_H for a guess or a list_radius that is not finite and
+   positive, SPH_ERROR_VALUE for eta or tolerance out of range, SPH_ERROR_BOX for a list_radius beyond half
+   the box. Ranges
    may run in parallel: of h only the range's own entries are read. */
 SPH_FN sph_index sph_density_adaptive(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                       sph_density_options options, sph_density_out out)
 {
-    SPH_GLOBAL sph_real *const h = out.h, *const rho = out.rho, *const omega = out.omega;
-    SPH_GLOBAL unsigned char *const status = out.status;
-    const sph_scalars reach = options.reach;
-    const sph_real eta = options.eta, tolerance = options.tolerance;
+    const size_t stride = sphi_stride(out.stride);
+    const sph_scalars radius = options.list_radius;
+    const sph_real eta = options.eta == SPH_R(0) ? sph_kernel_h_over_dx(k) : options.eta,
+                   tolerance = options.tolerance == SPH_R(0) ? SPH_R(1e-3) : options.tolerance;
     const sph_real least = SPH_R(64) * SPH_EPSILON, accepted = tolerance > least ? tolerance : least;
+    sph_real longest_radius = SPH_R(0);
     sph_index i, failed = 0;
-    int error;
-    cloud.h = reach; /* the longest h times the support */
-    error = sphi_check_reach(k, dim, cloud, SPH_R(1), m);
-    if (error) return error;
-    if (!h || !rho) return SPH_ERROR_NULL;
-    if (!sphi_finite(eta) || !(eta > SPH_R(0)) || !sphi_finite(tolerance) || tolerance < SPH_R(0) ||
-        !(tolerance < SPH_R(1)))
-        return SPH_ERROR_VALUE;
-    if (SPH_CHECK)
-        for (i = cloud.first; i < cloud.last; i++)
-            if (!sphi_finite(h[i]) || !(h[i] > SPH_R(0))) return SPH_ERROR_H;
+    int error = sphi_check_frame(dim, cloud);
+    if (error >= 0 && sphi_check_kernel(k)) return SPH_ERROR_KERNEL;
+    if (!error && !radius.p) error = sphi_refuse("list_radius", -1, SPH_ERROR_NULL);
+    if (!error) error = sphi_check_h("list_radius", radius, cloud.points.n, &longest_radius);
+    if (!error) error = sphi_check_field("m", m, cloud.points.n);
+    if (!error) error = sphi_check_scan(dim, cloud, longest_radius);
+    if (!error && (!out.h || !out.rho)) error = sphi_refuse("out.h, out.rho", -1, SPH_ERROR_NULL);
+    if (!error && (!sphi_finite(eta) || !(eta > SPH_R(0)))) error = sphi_refuse("eta", -1, SPH_ERROR_VALUE);
+    if (!error && (!sphi_finite(tolerance) || tolerance < SPH_R(0) || !(tolerance < SPH_R(1))))
+        error = sphi_refuse("tolerance", -1, SPH_ERROR_VALUE);
+    for (i = cloud.first; SPH_CHECK && !error && i < cloud.last; i++) {
+        const sph_real guess = out.h[(size_t)i * stride];
+        if (!sphi_finite(guess) || !(guess > SPH_R(0))) error = sphi_refuse("out.h", i, SPH_ERROR_H);
+    }
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
-        const sph_real longest = sphi_at(reach, i) / sph_kernel_support(k);
+        const sph_real longest = sphi_at(radius, i) / sph_kernel_support_ratio(k);
+        SPH_GLOBAL sph_real *const h = out.h + (size_t)i * stride;
         sph_density_sums sums = sph_density_pair(k, dim, SPH_R(0), SPH_R(0));
         sph_real density = SPH_R(0), factor = SPH_R(0);
         int state = SPH_NOT_AVAILABLE;
         if (sphi_at(m, i) > SPH_R(0)) {
-            /* a reach that is a denormal number may leave no h at all */
+            /* a radius that is a denormal number may leave no h at all */
             state = longest > SPH_R(0) ? sphi_density_solve(k, dim, i, cloud.points, cloud.list, longest, m,
-                                                            eta, accepted, &h[i], &sums)
+                                                            eta, accepted, h, &sums)
                                        : (int)SPH_NOT_FINITE;
             if (state == SPH_OK || state == SPH_ILL_CONDITIONED || state == SPH_LIST_TOO_SHORT) {
-                density = sph_density_value(k, dim, sums, h[i]);
+                density = sph_density_value(k, dim, sums, *h);
                 factor = sums.weight > SPH_R(0) ? sph_density_omega(dim, sums) : SPH_R(0);
                 if (!sphi_finite(density) || !sphi_finite(factor)) state = SPH_NOT_FINITE;
             }
             if (state == SPH_LIST_TOO_SHORT)
-                state = sphi_density_longer(k, dim, i, cloud.points, cloud.list, m, eta, sums, &h[i]);
+                state = sphi_density_longer(k, dim, i, cloud.points, cloud.list, m, eta, sums, h);
         }
         if (state == SPH_TOO_FEW || state == SPH_NOT_FINITE) density = factor = SPH_R(0);
-        rho[i] = density;
-        if (omega) omega[i] = factor;
-        if (status) status[i] = (unsigned char)state;
+        sphi_put(out.rho, stride, i, density);
+        sphi_put(out.omega, stride, i, factor);
+        if (out.status) out.status[i] = (unsigned char)state;
         failed += state != SPH_OK;
     }
     return failed;
@@ -1113,14 +1251,6 @@ SPH_FN sph_vec sph_gradient_pair_difference(sph_kernel k, int dim, sph_real V_j,
 SPH_FN sph_real sph_laplacian_weight_brookshaw(sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j)
 {
     return SPH_R(-2) * V_j * sph_kernel_f(k, dim, r, h);
-}
-
-/* Weight of (f_j - f_i) in the oldest SPH Laplacian, V_j lap W_ij = V_j (d2W/dr2 + (dim - 1) F). Changes sign
-   inside the support and is very sensitive to disorder (Monaghan 2005, Rep. Prog. Phys. 68, 1703, section 2):
-   here to compare with. */
-SPH_FN sph_real sph_laplacian_weight_kernel(sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j)
-{
-    return V_j * (sph_kernel_d2wdr2(k, dim, r, h) + SPH_R(dim - 1) * sph_kernel_f(k, dim, r, h));
 }
 
 /* The gradient alone needs K only:  sum weight e_a e_b  with the weight  -V_j F_ij  (h cancels against the e
@@ -1171,11 +1301,11 @@ SPH_FN int sph_solve_gradient(int dim, sph_sym moment, sph_sym *inverse, sph_rea
 SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                          sph_vector_out out)
 {
-    int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_field(f, cloud.points.n);
-    if (!error) error = sphi_check_vector(dim, out.x, out.y, out.z);
-    if (error) return error;
+    if (!error) error = sphi_check_field("f", f, cloud.points.n);
+    if (!error) error = sphi_check_out("out", dim, out);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i), f_i = sphi_at(f, i);
@@ -1249,15 +1379,14 @@ SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points
    be null): smallest pivot of K scaled to a unit diagonal. Needs dim neighbours that are not on a line or in
    a plane. */
 SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
-                                   sph_derivative_out out)
+                                   sph_derivatives_out out)
 {
-    const sph_vector_out gradient =
-        sph_vector_out_strided(out.gx, out.gy, out.gz, out.stride ? out.stride : 1);
-    int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
+    const sph_vector_out gradient = sph_vector_out_strided(out.gx, out.gy, out.gz, sphi_stride(out.stride));
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, failed = 0;
-    if (!error) error = sphi_check_field(f, cloud.points.n);
-    if (!error) error = sphi_check_vector(dim, out.gx, out.gy, out.gz);
-    if (error) return error;
+    if (!error) error = sphi_check_field("f", f, cloud.points.n);
+    if (!error) error = sphi_check_out("out", dim, gradient);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_real h_i = sphi_at(cloud.h, i);
         sph_sym moment, inverse = {SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0)};
@@ -1271,7 +1400,7 @@ SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_s
             sum.x = sum.y = sum.z = SPH_R(0);
         } else sum = sphi_sym_times(dim, inverse, sum);
         if (sphi_store_vector(dim, gradient, i, sum)) state = SPH_NOT_FINITE;
-        if (out.conditioning) sphi_store_finite(out.conditioning + (size_t)i * gradient.stride, 0, pivot);
+        sphi_put(out.conditioning, gradient.stride, i, pivot);
         if (out.status) out.status[i] = (unsigned char)state;
         failed += state != SPH_OK;
     }
@@ -1279,14 +1408,14 @@ SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_s
 }
 
 /* The same as rows: grad f_i = sum_p (wx[p], wy[p], wz[p]) (f_j - f_i), p along the list. */
-SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_gradient_row_out out)
+SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_gradient_rows_out out)
 {
     SPH_GLOBAL sph_real *const SPH_RESTRICT wx = out.x, *const SPH_RESTRICT wy = out.y,
                                             *const SPH_RESTRICT wz = out.z;
-    int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_vector(dim, wx, wy, wz);
-    if (error) return error;
+    if (!error) error = sphi_check_out("out", dim, sph_vector_out_separate(wx, wy, wz));
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i);
@@ -1323,7 +1452,7 @@ SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, 
                 if (dim > 2) wz[p] = SPH_R(0);
             }
         }
-        if (out.conditioning) sphi_store_finite(out.conditioning, i, pivot);
+        sphi_put(out.conditioning, sphi_stride(out.stride), i, pivot);
         if (out.status) out.status[i] = (unsigned char)state;
         failed += state != SPH_OK;
     }
@@ -1332,20 +1461,15 @@ SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, 
 
 /* -------- two-point Laplacians: sweeps */
 
-enum { SPHI_BROOKSHAW, SPHI_KERNEL_LAPLACIAN };
-SPH_FN sph_real sphi_laplacian_weight(int which, sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j)
+/* L f_i = sum_j 2 V_j (f_i - f_j) F_ij; see sph_laplacian_weight_brookshaw */
+SPH_FN sph_index sph_laplacian_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
+                                         sph_scalar_out out)
 {
-    return which == SPHI_BROOKSHAW ? sph_laplacian_weight_brookshaw(k, dim, r, h, V_j)
-                                   : sph_laplacian_weight_kernel(k, dim, r, h, V_j);
-}
-SPH_FN sph_index sphi_laplacian(int which, sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
-                                SPH_GLOBAL sph_real *out)
-{
-    int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_field(f, cloud.points.n);
-    if (!error && !out) error = SPH_ERROR_NULL;
-    if (error) return error;
+    if (!error) error = sphi_check_field("f", f, cloud.points.n);
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i), f_i = sphi_at(f, i);
@@ -1353,61 +1477,38 @@ SPH_FN sph_index sphi_laplacian(int which, sph_kernel k, int dim, sph_cloud clou
         SPH_SUM(sum)
         for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
             const sph_index j = cloud.list.index[p];
-            sum += sphi_laplacian_weight(which, k, dim,
-                                         sph_length(dim, sphi_separation(dim, cloud.points, x_i,
-                                                                         sphi_point(dim, cloud.points, j))),
-                                         h_i, sphi_at(cloud.volume, j)) *
-                   (sphi_at(f, j) - f_i);
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            sum +=
+                sph_laplacian_weight_brookshaw(k, dim, sph_length(dim, x_ij), h_i, sphi_at(cloud.volume, j)) *
+                (sphi_at(f, j) - f_i);
         }
-        failed += sphi_store_finite(out, i, sum);
+        failed += sphi_store(out, i, sum);
     }
     return failed;
 }
-SPH_FN sph_index sphi_laplacian_rows(int which, sph_kernel k, int dim, sph_cloud cloud,
-                                     SPH_GLOBAL sph_real *SPH_RESTRICT row)
+SPH_FN sph_index sph_laplacian_rows_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_rows_out out)
 {
-    const int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
+    SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, p, failed = 0;
-    if (error) return error;
-    if (!row) return SPH_ERROR_NULL;
+    if (!error && !row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i);
+        int lost;
         SPH_EACH
         for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
             const sph_index j = cloud.list.index[p];
-            row[p] = sphi_laplacian_weight(
-                which, k, dim,
-                sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j))),
-                h_i, sphi_at(cloud.volume, j));
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            row[p] =
+                sph_laplacian_weight_brookshaw(k, dim, sph_length(dim, x_ij), h_i, sphi_at(cloud.volume, j));
         }
-        failed += sphi_row_finite(row, cloud.list.start[i], cloud.list.start[i + 1]);
+        lost = sphi_row_finite(row, cloud.list.start[i], cloud.list.start[i + 1]);
+        sphi_row_answer(out, cloud.list, i, 1, SPH_R(1), lost ? (int)SPH_NOT_FINITE : (int)SPH_OK);
+        failed += lost;
     }
     return failed;
-}
-
-/* L f_i = sum_j 2 V_j (f_i - f_j) F_ij; see sph_laplacian_weight_brookshaw */
-SPH_FN sph_index sph_laplacian_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
-                                         SPH_GLOBAL sph_real *out)
-{
-    return sphi_laplacian(SPHI_BROOKSHAW, k, dim, cloud, f, out);
-}
-SPH_FN sph_index sph_laplacian_rows_brookshaw(sph_kernel k, int dim, sph_cloud cloud,
-                                              SPH_GLOBAL sph_real *SPH_RESTRICT row)
-{
-    return sphi_laplacian_rows(SPHI_BROOKSHAW, k, dim, cloud, row);
-}
-
-/* L f_i = sum_j V_j (f_j - f_i) lap W_ij, for comparison; see sph_laplacian_weight_kernel */
-SPH_FN sph_index sph_laplacian_kernel(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
-                                      SPH_GLOBAL sph_real *out)
-{
-    return sphi_laplacian(SPHI_KERNEL_LAPLACIAN, k, dim, cloud, f, out);
-}
-SPH_FN sph_index sph_laplacian_rows_kernel(sph_kernel k, int dim, sph_cloud cloud,
-                                           SPH_GLOBAL sph_real *SPH_RESTRICT row)
-{
-    return sphi_laplacian_rows(SPHI_KERNEL_LAPLACIAN, k, dim, cloud, row);
 }
 
 /* ================================================================ second derivatives
@@ -1804,13 +1905,13 @@ SPH_FN int sph_solve_block(int dim, const sph_moments *m, sph_real h, sph_jet *j
 /* -------- rows. The weight of (f_j - f_i) in the operator D is  g c.first . e + w c.second : ee  with
    coefficients c that depend on i only. */
 
-typedef struct sph_row_coefficients {
+typedef struct sph_coefficients {
     sph_vec first;
     sph_sym second;
     sph_real factor; /* sum_j weight (f_j - f_i) = factor * D f: 1, or kappa for ICSPM */
-} sph_row_coefficients;
+} sph_coefficients;
 
-SPH_FN sph_real sph_row_weight(int dim, sph_row_coefficients c, sph_vec e, sph_test_weights t)
+SPH_FN sph_real sph_coefficients_weight(int dim, sph_coefficients c, sph_vec e, sph_test_weights t)
 {
     sph_real second = c.second.xx * e.x * e.x;
     if (dim > 1) second += (c.second.xy * e.x + c.second.yy * e.y) * e.y;
@@ -1818,10 +1919,10 @@ SPH_FN sph_real sph_row_weight(int dim, sph_row_coefficients c, sph_vec e, sph_t
     return t.g * sph_dot(dim, c.first, e) + t.w * second;
 }
 
-SPH_FN sph_row_coefficients sphi_row_unscaled(int dim, const sphi_blocks *b, const sph_real *u,
-                                              const sph_real *v, sph_real factor)
+SPH_FN sph_coefficients sphi_row_unscaled(int dim, const sphi_blocks *b, const sph_real *u, const sph_real *v,
+                                          sph_real factor)
 {
-    sph_row_coefficients c;
+    sph_coefficients c;
     c.first.x = u[0] * b->s[0];
     c.second.xx = v[0] * b->d[0];
     c.first.y = c.first.z = c.second.xy = c.second.yy = c.second.xz = c.second.yz = c.second.zz = SPH_R(0);
@@ -1842,8 +1943,8 @@ SPH_FN sph_row_coefficients sphi_row_unscaled(int dim, const sphi_blocks *b, con
 
 /* Row of the operator op by CSPM. Returns SPH_OK or SPH_SINGULAR (nothing written). *conditioning as for
    sph_solve_cspm. */
-SPH_FN int sph_row_cspm(int dim, const sph_moments *m, sph_real h, sph_jet op, sph_row_coefficients *c,
-                        sph_real *conditioning)
+SPH_FN int sph_coefficients_cspm(int dim, const sph_moments *m, sph_real h, sph_jet op, sph_coefficients *c,
+                                 sph_real *conditioning)
 {
     const int nh = sphi_unknowns(dim);
     sphi_blocks b;
@@ -1868,8 +1969,8 @@ SPH_FN int sph_row_cspm(int dim, const sph_moments *m, sph_real h, sph_jet op, s
    and factor are those of (op row) * factor with |M^T second| the same as in CSPM, so that both stay finite
    where kappa is singular (factor 0 then: the row still annihilates what it must). *conditioning is the same
    as for sph_solve_block. */
-SPH_FN int sph_row_block(int dim, int icspm, const sph_moments *m, sph_real h, sph_jet op,
-                         sph_row_coefficients *c, sph_real *conditioning)
+SPH_FN int sph_coefficients_block(int dim, int icspm, const sph_moments *m, sph_real h, sph_jet op,
+                                  sph_coefficients *c, sph_real *conditioning)
 {
     const int nh = sphi_unknowns(dim);
     sphi_blocks b;
@@ -2037,16 +2138,25 @@ SPH_FN int sphi_solve(int method, int dim, const sph_moments *m, sph_real h, sph
                                : sph_solve_block(dim, m, h, jet, conditioning);
 }
 
+/* What the sweeps over derivatives may be told; zeros are the defaults. */
+typedef struct sph_derivatives_options {
+    sph_real conditioning_min; /* a target whose |conditioning| is below is SPH_ILL_CONDITIONED; 0: none is */
+    int fallback_wls; /* ICSPM: 1: targets that are singular or ill-conditioned get the least-squares value */
+} sph_derivatives_options;
+
 SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
-                                  sph_real conditioning_min, int fallback_wls, sph_derivative_out out)
+                                  sph_derivatives_options options, sph_derivatives_out out)
 {
-    const size_t stride = out.stride ? out.stride : 1;
+    const size_t stride = sphi_stride(out.stride);
+    const sph_real conditioning_min = options.conditioning_min;
+    const int fallback_wls = method == SPHI_ICSPM && options.fallback_wls;
     const int want_conditioning = out.conditioning || conditioning_min > SPH_R(0);
-    int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, failed = 0;
-    if (!error) error = sphi_check_field(f, cloud.points.n);
-    if (!error && (!sphi_finite(conditioning_min) || conditioning_min < SPH_R(0))) error = SPH_ERROR_VALUE;
-    if (error) return error;
+    if (!error) error = sphi_check_field("f", f, cloud.points.n);
+    if (!error && (!sphi_finite(conditioning_min) || conditioning_min < SPH_R(0)))
+        error = sphi_refuse("conditioning_min", -1, SPH_ERROR_VALUE);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_real h_i = sphi_at(cloud.h, i);
         sph_moments m;
@@ -2101,9 +2211,9 @@ SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_cloud c
    O(1) at boundaries: in 1D it is kappa f''. conditioning: smallest pivot of the scaled matrices, in [0, 1];
    a target below conditioning_min (>= 0) is reported SPH_ILL_CONDITIONED, its value kept. */
 SPH_FN sph_index sph_derivatives_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
-                                      sph_real conditioning_min, sph_derivative_out out)
+                                      sph_derivatives_options options, sph_derivatives_out out)
 {
-    return sphi_derivatives(SPHI_CSPM, k, dim, cloud, f, conditioning_min, 0, out);
+    return sphi_derivatives(SPHI_CSPM, k, dim, cloud, f, options, out);
 }
 
 /* Gradient, Hessian and Laplacian by ICSPM: (5.17) of the ICSPM paper in 1D. Exact for quadratic fields
@@ -2112,41 +2222,42 @@ SPH_FN sph_index sph_derivatives_cspm(sph_kernel k, int dim, sph_cloud cloud, sp
    value in 1D and 0.02 in 2D and 3D; 0 is the published method) are SPH_ILL_CONDITIONED and keep their value,
    or, with fallback_wls = 1, get the least-squares one and are SPH_FELL_BACK. */
 SPH_FN sph_index sph_derivatives_icspm(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
-                                       sph_real conditioning_min, int fallback_wls, sph_derivative_out out)
+                                       sph_derivatives_options options, sph_derivatives_out out)
 {
-    return sphi_derivatives(SPHI_ICSPM, k, dim, cloud, f, conditioning_min, fallback_wls, out);
+    return sphi_derivatives(SPHI_ICSPM, k, dim, cloud, f, options, out);
 }
 
 /* Gradient, Hessian and Laplacian by weighted least squares: the robust sibling. Exact for quadratic fields;
    the matrix is definite wherever the neighbours determine a quadratic. conditioning: as for ICSPM, here in
    [0, 1]. */
 SPH_FN sph_index sph_derivatives_wls(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
-                                     sph_real conditioning_min, sph_derivative_out out)
+                                     sph_derivatives_options options, sph_derivatives_out out)
 {
-    return sphi_derivatives(SPHI_WLS, k, dim, cloud, f, conditioning_min, 0, out);
+    return sphi_derivatives(SPHI_WLS, k, dim, cloud, f, options, out);
 }
 
 SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_cloud cloud, sph_jet d,
-                                      sph_row_out out)
+                                      sph_rows_out out)
 {
-    const int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, p, failed = 0;
-    if (error) return error;
-    if (!out.row) return SPH_ERROR_NULL;
-    if (!sphi_jet_finite(dim, d)) return SPH_ERROR_VALUE;
+    if (!error && !out.row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
+    if (!error && !sphi_jet_finite(dim, d)) error = sphi_refuse("d", -1, SPH_ERROR_VALUE);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i), u = SPH_R(1) / h_i;
         SPH_GLOBAL sph_real *const row = out.row;
         sph_moments m;
-        sph_row_coefficients c;
+        sph_coefficients c;
         sph_real conditioning = SPH_R(0), sum = SPH_R(0);
         int state;
         c.factor = SPH_R(0);
         sphi_moments(method, k, dim, 0, i, cloud.points, cloud.list, h_i, cloud.volume, cloud.volume, &m);
-        state = method == SPHI_CSPM ? sph_row_cspm(dim, &m, h_i, d, &c, out.conditioning ? &conditioning : 0)
-                                    : sph_row_block(dim, method == SPHI_ICSPM, &m, h_i, d, &c,
-                                                    out.conditioning ? &conditioning : 0);
+        state = method == SPHI_CSPM
+                    ? sph_coefficients_cspm(dim, &m, h_i, d, &c, out.conditioning ? &conditioning : 0)
+                    : sph_coefficients_block(dim, method == SPHI_ICSPM, &m, h_i, d, &c,
+                                             out.conditioning ? &conditioning : 0);
         if (state)
             state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i,
                                          sphi_neighbours_needed(method, dim));
@@ -2155,7 +2266,7 @@ SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_clo
                 const sph_index j = cloud.list.index[p];
                 const sph_vec e =
                     sph_scale(u, sphi_separation(dim, cloud.points, sphi_point(dim, cloud.points, j), x_i));
-                row[p] = sph_row_weight(
+                row[p] = sph_coefficients_weight(
                     dim, c, e,
                     sphi_test_weights(method, k, dim, sph_length(dim, e), sphi_at(cloud.volume, j)));
                 sum += row[p];
@@ -2167,9 +2278,9 @@ SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_clo
             for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) row[p] = SPH_R(0);
             c.factor = sum = SPH_R(0);
         }
-        if (out.diagonal) out.diagonal[i] = -sum;
-        if (out.factor) out.factor[i] = c.factor;
-        if (out.conditioning) out.conditioning[i] = conditioning;
+        sphi_put(out.diagonal, sphi_stride(out.stride), i, -sum);
+        sphi_put(out.factor, sphi_stride(out.stride), i, c.factor);
+        sphi_put(out.conditioning, sphi_stride(out.stride), i, conditioning);
         if (out.status) out.status[i] = (unsigned char)state;
         failed += state != SPH_OK;
     }
@@ -2178,7 +2289,8 @@ SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_clo
 
 /* Stencil rows of the operator d (see sph_jet): sum_p row[p] (f_j - f_i) = factor_i D f_i. The rows of a
    target that is not ok are 0, and so is its factor. */
-SPH_FN sph_index sph_derivative_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_jet d, sph_row_out out)
+SPH_FN sph_index sph_derivatives_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_jet d,
+                                           sph_rows_out out)
 {
     return sphi_derivative_rows(SPHI_CSPM, k, dim, cloud, d, out);
 }
@@ -2186,11 +2298,12 @@ SPH_FN sph_index sph_derivative_rows_cspm(sph_kernel k, int dim, sph_cloud cloud
 /* ICSPM: factor is the kappa of the paper (in 1D the rows are those of CSPM and the boundary value problem is
    sum_p row[p] (u_j - u_i) = kappa_i f''(x_i)): nothing is ever divided by kappa, so a target where kappa is
    0 is ok here. */
-SPH_FN sph_index sph_derivative_rows_icspm(sph_kernel k, int dim, sph_cloud cloud, sph_jet d, sph_row_out out)
+SPH_FN sph_index sph_derivatives_rows_icspm(sph_kernel k, int dim, sph_cloud cloud, sph_jet d,
+                                            sph_rows_out out)
 {
     return sphi_derivative_rows(SPHI_ICSPM, k, dim, cloud, d, out);
 }
-SPH_FN sph_index sph_derivative_rows_wls(sph_kernel k, int dim, sph_cloud cloud, sph_jet d, sph_row_out out)
+SPH_FN sph_index sph_derivatives_rows_wls(sph_kernel k, int dim, sph_cloud cloud, sph_jet d, sph_rows_out out)
 {
     return sphi_derivative_rows(SPHI_WLS, k, dim, cloud, d, out);
 }
@@ -2208,9 +2321,12 @@ SPH_FN sph_real sph_boundary_weight_bim(sph_kernel k, sph_real e, sph_real norma
 
 SPH_FN int sphi_check_ends(sph_points x, sph_index left, sph_index right)
 {
-    if (x.box.x > SPH_R(0)) return SPH_ERROR_BOX; /* a periodic axis has no ends */
-    if (left < 0 || left >= x.n || right < 0 || right >= x.n) return SPH_ERROR_RANGE;
-    return x.x[(size_t)left * x.stride] < x.x[(size_t)right * x.stride] ? 0 : SPH_ERROR_POSITION;
+    if (x.box.x > SPH_R(0)) return sphi_refuse("box", -1, SPH_ERROR_BOX); /* a periodic axis has no ends */
+    if (left < 0 || left >= x.n || right < 0 || right >= x.n)
+        return sphi_refuse("left, right", -1, SPH_ERROR_RANGE);
+    return x.x[(size_t)left * x.stride] < x.x[(size_t)right * x.stride]
+               ? 0
+               : sphi_refuse("left, right", left, SPH_ERROR_POSITION);
 }
 /* not available at (or beyond) the ends; too few without a neighbour in the support, because the sum would
    then be a silent 0 */
@@ -2228,12 +2344,12 @@ SPH_FN int sphi_bim_status(sph_kernel k, sph_index i, sph_points x, sph_list lis
 SPH_FN sph_index sph_second_derivative_bim(sph_kernel k, sph_cloud cloud, sph_scalars f, sph_index left,
                                            sph_index right, sph_scalar_out out)
 {
-    int error = sphi_check_sweep(k, 1, cloud, cloud.volume);
+    int error = sphi_check_sweep(k, 1, cloud, "volume", cloud.volume);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_field(f, cloud.points.n);
-    if (!error && !out.p) error = SPH_ERROR_NULL;
+    if (!error) error = sphi_check_field("f", f, cloud.points.n);
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
     if (!error) error = sphi_check_ends(cloud.points, left, right);
-    if (error) return error;
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_real x_i = sphi_point(1, cloud.points, i).x, x_l = sphi_point(1, cloud.points, left).x,
                        x_r = sphi_point(1, cloud.points, right).x, h_i = sphi_at(cloud.h, i),
@@ -2266,14 +2382,14 @@ SPH_FN sph_index sph_second_derivative_bim(sph_kernel k, sph_cloud cloud, sph_sc
 /* The same as rows: f''_i = sum_p row[p] (f_j - f_i). The ends must be in the lists of the targets that reach
    them. */
 SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_cloud cloud, sph_index left,
-                                                sph_index right, SPH_GLOBAL sph_real *SPH_RESTRICT row,
-                                                SPH_GLOBAL unsigned char *status)
+                                                sph_index right, sph_rows_out out)
 {
-    int error = sphi_check_sweep(k, 1, cloud, cloud.volume);
+    SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
+    int error = sphi_check_sweep(k, 1, cloud, "volume", cloud.volume);
     sph_index i, p, failed = 0;
-    if (!error && !row) error = SPH_ERROR_NULL;
+    if (!error && !row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
     if (!error) error = sphi_check_ends(cloud.points, left, right);
-    if (error) return error;
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_real x_i = sphi_point(1, cloud.points, i).x, x_l = sphi_point(1, cloud.points, left).x,
                        x_r = sphi_point(1, cloud.points, right).x, h_i = sphi_at(cloud.h, i);
@@ -2291,7 +2407,7 @@ SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_cloud cloud, s
         scale = state ? SPH_R(0) : SPH_R(1) / gamma;
         for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) row[p] *= scale;
         if (sphi_row_finite(row, cloud.list.start[i], cloud.list.start[i + 1])) state = SPH_NOT_FINITE;
-        if (status) status[i] = (unsigned char)state;
+        sphi_row_answer(out, cloud.list, i, 1, SPH_R(1), state);
         failed += state != SPH_OK;
     }
     return failed;
@@ -2325,7 +2441,7 @@ SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_cloud cloud, s
  * (15), (17), (18), any cloud and any m. (91) has the sign of G wrong, and (71) as printed starts with C^-1,
  * which is not Gamma for the gradient (16): here it is Gamma. The factor of the cubic spline
  * under (12) is 2/3 in 1D, not 3/2. (70) asks whether Gamma* is 0; it must be definite. (69) with a matrix M
- * is inconsistent unless neighbours lie on the axes only (sph_elliptic_rows_msph_diagonal);
+ * is inconsistent unless neighbours lie on the axes only (examples/papers/elliptic_msph_diagonal.h);
  * sph_elliptic_rows_anisotropic is not. tests/test_elliptic.c shows that the printed forms fail.
  */
 
@@ -2539,18 +2655,6 @@ typedef struct sph_elliptic_options {
     sph_scalars source;        /* added to the result, unless there is none (rows are without) */
 } sph_elliptic_options;
 
-SPH_FN sph_elliptic_options sph_elliptic_defaults(void)
-{
-    sph_elliptic_options o;
-    o.gradient = (int)SPH_GRADIENT_DIFFUSE;
-    o.mean = (int)SPH_MOBILITY_ARITHMETIC;
-    o.gamma_star = 0;
-    o.trace = 0;
-    o.conditioning_min = SPH_R(0);
-    o.potential = o.source = sph_scalars_none();
-    return o;
-}
-
 /* Gamma* counts as definite if its smallest eigenvalue (for options.trace: its trace) is at least this much
    of Gamma's. At boundaries it often is not, and nearly singular, where its trace of the inverse would be
    huge. */
@@ -2573,20 +2677,17 @@ typedef struct sphi_elliptic {
 SPH_FN int sphi_elliptic_check(sph_kernel k, int dim, const sphi_elliptic *a)
 {
     const sph_elliptic_options o = a->options;
-    sph_index i;
-    int error = sphi_check_sweep(k, dim, a->cloud, a->cloud.volume), negative = 0;
-    if (error) return error;
-    if (o.gradient < 0 || o.gradient > (int)SPH_GRADIENT_SHEPARD_FULL || o.mean < 0 ||
-        o.mean > (int)SPH_MOBILITY_UPWIND)
-        return SPH_ERROR_VALUE;
-    if (!sphi_finite(o.conditioning_min)) return SPH_ERROR_VALUE;
-    error = sphi_check_field(a->m, a->cloud.points.n);
+    int error = sphi_check_sweep(k, dim, a->cloud, "volume", a->cloud.volume);
+    if (!error && (o.gradient < 0 || o.gradient > (int)SPH_GRADIENT_SHEPARD_FULL))
+        error = sphi_refuse("options.gradient", -1, SPH_ERROR_VALUE);
+    if (!error && (o.mean < 0 || o.mean > (int)SPH_MOBILITY_UPWIND))
+        error = sphi_refuse("options.mean", -1, SPH_ERROR_VALUE);
+    if (!error && !sphi_finite(o.conditioning_min))
+        error = sphi_refuse("options.conditioning_min", -1, SPH_ERROR_VALUE);
+    if (!error) error = sphi_check_not_negative("m", a->m, a->cloud.points.n);
     if (!error && o.mean == (int)SPH_MOBILITY_UPWIND)
-        error = sphi_check_field(o.potential, a->cloud.points.n);
-    if (error) return error;
-    for (i = 0; SPH_CHECK && i < (a->m.stride ? a->cloud.points.n : 1); i++)
-        negative |= sphi_at(a->m, i) < SPH_R(0);
-    return negative ? SPH_ERROR_VALUE : 0;
+        error = sphi_check_field("options.potential", o.potential, a->cloud.points.n);
+    return error;
 }
 
 /* nu and its gradient; not needed, and 1 and 0, for the gradient (15) */
@@ -2798,19 +2899,6 @@ SPH_FN sph_real sphi_elliptic_potential(const sphi_elliptic *a, sph_index i)
     return a->options.mean == (int)SPH_MOBILITY_UPWIND ? sphi_at(a->options.potential, i) : SPH_R(0);
 }
 
-SPH_FN void sphi_row_answer(sph_row_out out, sph_list list, sph_index i, int with_diagonal,
-                            sph_real conditioning, int state)
-{
-    sph_index p;
-    if (out.diagonal && with_diagonal) {
-        sph_real sum = SPH_R(0);
-        for (p = list.start[i]; p < list.start[i + 1]; p++) sum += out.row[p];
-        out.diagonal[i] = -sum;
-    }
-    if (out.factor) out.factor[i] = SPH_R(1);
-    if (out.conditioning) sphi_store_finite(out.conditioning, i, conditioning);
-    if (out.status) out.status[i] = (unsigned char)state;
-}
 SPH_FN int sphi_unanswered(int state)
 {
     return state == SPH_TOO_FEW || state == SPH_SINGULAR || state == SPH_NOT_AVAILABLE ||
@@ -2843,7 +2931,8 @@ SPH_FN sph_index sphi_elliptic_apply(int scheme, sph_kernel k, int dim, const sp
     }
     return failed;
 }
-SPH_FN sph_index sphi_elliptic_row(int scheme, sph_kernel k, int dim, const sphi_elliptic *a, sph_row_out out)
+SPH_FN sph_index sphi_elliptic_row(int scheme, sph_kernel k, int dim, const sphi_elliptic *a,
+                                   sph_rows_out out)
 {
     SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
     sph_index i, p, failed = 0;
@@ -2886,21 +2975,22 @@ SPH_FN sph_index sphi_elliptic_sweep(int scheme, sph_kernel k, int dim, sph_clou
     const sphi_elliptic one = sphi_elliptic_of(cloud, m, options, 1),
                         own = sphi_elliptic_of(cloud, m, options, 0);
     int error = sphi_elliptic_check(k, dim, &own);
-    if (!error) error = sphi_check_field(u, cloud.points.n);
-    if (!error && options.source.p) error = sphi_check_field(options.source, cloud.points.n);
-    if (!error && !out.p) error = SPH_ERROR_NULL;
-    if (error) return error;
+    if (!error) error = sphi_check_field("u", u, cloud.points.n);
+    if (!error && options.source.p)
+        error = sphi_check_field("options.source", options.source, cloud.points.n);
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     return cloud.h.stride ? sphi_elliptic_apply(scheme, k, dim, &own, u, out)
                           : sphi_elliptic_apply(scheme, k, dim, &one, u, out);
 }
 SPH_FN sph_index sphi_elliptic_rows(int scheme, sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
-                                    sph_elliptic_options options, sph_row_out out)
+                                    sph_elliptic_options options, sph_rows_out out)
 {
     const sphi_elliptic one = sphi_elliptic_of(cloud, m, options, 1),
                         own = sphi_elliptic_of(cloud, m, options, 0);
     int error = sphi_elliptic_check(k, dim, &own);
-    if (!error && !out.row) error = SPH_ERROR_NULL;
-    if (error) return error;
+    if (!error && !out.row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     return cloud.h.stride ? sphi_elliptic_row(scheme, k, dim, &own, out)
                           : sphi_elliptic_row(scheme, k, dim, &one, out);
 }
@@ -2946,22 +3036,22 @@ SPH_FN sph_index sph_elliptic_msph(sph_kernel k, int dim, sph_cloud cloud, sph_s
     return sphi_elliptic_sweep(SPHI_ELLIPTIC_MSPH, k, dim, cloud, m, options, u, out);
 }
 SPH_FN sph_index sph_elliptic_rows_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
-                                             sph_elliptic_options options, sph_row_out out)
+                                             sph_elliptic_options options, sph_rows_out out)
 {
     return sphi_elliptic_rows(SPHI_ELLIPTIC_BROOKSHAW, k, dim, cloud, m, options, out);
 }
 SPH_FN sph_index sph_elliptic_rows_brookshaw_corrected(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
-                                                       sph_elliptic_options options, sph_row_out out)
+                                                       sph_elliptic_options options, sph_rows_out out)
 {
     return sphi_elliptic_rows(SPHI_ELLIPTIC_CORRECTED, k, dim, cloud, m, options, out);
 }
 SPH_FN sph_index sph_elliptic_rows_schwaiger(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
-                                             sph_elliptic_options options, sph_row_out out)
+                                             sph_elliptic_options options, sph_rows_out out)
 {
     return sphi_elliptic_rows(SPHI_ELLIPTIC_SCHWAIGER, k, dim, cloud, m, options, out);
 }
 SPH_FN sph_index sph_elliptic_rows_msph(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
-                                        sph_elliptic_options options, sph_row_out out)
+                                        sph_elliptic_options options, sph_rows_out out)
 {
     return sphi_elliptic_rows(SPHI_ELLIPTIC_MSPH, k, dim, cloud, m, options, out);
 }
@@ -2979,25 +3069,24 @@ typedef struct sph_elliptic_report {
     /* of C^-1 (its symmetric part), near 1 inside, smaller towards a free surface: Marrone et al. 2010, JCP
        229, 3652, with gradient (17) */
     SPH_GLOBAL sph_real *eigenvalue_least;
-    SPH_GLOBAL sph_real *condition; /* largest / smallest eigenvalue of Gamma; 0 where it has none */
+    SPH_GLOBAL sph_real *eigenvalue_ratio; /* largest / smallest of Gamma; 0 where it has none */
+    size_t stride;
     SPH_GLOBAL unsigned char *status;
 } sph_elliptic_report;
 
-SPH_FN void sphi_report(SPH_GLOBAL sph_real *p, sph_index i, sph_real value, int *lost)
-{
-    if (p) *lost |= sphi_store_finite(p, i, value);
-}
 SPH_FN sph_index sph_elliptic_diagnose(sph_kernel k, int dim, sph_cloud cloud, sph_elliptic_options options,
                                        sph_elliptic_report out)
 {
     const sphi_elliptic a = sphi_elliptic_of(cloud, cloud.volume, options, cloud.h.stride == 0);
     const int gradient = options.gradient;
+    const size_t stride = sphi_stride(out.stride);
     sph_index i, p, failed = 0;
-    int error = sphi_check_sweep(k, dim, cloud, cloud.volume);
-    if (!error &&
-        (gradient < 0 || gradient > (int)SPH_GRADIENT_SHEPARD_FULL || !sphi_finite(options.conditioning_min)))
-        error = SPH_ERROR_VALUE;
-    if (error) return error;
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
+    if (!error && (gradient < 0 || gradient > (int)SPH_GRADIENT_SHEPARD_FULL))
+        error = sphi_refuse("options.gradient", -1, SPH_ERROR_VALUE);
+    if (!error && !sphi_finite(options.conditioning_min))
+        error = sphi_refuse("options.conditioning_min", -1, SPH_ERROR_VALUE);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i);
@@ -3005,7 +3094,7 @@ SPH_FN sph_index sph_elliptic_diagnose(sph_kernel k, int dim, sph_cloud cloud, s
         sph_elliptic_moments m;
         sph_elliptic_correction correction;
         sph_real conditioning, least = SPH_R(0), most = SPH_R(0), continuity = SPH_R(0), bound = SPH_R(0),
-                               condition = SPH_R(0);
+                               ratio = SPH_R(0);
         sph_sym symmetric;
         sph_vec eigen;
         int lost = 0, any = 0,
@@ -3033,15 +3122,15 @@ SPH_FN sph_index sph_elliptic_diagnose(sph_kernel k, int dim, sph_cloud cloud, s
         symmetric.yz = SPH_R(0.5) * (m.ky.z + m.kz.y);
         symmetric.zz = m.kz.z;
         eigen = sph_sym_eigenvalues(dim, m.gamma);
-        if (eigen.x > SPH_R(0)) condition = (dim == 1 ? eigen.x : dim == 2 ? eigen.y : eigen.z) / eigen.x;
-        sphi_report(out.sign_least, i, sphi_unanswered(state) ? SPH_R(0) : least, &lost);
-        sphi_report(out.sign_most, i, sphi_unanswered(state) ? SPH_R(0) : most, &lost);
-        sphi_report(out.xi, i, sph_length(dim, correction.xi), &lost);
-        sphi_report(out.continuity, i, continuity, &lost);
-        sphi_report(out.n, i, sph_length(dim, m.n), &lost);
-        sphi_report(out.n_bound, i, bound, &lost);
-        sphi_report(out.eigenvalue_least, i, sph_sym_eigenvalues(dim, symmetric).x, &lost);
-        sphi_report(out.condition, i, condition, &lost);
+        if (eigen.x > SPH_R(0)) ratio = (dim == 1 ? eigen.x : dim == 2 ? eigen.y : eigen.z) / eigen.x;
+        lost |= sphi_put(out.sign_least, stride, i, sphi_unanswered(state) ? SPH_R(0) : least);
+        lost |= sphi_put(out.sign_most, stride, i, sphi_unanswered(state) ? SPH_R(0) : most);
+        lost |= sphi_put(out.xi, stride, i, sph_length(dim, correction.xi));
+        lost |= sphi_put(out.continuity, stride, i, continuity);
+        lost |= sphi_put(out.n, stride, i, sph_length(dim, m.n));
+        lost |= sphi_put(out.n_bound, stride, i, bound);
+        lost |= sphi_put(out.eigenvalue_least, stride, i, sph_sym_eigenvalues(dim, symmetric).x);
+        lost |= sphi_put(out.eigenvalue_ratio, stride, i, ratio);
         if (lost) state = SPH_NOT_FINITE;
         if (out.status) out.status[i] = (unsigned char)state;
         failed += state != SPH_OK;
@@ -3065,72 +3154,10 @@ SPH_FN sph_vec sphi_diagonal_sum(int dim, sph_diagonal mobility, sph_index i, sp
 }
 SPH_FN int sphi_check_diagonal(int dim, sph_diagonal mobility, sph_index n)
 {
-    int error = sphi_check_field(mobility.x, n), negative = 0;
-    sph_index i;
-    if (!error && dim > 1) error = sphi_check_field(mobility.y, n);
-    if (!error && dim > 2) error = sphi_check_field(mobility.z, n);
-    if (error) return error;
-    for (i = 0; SPH_CHECK && i < n; i++)
-        negative |= sphi_at(mobility.x, i) < SPH_R(0) || (dim > 1 && sphi_at(mobility.y, i) < SPH_R(0)) ||
-                    (dim > 2 && sphi_at(mobility.z, i) < SPH_R(0));
-    return negative ? SPH_ERROR_VALUE : 0;
-}
-
-/* M-SPH with a matrix, as published: row = scale V_j sum_a (M_i + M_j)_a (e_a g_a / |e|^2 - N~_a (K^-T g)_a),
-   arithmetic means. INCONSISTENT unless M is isotropic or all neighbours lie on the axes (on lattices:
-   support below sqrt(2) spacings): for M = diag(1, 0) and many neighbours it gives 3/2 and 1/2 for x^2 and
-   y^2, not 2 and 0, at any resolution. Here because the paper uses it; sph_elliptic_rows_anisotropic is the
-   one to use. */
-SPH_FN sph_index sph_elliptic_rows_msph_diagonal(sph_kernel k, int dim, sph_cloud cloud,
-                                                 sph_diagonal mobility, sph_elliptic_options options,
-                                                 sph_row_out out)
-{
-    const sphi_elliptic a = sphi_elliptic_of(cloud, mobility.x, options, cloud.h.stride == 0);
-    sph_index i, p, failed = 0;
-    int error = sphi_elliptic_check(k, dim, &a);
-    if (!error) error = sphi_check_diagonal(dim, mobility, cloud.points.n);
-    if (!error && options.mean != (int)SPH_MOBILITY_ARITHMETIC) error = SPH_ERROR_VALUE;
-    if (!error && !out.row) error = SPH_ERROR_NULL;
-    if (error) return error;
-    for (i = cloud.first; i < cloud.last; i++) {
-        const sph_vec x_i = sphi_point(dim, cloud.points, i);
-        const sph_real h_i = sphi_at(cloud.h, i);
-        const sph_shepard s = sphi_elliptic_shepard(k, dim, &a, i);
-        sph_elliptic_correction correction;
-        sph_elliptic_moments m;
-        sph_elliptic_inverse inverse = {
-            {SPH_R(0), SPH_R(0), SPH_R(0)}, {SPH_R(0), SPH_R(0), SPH_R(0)}, {SPH_R(0), SPH_R(0), SPH_R(0)}};
-        sph_real conditioning;
-        int state =
-            sphi_elliptic_correct(SPHI_ELLIPTIC_MSPH, k, dim, &a, s, i, &correction, &m, &conditioning);
-        if (!sphi_unanswered(state))
-            state = sph_elliptic_invert(dim, options.gradient, &m, &inverse, 0) ? (int)SPH_SINGULAR : state;
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
-            const sph_index j = cloud.list.index[p];
-            const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, &a, s, x_i, h_i, j);
-            const sph_vec g = sph_elliptic_gradient_vector(dim, options.gradient, c.e, c.g);
-            const sph_real inverse_square = sphi_over_q(SPH_R(1), sph_dot(dim, c.e, c.e));
-            sph_vec mu = sphi_diagonal_sum(dim, mobility, i, j), mn = m.n_tilde;
-            sph_real flux;
-            if (sphi_unanswered(state)) {
-                out.row[p] = SPH_R(0);
-                continue;
-            }
-            mn.x *= mu.x;
-            mn.y *= mu.y;
-            mn.z *= mu.z;
-            mu.x *= c.e.x;
-            mu.y *= c.e.y;
-            mu.z *= c.e.z;
-            flux = sph_dot(dim, mu, g) * inverse_square -
-                   sph_dot(dim, sph_elliptic_inverse_times(dim, inverse, mn), g);
-            out.row[p] = correction.scale * c.V_j * flux;
-        }
-        if (sphi_row_finite(out.row, cloud.list.start[i], cloud.list.start[i + 1])) state = SPH_NOT_FINITE;
-        sphi_row_answer(out, cloud.list, i, 1, conditioning, state);
-        failed += state != SPH_OK;
-    }
-    return failed;
+    int error = sphi_check_not_negative("mobility.x", mobility.x, n);
+    if (!error && dim > 1) error = sphi_check_not_negative("mobility.y", mobility.y, n);
+    if (!error && dim > 2) error = sphi_check_not_negative("mobility.z", mobility.z, n);
+    return error;
 }
 
 /* Consistent rows of div(M grad u) for a diagonal M on full supports. What (69) gets wrong is the fourth
@@ -3145,16 +3172,16 @@ SPH_FN sph_index sph_elliptic_rows_msph_diagonal(sph_kernel k, int dim, sph_clou
    lost. Gradient (15), arithmetic means. SPH_SINGULAR also where T is: fewer directions of neighbours than
    axes. */
 SPH_FN sph_index sph_elliptic_rows_anisotropic(sph_kernel k, int dim, sph_cloud cloud, sph_diagonal mobility,
-                                               sph_row_out out)
+                                               sph_rows_out out)
 {
-    const sph_elliptic_options options = sph_elliptic_defaults();
+    const sph_elliptic_options options = {0, 0, 0, 0, SPH_R(0), {0, 0}, {0, 0}};
     const sphi_elliptic a = sphi_elliptic_of(cloud, mobility.x, options, cloud.h.stride == 0);
     sph_shepard none;
     sph_index i, p, failed = 0;
-    int error = sphi_elliptic_check(k, dim, &a);
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     if (!error) error = sphi_check_diagonal(dim, mobility, cloud.points.n);
-    if (!error && !out.row) error = SPH_ERROR_NULL;
-    if (error) return error;
+    if (!error && !out.row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     none.nu = SPH_R(1);
     none.gradient.x = none.gradient.y = none.gradient.z = SPH_R(0);
     for (i = cloud.first; i < cloud.last; i++) {
@@ -3238,20 +3265,19 @@ typedef struct sph_boundary {
    SPH_TOO_FEW or SPH_SINGULAR is 0, with its diagonal. */
 SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                             sph_elliptic_options options, sph_boundary boundary,
-                                            sph_row_out out)
+                                            sph_rows_out out)
 {
     const sph_vectors normal = boundary.normal;
     const sph_scalars alpha = boundary.alpha, beta = boundary.beta;
     const sphi_elliptic a = sphi_elliptic_of(cloud, m, options, cloud.h.stride == 0);
     sph_index i, p, failed = 0;
     int error = sphi_elliptic_check(k, dim, &a);
-    if (!error) error = sphi_check_field(alpha, cloud.points.n);
-    if (!error) error = sphi_check_field(beta, cloud.points.n);
-    if (!error) error = sphi_check_field(normal.x, cloud.points.n);
-    if (!error && dim > 1) error = sphi_check_field(normal.y, cloud.points.n);
-    if (!error && dim > 2) error = sphi_check_field(normal.z, cloud.points.n);
-    if (!error && (!out.row || !out.diagonal)) error = SPH_ERROR_NULL;
-    if (error) return error;
+    if (!error) error = sphi_check_field("alpha", alpha, cloud.points.n);
+    if (!error) error = sphi_check_field("beta", beta, cloud.points.n);
+    if (!error) error = sphi_check_vectors("normal", dim, normal, cloud.points.n);
+    if (!error && (!out.row || !out.diagonal))
+        error = sphi_refuse("out.row, out.diagonal", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_real alpha_i = sphi_at(alpha, i), beta_i = sphi_at(beta, i), flux = beta_i * sphi_at(m, i),
                        h_i = sphi_at(cloud.h, i);
@@ -3271,10 +3297,7 @@ SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_cloud clo
             if (sph_elliptic_invert(dim, options.gradient, &moments, &inverse, &conditioning))
                 state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i, dim);
             else {
-                n.x = sphi_at(normal.x, i);
-                n.y = dim > 1 ? sphi_at(normal.y, i) : SPH_R(0);
-                n.z = dim > 2 ? sphi_at(normal.z, i) : SPH_R(0);
-                n = sph_scale(flux, sph_elliptic_inverse_times(dim, inverse, n));
+                n = sph_scale(flux, sph_elliptic_inverse_times(dim, inverse, sphi_vector_at(dim, normal, i)));
                 for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
                     const sphi_elliptic_pair c =
                         sphi_elliptic_pair_of(k, dim, &a, s, x_i, h_i, cloud.list.index[p]);
@@ -3291,7 +3314,7 @@ SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_cloud clo
             for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) out.row[p] = SPH_R(0);
             state = SPH_NOT_FINITE;
         }
-        out.diagonal[i] = sphi_unanswered(state) ? SPH_R(0) : alpha_i - sum;
+        sphi_put(out.diagonal, sphi_stride(out.stride), i, sphi_unanswered(state) ? SPH_R(0) : alpha_i - sum);
         sphi_row_answer(out, cloud.list, i, 0, conditioning, state);
         failed += state != SPH_OK;
     }
@@ -3301,43 +3324,43 @@ SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_cloud clo
 /* ================================================================ rows and matrices
    Rows of any operator of this file: their use, and what they promise. */
 
-/* the range, the list, and that there are rows of numbers; n: number of sources; diagonal may be null */
-SPH_FN int sphi_check_rows(sph_cloud cloud, const SPH_GLOBAL sph_real *row,
-                           const SPH_GLOBAL sph_real *diagonal)
+/* the targets, their lists, and that there are rows of numbers; diagonal may be none */
+SPH_FN int sphi_check_rows(sph_cloud cloud, const SPH_GLOBAL sph_real *row, sph_scalars diagonal)
 {
-    const sph_index first = cloud.first, last = cloud.last, n = cloud.points.n;
     const sph_list list = cloud.list;
     sph_index i, p;
-    int error, lost = 0;
-    if (!list.start) return SPH_ERROR_NULL;
-    if (n < 1) return SPH_ERROR_COUNT;
-    if (first < 0 || first > last || last > n) return SPH_ERROR_RANGE;
-    error = sphi_check_entries(first, last, list, n, 0);
-    if (error || first == last) return error;
-    if (list.start[last] > list.start[first] && !row) return SPH_ERROR_NULL;
-    if (!SPH_CHECK) return 0;
-    for (p = list.start[first]; p < list.start[last]; p++) lost |= !sphi_finite(row[p]);
-    for (i = first; diagonal && i < last; i++) lost |= !sphi_finite(diagonal[i]);
-    return lost ? SPH_ERROR_VALUE : 0;
+    int error = sphi_check_targets(1, cloud);
+    if (!error && !list.start) error = sphi_refuse("list", -1, SPH_ERROR_NULL);
+    if (!error && cloud.checked != 1)
+        error = sphi_check_entries(cloud.first, cloud.last, list, cloud.points.n, 0);
+    if (!error && list.start[cloud.last] > list.start[cloud.first] && !row)
+        error = sphi_refuse("row", -1, SPH_ERROR_NULL);
+    for (i = cloud.first; SPH_CHECK && !error && i < cloud.last; i++) {
+        for (p = list.start[i]; p < list.start[i + 1] && sphi_finite(row[p]);) p++;
+        if (p < list.start[i + 1]) error = sphi_refuse("row", i, SPH_ERROR_VALUE);
+        else if (diagonal.p && !sphi_finite(sphi_at(diagonal, i)))
+            error = sphi_refuse("diagonal", i, SPH_ERROR_VALUE);
+    }
+    return error;
 }
 
 /* out_i = sum_p row[p] (u_j - u_i), or, if diagonal is given, diagonal[i] u_i + sum_p row[p] u_j. n: number
    of particles, all sources. The first is exact for constants. */
-SPH_FN sph_index sph_rows_apply(sph_cloud cloud, const SPH_GLOBAL sph_real *row,
-                                const SPH_GLOBAL sph_real *diagonal, sph_scalars u, SPH_GLOBAL sph_real *out)
+SPH_FN sph_index sph_rows_apply(sph_cloud cloud, const SPH_GLOBAL sph_real *row, sph_scalars diagonal,
+                                sph_scalars u, sph_scalar_out out)
 {
     int error = sphi_check_rows(cloud, row, diagonal);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_field(u, cloud.points.n);
-    if (!error && !out) error = SPH_ERROR_NULL;
-    if (error) return error;
+    if (!error) error = sphi_check_field("u", u, cloud.points.n);
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
-        const sph_real u_i = sphi_at(u, i), less = diagonal ? SPH_R(0) : u_i;
-        sph_real sum = diagonal ? diagonal[i] * u_i : SPH_R(0);
+        const sph_real u_i = sphi_at(u, i), less = diagonal.p ? SPH_R(0) : u_i;
+        sph_real sum = diagonal.p ? sphi_at(diagonal, i) * u_i : SPH_R(0);
         SPH_SUM(sum)
         for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++)
             sum += row[p] * (sphi_at(u, cloud.list.index[p]) - less);
-        failed += sphi_store_finite(out, i, sum);
+        failed += sphi_store(out, i, sum);
     }
     return failed;
 }
@@ -3347,14 +3370,15 @@ SPH_FN sph_index sph_rows_apply(sph_cloud cloud, const SPH_GLOBAL sph_real *row,
    dominance: rows of an operator have the sum 0. A matrix of such rows, connected, with a Dirichlet row, is
    monotone: no maximum inside. Returns the number of rows that are not; monotone[i] (may be null): 1 or 0.
    Weights below round-off of the row's largest do not count. */
-SPH_FN sph_index sph_rows_monotone(sph_cloud cloud, const SPH_GLOBAL sph_real *row,
-                                   const SPH_GLOBAL sph_real *diagonal, SPH_GLOBAL unsigned char *monotone)
+SPH_FN sph_index sph_rows_monotone(sph_cloud cloud, const SPH_GLOBAL sph_real *row, sph_scalars diagonal,
+                                   SPH_GLOBAL unsigned char *monotone)
 {
-    const int error = sphi_check_rows(cloud, row, diagonal);
+    int error = sphi_check_rows(cloud, row, diagonal);
     sph_index i, p, others = 0;
-    if (error) return error;
-    if (!diagonal) return SPH_ERROR_NULL;
+    if (!error && !diagonal.p) error = sphi_refuse("diagonal", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
+        const sph_real own = sphi_at(diagonal, i);
         sph_real least = SPH_R(0), most = SPH_R(0), sum = SPH_R(0), noise;
         int ok;
         for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
@@ -3363,10 +3387,9 @@ SPH_FN sph_index sph_rows_monotone(sph_cloud cloud, const SPH_GLOBAL sph_real *r
             sum += row[p];
         }
         noise = SPH_R(64) * SPH_EPSILON * (most - least);
-        ok = least >= -noise ? diagonal[i] <= -sum + SPH_R(64) * SPH_EPSILON * sum
-                             : most <= noise && diagonal[i] >= -sum + SPH_R(64) * SPH_EPSILON * sum;
-        if (most <= noise && least >= -noise)
-            ok = diagonal[i] != SPH_R(0); /* a Dirichlet row of either sign */
+        ok = least >= -noise ? own <= -sum + SPH_R(64) * SPH_EPSILON * sum
+                             : most <= noise && own >= -sum + SPH_R(64) * SPH_EPSILON * sum;
+        if (most <= noise && least >= -noise) ok = own != SPH_R(0); /* a Dirichlet row of either sign */
         if (monotone) monotone[i] = (unsigned char)ok;
         others += !ok;
     }
@@ -3379,11 +3402,10 @@ SPH_FN sph_index sph_rows_monotone(sph_cloud cloud, const SPH_GLOBAL sph_real *r
    it keeps maxima from growing. */
 SPH_FN sph_index sph_rows_time_step(sph_cloud cloud, const SPH_GLOBAL sph_real *row, SPH_GLOBAL sph_real *dt)
 {
-    const int error = sphi_check_rows(cloud, row, 0);
+    int error = dt ? sphi_check_rows(cloud, row, sph_scalars_none()) : sphi_refuse("dt", -1, SPH_ERROR_NULL);
     sph_real largest = SPH_R(0);
     sph_index i, p;
-    if (error) return error;
-    if (!dt) return SPH_ERROR_NULL;
+    if (error < 0) return error;
     for (i = cloud.first; i < cloud.last; i++) {
         sph_real sum = SPH_R(0), size = SPH_R(0);
         for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
@@ -3396,17 +3418,24 @@ SPH_FN sph_index sph_rows_time_step(sph_cloud cloud, const SPH_GLOBAL sph_real *
     return 0;
 }
 
+SPH_FN int sphi_check_coordinate(SPHI_TEXT *name, sph_real x, sph_real length, sph_index i)
+{
+    if (!SPH_CHECK) return 0;
+    if (!sphi_finite(SPH_R(2) * x)) return sphi_refuse(name, i, SPH_ERROR_POSITION);
+    if (!(length > SPH_R(0)) || SPHI_ABS(x) <= SPH_R(1048576) * length) return 0;
+    return sphi_refuse("points", i, SPH_ERROR_BOX);
+}
 /* position and box as far as particle i goes */
 SPH_FN int sphi_check_one(int dim, sph_points x, sph_index i)
 {
-    const size_t o = (size_t)i * x.stride;
+    const sph_vec at = sphi_point(dim, x, i);
     int error;
-    x.x += o;
-    if (dim > 1) x.y += o;
-    if (dim > 2) x.z += o;
-    x.n = 1;
-    error = sphi_check_positions(dim, x);
-    return error ? error : sphi_check_box(dim, x, SPH_R(0));
+    x.n = 0; /* the lengths alone */
+    error = sphi_check_box(dim, x, SPH_R(0), 1);
+    if (!error) error = sphi_check_coordinate("x", at.x, x.box.x, i);
+    if (!error && dim > 1) error = sphi_check_coordinate("y", at.y, x.box.y, i);
+    if (!error && dim > 2) error = sphi_check_coordinate("z", at.z, x.box.z, i);
+    return error;
 }
 /* The growth factor lambda = 1 + tau sum_p row[p] (exp(i k . e) - 1) of the wave k at particle i under u +
    tau L u (von Neumann); |lambda| <= 1 is stable. (83) of Lukyanov & Vuik 2020. */
@@ -3419,17 +3448,17 @@ SPH_FN sph_index sph_rows_growth(int dim, sph_cloud cloud, const SPH_GLOBAL sph_
     sph_real a = SPH_R(0), b = SPH_R(0);
     sph_index p;
     int error = sphi_check_frame(dim, cloud);
-    if (!error && (!re || !im)) error = SPH_ERROR_NULL;
-    if (!error && i >= x.n) error = SPH_ERROR_RANGE;
-    if (!error) error = sphi_check_rows(sph_cloud_range(cloud, i, i + 1), row, 0);
-    if (!error && (!sphi_finite(tau) || !sphi_finite(sph_dot(dim, wave, wave)))) error = SPH_ERROR_VALUE;
+    if (!error && (!re || !im)) error = sphi_refuse("re, im", -1, SPH_ERROR_NULL);
+    if (!error) error = sphi_check_rows(sph_cloud_range(cloud, i, i + 1), row, sph_scalars_none());
+    if (!error && (!sphi_finite(tau) || !sphi_finite(sph_dot(dim, wave, wave))))
+        error = sphi_refuse("tau, wave", -1, SPH_ERROR_VALUE);
     if (!error)
         error = sphi_check_one(dim, x,
                                i); /* of the positions only those that it needs: it is called for many i */
     if (!error && SPH_CHECK)
         for (p = list.start[i]; !error && p < list.start[i + 1]; p++)
             error = sphi_check_one(dim, x, list.index[p]);
-    if (error) return error;
+    if (error) return sphi_answer_of(error);
     for (p = list.start[i]; p < list.start[i + 1]; p++) {
         const sph_real phase = SPH_R(0.5) * sph_dot(dim, wave,
                                                     sphi_separation(dim, x, sphi_point(dim, x, list.index[p]),
@@ -3450,7 +3479,7 @@ SPH_FN sph_index sph_rows_growth(int dim, sph_cloud cloud, const SPH_GLOBAL sph_
 /* entries that sph_csr_assemble may need for these targets: those of the rows, and one diagonal each */
 SPH_FN int64_t sph_csr_size(sph_cloud cloud)
 {
-    if (!cloud.list.start || cloud.first < 0 || cloud.last < cloud.first) return 0;
+    if (!cloud.list.start || cloud.first < 0 || cloud.last <= cloud.first) return 0;
     return (int64_t)cloud.list.start[cloud.last] - cloud.list.start[cloud.first] + (cloud.last - cloud.first);
 }
 
@@ -3489,23 +3518,30 @@ typedef struct sph_csr {
    capacity, at least sph_csr_size. *entries (may be null): how many there are. Returns 0, or
    SPH_ERROR_CAPACITY (nothing written) if capacity is below sph_csr_size, or that beyond the range of
    sph_index. Must not overlap its inputs. */
-SPH_FN sph_index sph_csr_assemble(sph_cloud cloud, const sph_real *row, const sph_real *diagonal,
-                                  int drop_zeros, sph_csr out, int64_t *entries)
+SPH_FN sph_index sph_csr_assemble(sph_cloud cloud, const sph_real *row, sph_scalars diagonal, int drop_zeros,
+                                  sph_csr out, int64_t *entries)
 {
     sph_index *const start = out.start, *const column = out.column;
     sph_real *const value = out.value;
-    const int error = sphi_check_rows(cloud, row, diagonal);
+    int error = sphi_check_rows(cloud, row, diagonal);
     sph_index i, p, at = 0;
+    if (error == SPHI_NO_TARGETS) {
+        if (start) start[0] = 0;
+        if (entries) *entries = 0;
+        return 0;
+    }
+    if (!error && !diagonal.p) error = sphi_refuse("diagonal", -1, SPH_ERROR_NULL);
+    if (!error && (!start || !column || !value)) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (!error && (out.capacity < sph_csr_size(cloud) ||
+                   (int64_t)(sph_index)sph_csr_size(cloud) != sph_csr_size(cloud)))
+        error = SPH_ERROR_CAPACITY;
     if (error) return error;
-    if (!diagonal || !start || !column || !value) return SPH_ERROR_NULL;
-    if (out.capacity < sph_csr_size(cloud) || (int64_t)(sph_index)sph_csr_size(cloud) != sph_csr_size(cloud))
-        return SPH_ERROR_CAPACITY;
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_index begin = at;
         sph_index end, from;
         start[i - cloud.first] = begin;
         column[at] = i;
-        value[at++] = diagonal[i];
+        value[at++] = sphi_at(diagonal, i);
         for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
             if (drop_zeros && row[p] == SPH_R(0)) continue;
             column[at] = cloud.list.index[p];
@@ -3592,13 +3628,25 @@ SPH_FN sph_real sph_viscosity_pair_linear(sph_viscosity_terms terms, sph_encount
     return -terms.alpha * e.c * e.h * e.vx /
            ((e.r * e.r + terms.eta * terms.eta * e.h * e.h + SPHI_TINY) * e.rho);
 }
+/* The speed at which two particles see each other: v_sig = (c_i + c_j + beta |w|) / 2, w = v_ij . x_ij / r; c
+   is the speed of sound or, of a magnetised gas, sph_mhd_fast_speed. Monaghan 1997, JCP 136, 298; Price 2012,
+   JCP 231, 759, (105). */
+SPH_FN sph_real sph_signal_speed(sph_real c_i, sph_real c_j, sph_real beta_w)
+{
+    return SPH_R(0.5) * (c_i + c_j + beta_w);
+}
+/* Pi_ij = alpha v_sig |w| / rho where particles approach (w < 0), else 0; alpha_speed = alpha v_sig. */
+SPH_FN sph_real sph_viscosity_signal(sph_real alpha_speed, sph_real w, sph_real per_rho)
+{
+    return SPH_R(0.5) * alpha_speed * (SPHI_ABS(w) - w) * per_rho;
+}
 /* By the speed at which the two particles see each other's signal: -alpha/2 v_sig w / rho, w = min(vx, 0) /
    r, v_sig = c_i + c_j - beta w. Monaghan 1997, JCP 136, 298, (4.13) with K = alpha/2; beta = 3 there.
    Independent of h. */
 SPH_FN sph_real sph_viscosity_pair_signal(sph_viscosity_terms terms, sph_encounter e)
 {
-    const sph_real w = SPH_R(0.5) * (e.vx - SPHI_ABS(e.vx)) / (e.r + SPHI_TINY);
-    return SPH_R(-0.5) * terms.alpha * (SPH_R(2) * e.c - terms.beta * w) * w / e.rho;
+    const sph_real w = e.vx / (e.r + SPHI_TINY), speed = sph_signal_speed(e.c, e.c, terms.beta * SPHI_ABS(w));
+    return sph_viscosity_signal(terms.alpha * speed, w, SPH_R(1) / e.rho);
 }
 
 /* Physical viscosity with the dynamic viscosities mu_i, mu_j (mu = nu rho). Morris: the coefficient B of a_i
@@ -3620,6 +3668,107 @@ SPH_FN sph_real sph_viscosity_mu_pair_monaghan_cleary(int dim, sph_fluid_side i,
 {
     return SPH_R(4 * (dim + 2)) * i.mu * (j.mu / (i.mu + j.mu + SPHI_TINY)) / (i.rho * j.rho) * e.vx /
            (e.r * e.r + eta * eta * e.h * e.h + SPHI_TINY) * f_ij;
+}
+
+/* F of a pair, but 0 for particles that coincide (closer than 1e-12 h): a direction that is made of rounding
+   errors is none. Written with a sign, because a comparison would keep loops from vectorising. */
+SPH_FN sph_real sph_kernel_f_apart(sph_kernel k, int dim, sph_real r, sph_real h)
+{
+    return sph_kernel_f(k, dim, r, h) * (SPH_R(0.5) + SPHI_COPYSIGN(SPH_R(0.5), r - SPH_R(1e-12) * h));
+}
+/* What j adds to the density rate of i: m_j v_ij . grad_i W_ij, the rate of the summation density; vx = v_ij
+   . x_ij. (2.2) of Korzilius, Schilders & Anthonissen; Monaghan 1992, (2.16). */
+SPH_FN sph_real sph_density_rate_pair_mass(sph_fluid_side j, sph_real vx, sph_real f_ij)
+{
+    return j.m * vx * f_ij;
+}
+/* The same in volumes, for density jumps: rho_i (m_j / rho_j) v_ij . grad_i W_ij. (5.23) there. */
+SPH_FN sph_real sph_density_rate_pair_volume(sph_fluid_side i, sph_fluid_side j, sph_real vx, sph_real f_ij)
+{
+    return j.m * i.rho / j.rho * vx * f_ij;
+}
+
+/* What j adds to i in all: acceleration, rate of density, and viscous heating per mass. */
+typedef struct sph_fluid_change {
+    sph_vec acceleration;
+    sph_real rate, heating;
+} sph_fluid_change;
+
+/* acceleration -m_j (P_ij + Pi_ij) F x_ij, heating m_j Pi_ij v_ij . x_ij F / 2; push = P_ij + Pi_ij */
+SPH_FN sph_fluid_change sphi_fluid_change(sph_real m_j, sph_real push, sph_real viscosity, sph_vec x_ij,
+                                          sph_real vx, sph_real f_ij, sph_real rate)
+{
+    sph_fluid_change c;
+    c.acceleration = sph_scale(-(m_j * push * f_ij), x_ij);
+    c.rate = rate;
+    c.heating = SPH_R(0.5) * viscosity * (m_j * vx * f_ij);
+    return c;
+}
+/* Whole interactions, of which sph_fluid_rates_... are the sums. vx = v_ij . x_ij, f_ij by
+   sph_kernel_f_apart, viscosity: Pi_ij, or 0. */
+SPH_FN sph_fluid_change sph_fluid_pair_monaghan(sph_fluid_side i, sph_fluid_side j, sph_vec x_ij, sph_real vx,
+                                                sph_real f_ij, sph_real viscosity)
+{
+    return sphi_fluid_change(j.m, sph_pressure_pair_monaghan(i, j) + viscosity, viscosity, x_ij, vx, f_ij,
+                             sph_density_rate_pair_mass(j, vx, f_ij));
+}
+SPH_FN sph_fluid_change sph_fluid_pair_colagrossi(sph_fluid_side i, sph_fluid_side j, sph_vec x_ij,
+                                                  sph_real vx, sph_real f_ij, sph_real viscosity)
+{
+    return sphi_fluid_change(j.m, sph_pressure_pair_colagrossi(i, j) + viscosity, viscosity, x_ij, vx, f_ij,
+                             sph_density_rate_pair_volume(i, j, vx, f_ij));
+}
+SPH_FN sph_fluid_change sph_fluid_pair_hu_adams(sph_fluid_side i, sph_fluid_side j, sph_vec x_ij, sph_real vx,
+                                                sph_real f_ij, sph_real viscosity)
+{
+    return sphi_fluid_change(j.m, sph_pressure_pair_hu_adams(i, j) + viscosity, viscosity, x_ij, vx, f_ij,
+                             sph_density_rate_pair_volume(i, j, vx, f_ij));
+}
+
+/* XSPH: weight of (v_j - v_i) in what is added to the velocity that moves i, without epsilon: 2 m_j / (rho_i
+   + rho_j) W_ij. Monaghan 1989, JCP 82, 1. */
+SPH_FN sph_real sph_velocity_pair_xsph(sph_fluid_side i, sph_fluid_side j, sph_real w_ij)
+{
+    return SPH_R(2) * j.m / (i.rho + j.rho) * w_ij;
+}
+
+/* Sums over the fluid in front of a wall particle: W, (p_j + (g - a_w) . rho_j x_wj) W, and v_j W. */
+typedef struct sph_wall_sums {
+    sph_real weight, p;
+    sph_vec v;
+} sph_wall_sums;
+/* What the fluid particle j adds, x_ij from it to the wall particle, gravity: g - a_w. Adami, Hu & Adams
+   2012, JCP 231, 7057, (22), (27). */
+SPH_FN sph_wall_sums sph_wall_pair_adami(int dim, sph_fluid_side j, sph_vec v_j, sph_vec x_ij,
+                                         sph_vec gravity, sph_real w_ij)
+{
+    sph_wall_sums c;
+    c.weight = w_ij;
+    c.p = w_ij * (j.p + j.rho * sph_dot(dim, gravity, x_ij));
+    c.v = sph_scale(w_ij, v_j);
+    return c;
+}
+/* The sums over that of W: the pressure of the wall particle, and the velocity of the fluid in front. */
+SPH_FN sph_real sph_wall_pressure(sph_wall_sums s) { return s.p / s.weight; }
+SPH_FN sph_vec sph_wall_fluid_velocity(sph_wall_sums s)
+{
+    sph_vec mean;
+    mean.x = s.v.x / s.weight;
+    mean.y = s.v.y / s.weight;
+    mean.z = s.v.z / s.weight;
+    return mean;
+}
+/* Velocity of the wall particle, (23): 2 u - mean (no slip), or mean with its part along the normal turned
+   round against the wall's own velocity u (free slip; the normal need not have unit length). */
+SPH_FN sph_vec sph_wall_velocity_no_slip(int dim, sph_vec mean, sph_vec wall)
+{
+    return sph_subtract(dim, sph_scale(SPH_R(2), wall), mean);
+}
+SPH_FN sph_vec sph_wall_velocity_free_slip(int dim, sph_vec mean, sph_vec wall, sph_vec normal)
+{
+    const sph_real nn = sph_dot(dim, normal, normal),
+                   along = sph_dot(dim, sph_subtract(dim, mean, wall), normal);
+    return sph_subtract(dim, mean, sph_scale(nn > SPH_R(0) ? SPH_R(2) * along / nn : SPH_R(0), normal));
 }
 
 /* p = p0 + rho0 c^2 / gamma ((rho / rho0)^gamma - 1), its inverse, and the sound speed sqrt(dp/drho): the
@@ -3667,13 +3816,12 @@ SPH_FN sph_real sph_time_step_viscous_nu(sph_real h, sph_real nu)
 /* rho_i = m_i sum_j W_ij, the particle itself included: the number density times the own mass, so that a
    light particle beside heavy ones keeps its density. Hu & Adams 2006, JCP 213, 844, (15). m: of the targets.
    V_i = m_i / rho_i is 1 / sum_j W_ij. */
-SPH_FN sph_index sph_density_number(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
-                                    SPH_GLOBAL sph_real *rho)
+SPH_FN sph_index sph_density_number(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_scalar_out out)
 {
-    const int error = sphi_check_sweep(k, dim, cloud, m);
+    int error = sphi_check_sweep(k, dim, cloud, "m", m);
     sph_index i, p, failed = 0;
-    if (error) return error;
-    if (!rho) return SPH_ERROR_NULL;
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i);
@@ -3685,7 +3833,7 @@ SPH_FN sph_index sph_density_number(sph_kernel k, int dim, sph_cloud cloud, sph_
                 sph_length(dim, sphi_separation(dim, cloud.points, x_i,
                                                 sphi_point(dim, cloud.points, cloud.list.index[p]))),
                 h_i);
-        failed += sphi_store_finite(rho, i, sphi_at(m, i) * sum);
+        failed += sphi_store(out, i, sphi_at(m, i) * sum);
     }
     return failed;
 }
@@ -3703,102 +3851,114 @@ typedef struct sph_fluid {
     sph_scalars m, rho, p, c; /* c is read for artificial viscosity only */
     sph_vectors v;
     int viscosity; /* an sph_viscosity */
-    sph_real alpha, beta, eta;
+    sph_real alpha, beta;
+    sph_real eta; /* softens r^2 to r^2 + eta^2 h^2 in viscosities; 0: 0.1, the usual one; negative: not */
 } sph_fluid;
 
+/* Where rates go; rate, heating and status may be null. The stride is that of rate and heating. */
+typedef struct sph_fluid_out {
+    sph_vector_out acceleration;
+    SPH_GLOBAL sph_real *rate, *heating; /* of density, and of the thermal energy per mass by viscosity */
+    size_t stride;
+    SPH_GLOBAL unsigned char *status;
+} sph_fluid_out;
+
 enum { SPHI_MONAGHAN, SPHI_COLAGROSSI, SPHI_HU_ADAMS };
-SPH_FN sph_real sphi_fluid_pressure(int form, const sph_fluid *f, sph_real p_i, sph_real rho_i, sph_real m_i,
-                                    sph_index j)
+SPH_FN sph_real sphi_softening(sph_real eta)
 {
-    sph_fluid_side own, other;
-    own.m = m_i;
-    own.rho = rho_i;
-    own.p = p_i;
-    own.mu = other.mu = SPH_R(0);
-    other.m = sphi_at(f->m, j);
-    other.rho = sphi_at(f->rho, j);
-    other.p = sphi_at(f->p, j);
-    if (form == SPHI_MONAGHAN) return sph_pressure_pair_monaghan(own, other);
-    if (form == SPHI_COLAGROSSI) return sph_pressure_pair_colagrossi(own, other);
-    return sph_pressure_pair_hu_adams(own, other);
+    return eta == SPH_R(0) ? SPH_R(0.1) : eta < SPH_R(0) ? SPH_R(0) : eta;
 }
-SPH_FN sph_real sphi_fluid_viscosity(const sph_fluid *f, sph_real h, sph_real c_i, sph_real rho_i,
-                                     sph_index j, sph_real vx, sph_real r)
+/* The values of particle i; those that a sweep does not read are 0. */
+enum { SPHI_READ_M = 1, SPHI_READ_RHO = 2, SPHI_READ_P = 4, SPHI_READ_MU = 8 };
+SPH_FN sph_fluid_side sphi_fluid_side(int reads, const sph_fluid *f, sph_scalars mu, sph_index i)
 {
-    sph_viscosity_terms terms;
-    sph_encounter e;
-    if (f->viscosity == (int)SPH_VISCOSITY_NONE) return SPH_R(0);
-    terms.alpha = f->alpha;
-    terms.beta = f->beta;
-    terms.eta = f->eta;
-    e.vx = vx;
-    e.r = r;
-    e.h = h;
-    e.c = SPH_R(0.5) * (c_i + sphi_at(f->c, j));
-    e.rho = SPH_R(0.5) * (rho_i + sphi_at(f->rho, j));
-    if (f->viscosity == (int)SPH_VISCOSITY_MONAGHAN) return sph_viscosity_pair_monaghan(terms, e);
-    if (f->viscosity == (int)SPH_VISCOSITY_LINEAR) return sph_viscosity_pair_linear(terms, e);
-    return sph_viscosity_pair_signal(terms, e);
+    sph_fluid_side a;
+    a.m = reads & SPHI_READ_M ? sphi_at(f->m, i) : SPH_R(0);
+    a.rho = reads & SPHI_READ_RHO ? sphi_at(f->rho, i) : SPH_R(0);
+    a.p = reads & SPHI_READ_P ? sphi_at(f->p, i) : SPH_R(0);
+    a.mu = reads & SPHI_READ_MU ? sphi_at(mu, i) : SPH_R(0);
+    return a;
+}
+SPH_FN sph_real sphi_fluid_viscosity(int viscosity, sph_viscosity_terms terms, sph_encounter e)
+{
+    if (viscosity == (int)SPH_VISCOSITY_MONAGHAN) return sph_viscosity_pair_monaghan(terms, e);
+    if (viscosity == (int)SPH_VISCOSITY_LINEAR) return sph_viscosity_pair_linear(terms, e);
+    return viscosity == (int)SPH_VISCOSITY_SIGNAL ? sph_viscosity_pair_signal(terms, e) : SPH_R(0);
+}
+SPH_FN sph_fluid_change sphi_fluid_pair(int form, sph_fluid_side i, sph_fluid_side j, sph_vec x_ij,
+                                        sph_real vx, sph_real f_ij, sph_real viscosity)
+{
+    if (form == SPHI_MONAGHAN) return sph_fluid_pair_monaghan(i, j, x_ij, vx, f_ij, viscosity);
+    if (form == SPHI_COLAGROSSI) return sph_fluid_pair_colagrossi(i, j, x_ij, vx, f_ij, viscosity);
+    return sph_fluid_pair_hu_adams(i, j, x_ij, vx, f_ij, viscosity);
 }
 
 SPH_FN sph_index sphi_fluid_range(int form, int uniform, sph_kernel k, int dim, sph_cloud cloud,
-                                  const sph_fluid *f, sph_vector_out a, SPH_GLOBAL sph_real *rate,
-                                  SPH_GLOBAL sph_real *heating)
+                                  const sph_fluid *f, sph_fluid_out out)
 {
+    const size_t stride = sphi_stride(out.stride);
+    const int reads = SPHI_READ_M + SPHI_READ_RHO + SPHI_READ_P;
+    const int viscous = f->viscosity != (int)SPH_VISCOSITY_NONE;
+    sph_viscosity_terms terms;
     sph_index i, p, failed = 0;
+    terms.alpha = f->alpha;
+    terms.beta = f->beta;
+    terms.eta = sphi_softening(f->eta);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, f->v, i);
-        const sph_real h_i = sphi_at(cloud.h, i), m_i = sphi_at(f->m, i), rho_i = sphi_at(f->rho, i),
-                       p_i = sphi_at(f->p, i);
-        const sph_real c_i = f->viscosity == (int)SPH_VISCOSITY_NONE ? SPH_R(0) : sphi_at(f->c, i);
-        sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0), divergence = SPH_R(0), work = SPH_R(0);
+        const sph_real h_i = sphi_at(cloud.h, i), c_i = viscous ? sphi_at(f->c, i) : SPH_R(0);
+        const sph_fluid_side own = sphi_fluid_side(reads, f, f->m, i);
+        sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0), rate = SPH_R(0), heating = SPH_R(0);
         sph_vec sum;
         int lost;
-        SPH_SUM(ax, ay, az, divergence, work)
+        SPH_SUM(ax, ay, az, rate, heating)
         for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
-            const sph_real r = sph_length(dim, x_ij), h_ij = sphi_mean_h(uniform, cloud.h, h_i, j);
-            const sph_real vx = sph_dot(dim, sph_subtract(dim, v_i, sphi_vector_at(dim, f->v, j)), x_ij);
-            /* coincident particles: a direction of rounding errors is none. A sign, because a comparison
-               would keep the loop from vectorising */
-            const sph_real f_ij = sph_kernel_f(k, dim, r, h_ij) *
-                                  (SPH_R(0.5) + SPHI_COPYSIGN(SPH_R(0.5), r - SPH_R(1e-12) * h_ij)),
-                           m_j = sphi_at(f->m, j);
-            const sph_real Pi = sphi_fluid_viscosity(f, h_ij, c_i, rho_i, j, vx, r);
-            const sph_real b = m_j * (sphi_fluid_pressure(form, f, p_i, rho_i, m_i, j) + Pi) * f_ij;
-            ax -= b * x_ij.x;
-            if (dim > 1) ay -= b * x_ij.y;
-            if (dim > 2) az -= b * x_ij.z;
-            divergence += (form == SPHI_MONAGHAN ? m_j : m_j * rho_i / sphi_at(f->rho, j)) * vx * f_ij;
-            work += SPH_R(0.5) * m_j * Pi * vx * f_ij;
+            const sph_fluid_side other = sphi_fluid_side(reads, f, f->m, j);
+            sph_fluid_change c;
+            sph_encounter e;
+            e.vx = sph_dot(dim, sph_subtract(dim, v_i, sphi_vector_at(dim, f->v, j)), x_ij);
+            e.r = sph_length(dim, x_ij);
+            e.h = sphi_mean_h(uniform, cloud.h, h_i, j);
+            e.c = viscous ? SPH_R(0.5) * (c_i + sphi_at(f->c, j)) : SPH_R(0);
+            e.rho = SPH_R(0.5) * (own.rho + other.rho);
+            c = sphi_fluid_pair(form, own, other, x_ij, e.vx, sph_kernel_f_apart(k, dim, e.r, e.h),
+                                sphi_fluid_viscosity(f->viscosity, terms, e));
+            ax += c.acceleration.x;
+            if (dim > 1) ay += c.acceleration.y;
+            if (dim > 2) az += c.acceleration.z;
+            rate += c.rate;
+            heating += c.heating;
         }
         sum.x = ax;
         sum.y = ay;
         sum.z = az;
-        lost = sphi_store_vector(dim, a, i, sum);
-        if (rate) lost |= sphi_store_finite(rate, i, divergence);
-        if (heating) lost |= sphi_store_finite(heating, i, work);
+        lost = sphi_store_vector(dim, out.acceleration, i, sum);
+        lost |= sphi_put(out.rate, stride, i, rate);
+        lost |= sphi_put(out.heating, stride, i, heating);
+        sphi_tell(out.status, i, lost);
         failed += lost;
     }
     return failed;
 }
 SPH_FN sph_index sphi_fluid_rates(int form, sph_kernel k, int dim, sph_cloud cloud, sph_fluid f,
-                                  sph_vector_out a, SPH_GLOBAL sph_real *rate, SPH_GLOBAL sph_real *heating)
+                                  sph_fluid_out out)
 {
-    int error = sphi_check_sweep(k, dim, cloud, f.m);
-    if (!error && (f.viscosity < 0 || f.viscosity > (int)SPH_VISCOSITY_SIGNAL)) error = SPH_ERROR_VALUE;
+    int error = sphi_check_sweep(k, dim, cloud, "m", f.m);
+    if (!error && (f.viscosity < 0 || f.viscosity > (int)SPH_VISCOSITY_SIGNAL))
+        error = sphi_refuse("fluid.viscosity", -1, SPH_ERROR_VALUE);
     if (!error && (!sphi_finite(f.alpha) || !sphi_finite(f.beta) || !sphi_finite(f.eta)))
-        error = SPH_ERROR_VALUE;
-    if (!error) error = sphi_check_positive(f.m, cloud.points.n);
-    if (!error) error = sphi_check_positive(f.rho, cloud.points.n);
-    if (!error) error = sphi_check_field(f.p, cloud.points.n);
-    if (!error && f.viscosity != (int)SPH_VISCOSITY_NONE) error = sphi_check_field(f.c, cloud.points.n);
-    if (!error) error = sphi_check_vectors(dim, f.v, cloud.points.n);
-    if (!error) error = sphi_check_vector(dim, a.x, a.y, a.z);
-    if (error) return error;
-    return cloud.h.stride ? sphi_fluid_range(form, 0, k, dim, cloud, &f, a, rate, heating)
-                          : sphi_fluid_range(form, 1, k, dim, cloud, &f, a, rate, heating);
+        error = sphi_refuse("fluid.alpha, beta, eta", -1, SPH_ERROR_VALUE);
+    if (!error) error = sphi_check_positive("m", f.m, cloud.points.n);
+    if (!error) error = sphi_check_positive("rho", f.rho, cloud.points.n);
+    if (!error) error = sphi_check_field("p", f.p, cloud.points.n);
+    if (!error && f.viscosity != (int)SPH_VISCOSITY_NONE) error = sphi_check_field("c", f.c, cloud.points.n);
+    if (!error) error = sphi_check_vectors("v", dim, f.v, cloud.points.n);
+    if (!error) error = sphi_check_out("out.acceleration", dim, out.acceleration);
+    if (error) return sphi_answer_of(error);
+    return cloud.h.stride ? sphi_fluid_range(form, 0, k, dim, cloud, &f, out)
+                          : sphi_fluid_range(form, 1, k, dim, cloud, &f, out);
 }
 
 /* Acceleration, density rate and viscous heating of the targets, in one pass:
@@ -3808,25 +3968,22 @@ SPH_FN sph_index sphi_fluid_rates(int form, sph_kernel k, int dim, sph_cloud clo
    colagrossi: (5.23), (5.24); drho_i/dt = rho_i sum_j m_j/rho_j v_ij . grad W. hu_adams: volume-weighted;
    with sph_density_number, or the rate of (5.23).
    Signs: F <= 0, so pressure pushes apart; no gravity. rate, heating may be null. Pairs closer than 1e-12 h
-   exert no force on each other (sph_count_coincident finds them). Errors as of all sweeps, and
+   exert no force on each other (sph_coincident_count finds them). Errors as of all sweeps, and
    SPH_ERROR_VALUE for densities or masses that are not positive. */
 SPH_FN sph_index sph_fluid_rates_monaghan(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
-                                          sph_vector_out acceleration, SPH_GLOBAL sph_real *rate,
-                                          SPH_GLOBAL sph_real *heating)
+                                          sph_fluid_out out)
 {
-    return sphi_fluid_rates(SPHI_MONAGHAN, k, dim, cloud, fluid, acceleration, rate, heating);
+    return sphi_fluid_rates(SPHI_MONAGHAN, k, dim, cloud, fluid, out);
 }
 SPH_FN sph_index sph_fluid_rates_colagrossi(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
-                                            sph_vector_out acceleration, SPH_GLOBAL sph_real *rate,
-                                            SPH_GLOBAL sph_real *heating)
+                                            sph_fluid_out out)
 {
-    return sphi_fluid_rates(SPHI_COLAGROSSI, k, dim, cloud, fluid, acceleration, rate, heating);
+    return sphi_fluid_rates(SPHI_COLAGROSSI, k, dim, cloud, fluid, out);
 }
 SPH_FN sph_index sph_fluid_rates_hu_adams(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
-                                          sph_vector_out acceleration, SPH_GLOBAL sph_real *rate,
-                                          SPH_GLOBAL sph_real *heating)
+                                          sph_fluid_out out)
 {
-    return sphi_fluid_rates(SPHI_HU_ADAMS, k, dim, cloud, fluid, acceleration, rate, heating);
+    return sphi_fluid_rates(SPHI_HU_ADAMS, k, dim, cloud, fluid, out);
 }
 
 enum { SPHI_MORRIS, SPHI_MONAGHAN_CLEARY };
@@ -3835,18 +3992,19 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, 
 {
     const sph_scalars m = fluid.m, rho = fluid.rho;
     const sph_vectors v = fluid.v;
-    const sph_real eta = fluid.eta;
-    int error = sphi_check_sweep(k, dim, cloud, m);
+    const sph_real eta = sphi_softening(fluid.eta);
+    int error = sphi_check_sweep(k, dim, cloud, "m", m);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_positive(rho, cloud.points.n);
-    if (!error) error = sphi_check_field(mu, cloud.points.n);
-    if (!error) error = sphi_check_vectors(dim, v, cloud.points.n);
-    if (!error) error = sphi_check_vector(dim, a.x, a.y, a.z);
-    if (!error && !sphi_finite(eta)) error = SPH_ERROR_VALUE;
-    if (error) return error;
+    if (!error) error = sphi_check_positive("rho", rho, cloud.points.n);
+    if (!error) error = sphi_check_field("mu", mu, cloud.points.n);
+    if (!error) error = sphi_check_vectors("v", dim, v, cloud.points.n);
+    if (!error) error = sphi_check_out("a", dim, a);
+    if (!error && !sphi_finite(fluid.eta)) error = sphi_refuse("fluid.eta", -1, SPH_ERROR_VALUE);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, v, i);
-        const sph_real h_i = sphi_at(cloud.h, i), rho_i = sphi_at(rho, i), mu_i = sphi_at(mu, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        const sph_fluid_side own = sphi_fluid_side(SPHI_READ_RHO + SPHI_READ_MU, &fluid, mu, i);
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0);
         sph_vec sum;
         SPH_SUM(ax, ay, az)
@@ -3856,15 +4014,11 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, 
                           v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
             const sph_real r = sph_length(dim, x_ij), h_ij = SPH_R(0.5) * (h_i + sphi_at(cloud.h, j)),
                            f_ij = sph_kernel_f(k, dim, r, h_ij), m_j = sphi_at(m, j);
-            sph_fluid_side own, other;
+            const sph_fluid_side other = sphi_fluid_side(SPHI_READ_RHO + SPHI_READ_MU, &fluid, mu, j);
             sph_encounter e;
             sph_real b;
             sph_vec along;
-            own.m = own.p = other.m = other.p = e.c = e.rho = SPH_R(0);
-            own.rho = rho_i;
-            own.mu = mu_i;
-            other.rho = sphi_at(rho, j);
-            other.mu = sphi_at(mu, j);
+            e.c = e.rho = SPH_R(0);
             e.vx = sph_dot(dim, v_ij, x_ij);
             e.r = r;
             e.h = h_ij;
@@ -3884,14 +4038,14 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, 
     return failed;
 }
 /* a_i = (1 / rho) div(mu grad v) by physical viscosity, mu (dynamic, = nu rho) of each particle; see the pair
-   tier for the two forms. eta = 0.1 is usual. */
-SPH_FN sph_index sph_viscous_mu_morris(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
-                                       sph_scalars mu, sph_vector_out acceleration)
+   tier for the two forms. */
+SPH_FN sph_index sph_viscosity_mu_morris(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                         sph_scalars mu, sph_vector_out acceleration)
 {
     return sphi_viscous(SPHI_MORRIS, k, dim, cloud, fluid, mu, acceleration);
 }
-SPH_FN sph_index sph_viscous_mu_monaghan_cleary(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
-                                                sph_scalars mu, sph_vector_out acceleration)
+SPH_FN sph_index sph_viscosity_mu_monaghan_cleary(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                                  sph_scalars mu, sph_vector_out acceleration)
 {
     return sphi_viscous(SPHI_MONAGHAN_CLEARY, k, dim, cloud, fluid, mu, acceleration);
 }
@@ -3903,16 +4057,17 @@ SPH_FN sph_index sph_velocity_xsph(sph_kernel k, int dim, sph_cloud cloud, sph_f
 {
     const sph_scalars m = fluid.m, rho = fluid.rho;
     const sph_vectors v = fluid.v;
-    int error = sphi_check_sweep(k, dim, cloud, m);
+    int error = sphi_check_sweep(k, dim, cloud, "m", m);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_positive(rho, cloud.points.n);
-    if (!error) error = sphi_check_vectors(dim, v, cloud.points.n);
-    if (!error) error = sphi_check_vector(dim, change.x, change.y, change.z);
-    if (!error && !sphi_finite(epsilon)) error = SPH_ERROR_VALUE;
-    if (error) return error;
+    if (!error) error = sphi_check_positive("rho", rho, cloud.points.n);
+    if (!error) error = sphi_check_vectors("v", dim, v, cloud.points.n);
+    if (!error) error = sphi_check_out("change", dim, change);
+    if (!error && !sphi_finite(epsilon)) error = sphi_refuse("epsilon", -1, SPH_ERROR_VALUE);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, v, i);
-        const sph_real h_i = sphi_at(cloud.h, i), rho_i = sphi_at(rho, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        const sph_fluid_side own = sphi_fluid_side(SPHI_READ_RHO, &fluid, rho, i);
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0);
         sph_vec sum;
         SPH_SUM(ax, ay, az)
@@ -3921,8 +4076,10 @@ SPH_FN sph_index sph_velocity_xsph(sph_kernel k, int dim, sph_cloud cloud, sph_f
             const sph_vec v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
             const sph_real r =
                 sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)));
-            const sph_real b = SPH_R(-2) * epsilon * sphi_at(m, j) / (rho_i + sphi_at(rho, j)) *
-                               sph_kernel_w(k, dim, r, SPH_R(0.5) * (h_i + sphi_at(cloud.h, j)));
+            const sph_real w_ij = sph_kernel_w(k, dim, r, SPH_R(0.5) * (h_i + sphi_at(cloud.h, j))),
+                           b = -epsilon *
+                               sph_velocity_pair_xsph(
+                                   own, sphi_fluid_side(SPHI_READ_M + SPHI_READ_RHO, &fluid, rho, j), w_ij);
             ax += b * v_ij.x;
             if (dim > 1) ay += b * v_ij.y;
             if (dim > 2) az += b * v_ij.z;
@@ -3945,6 +4102,7 @@ typedef struct sph_wall {
 typedef struct sph_wall_out {
     SPH_GLOBAL sph_real *p;
     sph_vector_out v;
+    size_t stride;                    /* of p */
     SPH_GLOBAL unsigned char *status; /* may be null */
 } sph_wall_out;
 
@@ -3959,55 +4117,59 @@ SPH_FN sph_index sph_wall_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall
 {
     const sph_scalars share = wall.share, rho = wall.rho, p = wall.p;
     const sph_vectors v = wall.v, wall_velocity = wall.velocity, normal = wall.normal;
-    const sph_vec effective_gravity = wall.gravity;
-    int error = sphi_check_sweep(k, dim, cloud, share);
+    int error = sphi_check_sweep(k, dim, cloud, "share", share);
     const int free_slip = normal.x.p != 0;
     sph_index i, q, failed = 0;
-    if (!error) error = sphi_check_field(rho, cloud.points.n);
-    if (!error) error = sphi_check_field(p, cloud.points.n);
-    if (!error) error = sphi_check_vectors(dim, v, cloud.points.n);
-    if (!error) error = sphi_check_vectors(dim, wall_velocity, cloud.points.n);
-    if (!error && free_slip) error = sphi_check_vectors(dim, normal, cloud.points.n);
-    if (!error && !out.p) error = SPH_ERROR_NULL;
-    if (!error) error = sphi_check_vector(dim, out.v.x, out.v.y, out.v.z);
-    if (!error && !sphi_finite(sph_dot(dim, effective_gravity, effective_gravity))) error = SPH_ERROR_VALUE;
-    if (error) return error;
+    if (!error) error = sphi_check_field("rho", rho, cloud.points.n);
+    if (!error) error = sphi_check_field("p", p, cloud.points.n);
+    if (!error) error = sphi_check_vectors("v", dim, v, cloud.points.n);
+    if (!error) error = sphi_check_vectors("velocity", dim, wall_velocity, cloud.points.n);
+    if (!error && free_slip) error = sphi_check_vectors("normal", dim, normal, cloud.points.n);
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (!error) error = sphi_check_out("out.v", dim, out.v);
+    if (!error && !sphi_finite(sph_dot(dim, wall.gravity, wall.gravity)))
+        error = sphi_refuse("wall.gravity", -1, SPH_ERROR_VALUE);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i), u = sphi_vector_at(dim, wall_velocity, i);
         const sph_real h_i = sphi_at(cloud.h, i);
-        sph_real sum = SPH_R(0), sp = SPH_R(0), vx = SPH_R(0), vy = SPH_R(0), vz = SPH_R(0);
+        sph_real weight = SPH_R(0), pressure = SPH_R(0), vx = SPH_R(0), vy = SPH_R(0), vz = SPH_R(0);
+        sph_wall_sums sums;
         sph_vec answer = u;
         int state = SPH_OK;
-        SPH_SUM(sum, sp, vx, vy, vz)
+        SPH_SUM(weight, pressure, vx, vy, vz)
         for (q = cloud.list.start[i]; q < cloud.list.start[i + 1]; q++) {
             const sph_index j = cloud.list.index[q];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)),
                           v_j = sphi_vector_at(dim, v, j);
             const sph_real w = sphi_at(share, j) * sph_kernel_w(k, dim, sph_length(dim, x_ij),
                                                                 SPH_R(0.5) * (h_i + sphi_at(cloud.h, j)));
-            sum += w;
-            sp += w * (sphi_at(p, j) + sphi_at(rho, j) * sph_dot(dim, effective_gravity, x_ij));
-            vx += w * v_j.x;
-            if (dim > 1) vy += w * v_j.y;
-            if (dim > 2) vz += w * v_j.z;
+            sph_fluid_side other;
+            sph_wall_sums c;
+            other.m = other.mu = SPH_R(0);
+            other.rho = sphi_at(rho, j);
+            other.p = sphi_at(p, j);
+            c = sph_wall_pair_adami(dim, other, v_j, x_ij, wall.gravity, w);
+            weight += c.weight;
+            pressure += c.p;
+            vx += c.v.x;
+            if (dim > 1) vy += c.v.y;
+            if (dim > 2) vz += c.v.z;
         }
-        if (!(sum > SPH_R(0))) {
-            state = SPH_TOO_FEW;
-            sp = SPH_R(0);
-        } else {
-            sph_vec mean;
-            mean.x = vx / sum;
-            mean.y = vy / sum;
-            mean.z = vz / sum;
-            sp /= sum;
-            if (free_slip) {
-                const sph_vec n = sphi_vector_at(dim, normal, i), relative = sph_subtract(dim, mean, u);
-                const sph_real nn = sph_dot(dim, n, n),
-                               across = nn > SPH_R(0) ? SPH_R(2) * sph_dot(dim, relative, n) / nn : SPH_R(0);
-                answer = sph_subtract(dim, mean, sph_scale(across, n));
-            } else answer = sph_subtract(dim, sph_scale(SPH_R(2), u), mean);
+        sums.weight = weight;
+        sums.p = pressure;
+        sums.v.x = vx;
+        sums.v.y = vy;
+        sums.v.z = vz;
+        pressure = SPH_R(0);
+        if (!(weight > SPH_R(0))) state = SPH_TOO_FEW;
+        else {
+            const sph_vec mean = sph_wall_fluid_velocity(sums);
+            pressure = sph_wall_pressure(sums);
+            answer = free_slip ? sph_wall_velocity_free_slip(dim, mean, u, sphi_vector_at(dim, normal, i))
+                               : sph_wall_velocity_no_slip(dim, mean, u);
         }
-        if (sphi_store_finite(out.p, i, sp) | sphi_store_vector(dim, out.v, i, answer))
+        if (sphi_put(out.p, sphi_stride(out.stride), i, pressure) | sphi_store_vector(dim, out.v, i, answer))
             state = SPH_NOT_FINITE;
         if (out.status) out.status[i] = (unsigned char)state;
         failed += state != SPH_OK;
@@ -4038,12 +4200,6 @@ SPH_FN sph_real sph_collision_pair(sph_real restitution, sph_impact c)
 {
     return -(SPH_R(1) + restitution) * (c.w_i / (c.w_i + c.w_j)) * c.vx / c.r2;
 }
-/* The acceleration form (4.22): dv_i / t with the contact time t = N r / |v_ij|: coefficient of x_ij. */
-SPH_FN sph_real sph_collision_acceleration_pair(sph_real restitution, sph_impact c, sph_real speed,
-                                                sph_real contacts)
-{
-    return sph_collision_pair(restitution, c) * speed / (contacts * SPHI_SQRT(c.r2));
-}
 
 /* -------- collisions: sweeps */
 
@@ -4068,24 +4224,19 @@ SPH_FN int sphi_check_collisions(int dim, sph_cloud cloud, sph_collision collisi
 {
     const sph_real distance = collision.distance, restitution = collision.restitution;
     const sph_scalars inverse_mass = collision.inverse_mass;
-    sph_index i;
-    int error, negative = 0;
-    if (!sphi_finite(distance) || !(distance > SPH_R(0))) return SPH_ERROR_H;
-    if (!sphi_finite(restitution) || restitution < SPH_R(0)) return SPH_ERROR_VALUE;
+    int error;
+    if (!sphi_finite(distance) || !(distance > SPH_R(0))) return sphi_refuse("distance", -1, SPH_ERROR_H);
+    if (!sphi_finite(restitution) || restitution < SPH_R(0))
+        return sphi_refuse("restitution", -1, SPH_ERROR_VALUE);
     error = sphi_check_list(dim, cloud, distance);
-    if (!error) error = sphi_check_field(inverse_mass, cloud.points.n);
-    if (error) return error;
-    for (i = 0; SPH_CHECK && i < (inverse_mass.stride ? cloud.points.n : 1); i++)
-        negative |= sphi_at(inverse_mass, i) < SPH_R(0);
-    return negative ? SPH_ERROR_VALUE : 0;
+    return error ? error : sphi_check_not_negative("inverse_mass", inverse_mass, cloud.points.n);
 }
-/* Do these two collide? 0 no, 1 yes, -1 they coincide (closer than 1e-12 of the distance): no direction. all:
-   receding ones, too. */
-SPH_FN int sphi_collides(sph_real r2, sph_real distance, sph_real vx, int all)
+/* Do these two collide? 0 no, 1 yes, -1 they coincide (closer than 1e-12 of the distance): no direction. */
+SPH_FN int sphi_collides(sph_real r2, sph_real distance, sph_real vx)
 {
     if (!(r2 < distance * distance)) return 0;
     if (!(r2 > SPH_R(1e-24) * distance * distance)) return -1;
-    return all || vx < SPH_R(0);
+    return vx < SPH_R(0);
 }
 
 #if !SPH_OPENCL
@@ -4099,8 +4250,8 @@ typedef struct sph_collision_report {
    beyond its targets, so never on two ranges at once. Each pair once, also if both rows name it. Momentum and
    angular momentum to round-off; energy never grows for restitution <= 1. Returns 0, the number of pairs
    whose velocities or energy would overflow (they exchange nothing), or an error; out may be null. */
-SPH_FN sph_index sph_collide_sequential(int dim, sph_cloud cloud, sph_collision collision,
-                                        sph_vector_out velocity, sph_collision_report *out)
+SPH_FN sph_index sph_collision_sequential(int dim, sph_cloud cloud, sph_collision collision,
+                                          sph_vector_out velocity, sph_collision_report *out)
 {
     const sph_real distance = collision.distance, restitution = collision.restitution;
     const sph_scalars inverse_mass = collision.inverse_mass;
@@ -4111,15 +4262,16 @@ SPH_FN sph_index sph_collide_sequential(int dim, sph_cloud cloud, sph_collision 
     sph_index i, p, lost = 0;
     r.collisions = r.coincident = 0;
     r.energy = SPH_R(0);
-    if (!error) error = sphi_check_vector(dim, vx, vy, vz);
+    if (!error) error = sphi_check_out("velocity", dim, velocity);
     if (!error && SPH_CHECK) {
         sph_vectors v;
         v.x = sph_scalars_strided(vx, stride);
         v.y = sph_scalars_strided(vy, stride);
         v.z = sph_scalars_strided(vz, stride);
-        error = sphi_check_vectors(dim, v, cloud.points.n);
+        error = sphi_check_vectors("v", dim, v, cloud.points.n);
     }
-    if (error) return error;
+    if (error >= 0 && out) *out = r;
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real w_i = sphi_at(inverse_mass, i);
@@ -4134,7 +4286,7 @@ SPH_FN sph_index sph_collide_sequential(int dim, sph_cloud cloud, sph_collision 
             if (j < i && j >= cloud.first) continue; /* its own row has had it */
             if (dim > 1) v += (vy[a] - vy[b]) * x_ij.y;
             if (dim > 2) v += (vz[a] - vz[b]) * x_ij.z;
-            what = w_i + w_j > SPH_R(0) ? sphi_collides(r2, distance, v, 0) : 0;
+            what = w_i + w_j > SPH_R(0) ? sphi_collides(r2, distance, v) : 0;
             r.coincident += what < 0;
             if (what <= 0) continue;
             c = sph_collision_pair(restitution, sphi_impact(w_i, w_j, v, r2));
@@ -4177,9 +4329,9 @@ SPH_FN sph_index sph_collision_count(int dim, sph_cloud cloud, sph_collision col
     const sph_scalars inverse_mass = collision.inverse_mass;
     int error = sphi_check_collisions(dim, cloud, collision);
     sph_index i, p, coincident = 0;
-    if (!error) error = sphi_check_vectors(dim, v, cloud.points.n);
-    if (!error && !count) error = SPH_ERROR_NULL;
-    if (error) return error;
+    if (!error) error = sphi_check_vectors("v", dim, v, cloud.points.n);
+    if (!error && !count) error = sphi_refuse("count", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, v, i);
         sph_index n = 0, same = 0;
@@ -4188,7 +4340,7 @@ SPH_FN sph_index sph_collision_count(int dim, sph_cloud cloud, sph_collision col
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             const int what =
                 sphi_collides(sph_dot(dim, x_ij, x_ij), distance,
-                              sph_dot(dim, sph_subtract(dim, v_i, sphi_vector_at(dim, v, j)), x_ij), 0);
+                              sph_dot(dim, sph_subtract(dim, v_i, sphi_vector_at(dim, v, j)), x_ij));
             if (!(sphi_at(inverse_mass, i) + sphi_at(inverse_mass, j) > SPH_R(0))) continue;
             n += what > 0;
             same |= what < 0;
@@ -4199,20 +4351,22 @@ SPH_FN sph_index sph_collision_count(int dim, sph_cloud cloud, sph_collision col
     return coincident;
 }
 
-enum { SPHI_COLLIDE_WEIGHTED, SPHI_COLLIDE_LITERAL, SPHI_COLLIDE_ACCELERATION };
-SPH_FN sph_index sphi_collide(int form, int dim, sph_cloud cloud, sph_collision collision, sph_vectors v,
-                              const SPH_GLOBAL sph_index *count, sph_real contacts, sph_vector_out change)
+/* The change of velocity of each target by all its collisions at once, each with the weight 1 / max(n_i,
+   n_j); count: from sph_collision_count, for the targets and the sources that are no walls. Full lists;
+   order-independent, any ranges in parallel; momentum and angular momentum to round-off, and energy never
+   grows for restitution <= 1 (a particle in n > 1 collisions loses some also at 1). The host adds it to v. */
+SPH_FN sph_index sph_collision_change_weighted(int dim, sph_cloud cloud, sph_collision collision,
+                                               sph_vectors v, const SPH_GLOBAL sph_index *count,
+                                               sph_vector_out change)
 {
     const sph_real distance = collision.distance, restitution = collision.restitution;
     const sph_scalars inverse_mass = collision.inverse_mass;
     int error = sphi_check_collisions(dim, cloud, collision);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_vectors(dim, v, cloud.points.n);
-    if (!error) error = sphi_check_vector(dim, change.x, change.y, change.z);
-    if (!error && form == SPHI_COLLIDE_WEIGHTED && !count) error = SPH_ERROR_NULL;
-    if (!error && form == SPHI_COLLIDE_ACCELERATION && !(sphi_finite(contacts) && contacts > SPH_R(0)))
-        error = SPH_ERROR_VALUE;
-    if (error) return error;
+    if (!error) error = sphi_check_vectors("v", dim, v, cloud.points.n);
+    if (!error) error = sphi_check_out("change", dim, change);
+    if (!error && !count) error = sphi_refuse("count", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, v, i);
         const sph_real w_i = sphi_at(inverse_mass, i);
@@ -4223,50 +4377,18 @@ SPH_FN sph_index sphi_collide(int form, int dim, sph_cloud cloud, sph_collision 
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)),
                           v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
             const sph_real r2 = sph_dot(dim, x_ij, x_ij), vx = sph_dot(dim, v_ij, x_ij);
+            sph_index n_i, n_j;
             sph_real c;
-            if (!(w_i + w_j > SPH_R(0)) ||
-                sphi_collides(r2, distance, vx, form != SPHI_COLLIDE_WEIGHTED) <= 0)
-                continue;
-            if (form == SPHI_COLLIDE_ACCELERATION)
-                c = sph_collision_acceleration_pair(restitution, sphi_impact(w_i, w_j, vx, r2),
-                                                    sph_length(dim, v_ij), contacts);
-            else c = sph_collision_pair(restitution, sphi_impact(w_i, w_j, vx, r2));
-            if (form ==
-                SPHI_COLLIDE_WEIGHTED) { /* a wall takes any number of impulses: its count does not matter */
-                const sph_index n_i = w_i > SPH_R(0) ? count[i] : 1, n_j = w_j > SPH_R(0) ? count[j] : 1;
-                c /= (sph_real)(n_i > n_j ? n_i : n_j > 1 ? n_j : 1);
-            }
+            if (!(w_i + w_j > SPH_R(0)) || sphi_collides(r2, distance, vx) <= 0) continue;
+            n_i = w_i > SPH_R(0) ? count[i] : 1; /* a wall takes any number of impulses, whatever its count */
+            n_j = w_j > SPH_R(0) ? count[j] : 1;
+            c = sph_collision_pair(restitution, sphi_impact(w_i, w_j, vx, r2));
+            c /= (sph_real)(n_i > n_j ? n_i : n_j > 1 ? n_j : 1);
             sum = sph_subtract(dim, sum, sph_scale(-c, x_ij));
         }
         failed += sphi_store_vector(dim, change, i, sum);
     }
     return failed;
-}
-/* The change of velocity of each target by all its collisions at once, each with the weight 1 / max(n_i,
-   n_j); count: from sph_collision_count, for the targets and the sources that are no walls. Full lists;
-   order-independent, any ranges in parallel; momentum and angular momentum to round-off, and energy never
-   grows for restitution <= 1 (a particle in n > 1 collisions loses some also at 1). The host adds it to v. */
-SPH_FN sph_index sph_collision_change_weighted(int dim, sph_cloud cloud, sph_collision collision,
-                                               sph_vectors v, const SPH_GLOBAL sph_index *count,
-                                               sph_vector_out change)
-{
-    return sphi_collide(SPHI_COLLIDE_WEIGHTED, dim, cloud, collision, v, count, SPH_R(1), change);
-}
-/* (4.20) as printed: all pairs in reach, receding ones, too, at once. DO NOT USE in a simulation: pairs that
-   part are pulled back, and the energy of a particle with several contacts grows without bounds. Here to
-   compare with. */
-SPH_FN sph_index sph_collision_change_literal(int dim, sph_cloud cloud, sph_collision collision,
-                                              sph_vectors v, sph_vector_out change)
-{
-    return sphi_collide(SPHI_COLLIDE_LITERAL, dim, cloud, collision, v, 0, SPH_R(1), change);
-}
-/* (4.22) as printed: the same as an acceleration, with the contact time N r / |v_ij|; (4.20) / dt for N =
-   |v_ij| dt / r. The same warning. */
-SPH_FN sph_index sph_collision_acceleration_literal(int dim, sph_cloud cloud, sph_collision collision,
-                                                    sph_vectors v, sph_real contacts,
-                                                    sph_vector_out acceleration)
-{
-    return sphi_collide(SPHI_COLLIDE_ACCELERATION, dim, cloud, collision, v, 0, contacts, acceleration);
 }
 
 /* ================================================================ magnetohydrodynamics and divergence
@@ -4282,7 +4404,7 @@ SPH_FN sph_index sph_collision_acceleration_literal(int dim, sph_cloud cloud, sp
  * an h of each particle's own. So what the cleaning wave takes from the magnetic energy it gives to that of
  * psi, sum m psi^2 / (2 rho ch^2), and back: (2), (12), (23). Damping only takes. The pair of difference
  * forms has no such balance: at edges and density jumps energy grows without bounds (tests/test_cleaning.c);
- * it is here as sph_cleaning_rates_nonconservative, to compare with. Misprints that are corrected here: (6)
+ * examples/papers/cleaning_forms.h has it, to compare with. Misprints that are corrected here: (6)
  * has grad_b in its second term, for grad_a; (8) has + B^2/2 for -(P + B^2/2); (10) needs the square of the
  * mean density; (28) a plus sign; (38) a minus sign.
  */
@@ -4310,12 +4432,6 @@ SPH_FN sph_real sph_mhd_fast_speed(sph_real cs, sph_vec field, sph_real rho, sph
 {
     const sph_real per_rho = SPH_R(1) / rho;
     return sphi_fast_speed(cs * cs, sph_dot(3, field, field) * per_rho, B_along * B_along * per_rho);
-}
-/* v_sig = (v_i + v_j + beta_w) / 2, beta_w = beta |w|, w = v_ij . x_ij / r: the speed at which two particles
-   see each other. Price 2012, (105). */
-SPH_FN sph_real sph_mhd_signal_speed(sph_real fast_i, sph_real fast_j, sph_real beta_w)
-{
-    return SPH_R(0.5) * (fast_i + fast_j + beta_w);
 }
 /* Speed of sound along which conductivity equalises: sqrt(|P_i - P_j| / rho), of the mean rho. Price 2008,
    JCP 227, 10040. */
@@ -4386,15 +4502,174 @@ SPH_FN sph_real sph_resistivity_switch(sph_real h, sph_real change, sph_real str
     return strength > h * change ? h * change / strength : change > SPH_R(0) ? SPH_R(1) : SPH_R(0);
 }
 
+/* -------- gradient, divergence and curl of a medium: pair functions */
+
+/* Mass, density and Omega of one particle. */
+typedef struct sph_medium_side {
+    sph_real m, rho, omega;
+    SPHI_TCC_PAD
+} sph_medium_side;
+/* The kernel between two particles: their distance, and F with the h of either. */
+typedef struct sph_pair_kernel {
+    sph_real r, f_i, f_j;
+    SPHI_TCC_PAD
+} sph_pair_kernel;
+/* What the symmetric forms weigh the two sides with: m_j g_i and m_j g_j, g = F / (Omega rho^2). */
+typedef struct sph_pair_weights {
+    sph_real i, j;
+} sph_pair_weights;
+
+/* 1 / (Omega rho^2): g is F times this. */
+SPH_FN sph_real sph_medium_weight(sph_medium_side a) { return SPH_R(1) / (a.omega * a.rho * a.rho); }
+SPH_FN sph_pair_weights sph_pair_weights_of(sph_real m_j, sph_pair_kernel f, sph_real weight_i,
+                                            sph_real weight_j)
+{
+    sph_pair_weights w;
+    w.i = m_j * (f.f_i * weight_i);
+    w.j = m_j * (f.f_j * weight_j);
+    return w;
+}
+
+/* Difference forms, exact for constants. weight = m_j F_i; a_ij = A_i - A_j:
+       div A_i = sph_medium_difference(i, sum of weight a_ij . x_ij), (20),
+       curl A_i = -sph_medium_difference(i, each component of the sum of weight a_ij x x_ij), Price 2012,
+       (79). */
+SPH_FN sph_real sph_divergence_pair_difference(int dim, sph_real weight, sph_vec a_ij, sph_vec x_ij)
+{
+    return weight * sph_dot(dim, a_ij, x_ij);
+}
+SPH_FN sph_vec sph_curl_pair_difference(sph_real weight, sph_vec a_ij, sph_vec x_ij)
+{
+    const sph_vec d = sph_scale(weight, a_ij);
+    sph_vec c;
+    c.x = d.y * x_ij.z - d.z * x_ij.y;
+    c.y = d.z * x_ij.x - d.x * x_ij.z;
+    c.z = d.x * x_ij.y - d.y * x_ij.x;
+    return c;
+}
+SPH_FN sph_real sph_medium_difference(sph_medium_side i, sph_real sum) { return -sum / (i.omega * i.rho); }
+
+/* Symmetric forms, which are rho_i times the sums of these: the conjugates of the difference forms, not 0 for
+   constants. div: what (9) subtracts; grad: (23). */
+SPH_FN sph_real sph_divergence_pair_symmetric(int dim, sph_pair_weights w, sph_vec a_i, sph_vec a_j,
+                                              sph_vec x_ij)
+{
+    return sph_dot(dim, a_i, x_ij) * w.i + sph_dot(dim, a_j, x_ij) * w.j;
+}
+SPH_FN sph_vec sph_gradient_pair_symmetric(sph_pair_weights w, sph_real f_i, sph_real f_j, sph_vec x_ij)
+{
+    return sph_scale(f_i * w.i + f_j * w.j, x_ij);
+}
+
+/* -------- magnetohydrodynamics: pair functions */
+
+/* Stretching of the field, (7): weight (B_i . x_ij) v_ij, weight = m_j F_i. With div v in difference form
+       dB_i/dt = sph_medium_difference(i, each component of the sum) - B_i div v_i. */
+SPH_FN sph_vec sph_induction_pair(sph_real weight, sph_real Bx_i, sph_vec v_ij)
+{
+    return sph_scale(weight * Bx_i, v_ij);
+}
+/* Artificial resistivity, (10): dB_i/dt has rho_i sum_j weight B_ij of it, weight = m_j eta G r, eta =
+   alpha_B v_sig / rho^2 with the mean density (its square: a misprint of (10)). */
+SPH_FN sph_real sph_resistivity_pair(sph_real weight, sph_real alpha_speed, sph_real per_rho)
+{
+    return weight * alpha_speed * per_rho * per_rho;
+}
+
+/* The values of one particle; psi is not read without cleaning. */
+typedef struct sph_mhd_side {
+    sph_medium_side medium;
+    sph_real p, u, cs, alpha, alpha_B, psi;
+    sph_vec v, field;
+} sph_mhd_side;
+/* parts: 3 where v and field have three components, else the dimension. cleans: 1: there is a psi. */
+typedef struct sph_mhd_terms {
+    sph_real beta, alpha_u;
+    int parts, cleans;
+} sph_mhd_terms;
+/* What j adds to the sums of i, and the sums. */
+typedef struct sph_mhd_sums {
+    sph_vec force, stretching, cleaning, resistivity;
+    sph_real tension, div_v, div_B, heat;
+    sph_real speed; /* of signals between the two; of a sum: the largest */
+} sph_mhd_sums;
+
+/* The whole interaction: (6), (7), (10), (23), artificial viscosity and conductivity; see sph_mhd_rates. */
+SPH_FN sph_mhd_sums sph_mhd_pair(int dim, sph_mhd_terms terms, sph_mhd_side i, sph_mhd_side j,
+                                 sph_pair_kernel f, sph_vec x_ij)
+{
+    /* of either side one division serves rho and Omega */
+    const sph_real both_i = SPH_R(1) / (i.medium.omega * i.medium.rho),
+                   both_j = SPH_R(1) / (j.medium.omega * j.medium.rho), per_rho_i = i.medium.omega * both_i,
+                   per_rho_j = j.medium.omega * both_j, m_j = j.medium.m;
+    const sph_pair_weights g = sph_pair_weights_of(m_j, f, per_rho_i * both_i, per_rho_j * both_j);
+    const sph_real mean_f =
+                       SPH_R(0.5) * m_j * (f.f_i * (i.medium.rho * both_i) + f.f_j * (j.medium.rho * both_j)),
+                   weight = m_j * f.f_i, per_rho = SPH_R(2) / (i.medium.rho + j.medium.rho),
+                   per_r = SPH_R(1) / (f.r + SPHI_TINY);
+    const sph_vec v_ij = sph_subtract(terms.parts, i.v, j.v),
+                  B_ij = sph_subtract(terms.parts, i.field, j.field);
+    const sph_real Bx_i = sph_dot(dim, i.field, x_ij), Bx_j = sph_dot(dim, j.field, x_ij),
+                   vx = sph_dot(dim, v_ij, x_ij), w = vx * per_r, along_i = Bx_i * per_r,
+                   along_j = Bx_j * per_r;
+    const sph_real speed = sph_signal_speed(
+        sphi_fast_speed(i.cs * i.cs, sph_dot(3, i.field, i.field) * per_rho_i, along_i * along_i * per_rho_i),
+        sphi_fast_speed(j.cs * j.cs, sph_dot(3, j.field, j.field) * per_rho_j, along_j * along_j * per_rho_j),
+        terms.beta * SPHI_ABS(w));
+    const sph_real viscosity = sph_viscosity_signal(SPH_R(0.5) * (i.alpha + j.alpha) * speed, w, per_rho),
+                   push = viscosity * mean_f, /* times -x_ij */
+        resistivity =
+            sph_resistivity_pair(mean_f * f.r, SPH_R(0.5) * (i.alpha_B + j.alpha_B) * speed, per_rho),
+                   conduction =
+                       terms.alpha_u * sph_conductivity_speed(i.p, j.p, per_rho) * (i.u - j.u) * per_rho;
+    const sph_vec t_i = sph_mhd_traction(i.field, i.p, Bx_i, x_ij),
+                  t_j = sph_mhd_traction(j.field, j.p, Bx_j, x_ij);
+    sph_mhd_sums c;
+    c.force.x = t_i.x * g.i + t_j.x * g.j - push * x_ij.x;
+    c.force.y = t_i.y * g.i + t_j.y * g.j - push * x_ij.y;
+    c.force.z = t_i.z * g.i + t_j.z * g.j - push * x_ij.z;
+    c.stretching = sph_induction_pair(weight, Bx_i, v_ij);
+    c.cleaning = sph_gradient_pair_symmetric(g, terms.cleans ? i.psi : SPH_R(0),
+                                             terms.cleans ? j.psi : SPH_R(0), x_ij);
+    c.resistivity = sph_scale(resistivity, B_ij);
+    c.tension = Bx_i * g.i + Bx_j * g.j;
+    c.div_v = weight * vx;
+    c.div_B = weight * (Bx_i - Bx_j);
+    c.heat = mean_f * f.r * (SPH_R(0.5) * viscosity * w + conduction) -
+             SPH_R(0.5) * resistivity * sph_dot(terms.parts, B_ij, B_ij);
+    c.speed = speed;
+    return c;
+}
+
+/* What the sums make: the rates of particle i. tensile: see sph_mhd; wave: ch = 0 without cleaning. */
+typedef struct sph_mhd_change {
+    sph_vec acceleration, rate_B;
+    sph_real rate_u, rate_psi, div_B, div_v;
+} sph_mhd_change;
+SPH_FN sph_mhd_change sph_mhd_value(sph_mhd_side i, sph_mhd_sums s, sph_real tensile, sph_cleaning_wave wave)
+{
+    const sph_real per = SPH_R(1) / (i.medium.omega * i.medium.rho), rho = i.medium.rho;
+    sph_mhd_change c;
+    c.div_v = -s.div_v * per;
+    c.div_B = -s.div_B * per;
+    c.acceleration = sph_subtract(3, s.force, sph_scale(tensile * s.tension, i.field));
+    c.rate_B.x = rho * (s.resistivity.x - s.cleaning.x) - s.stretching.x * per - i.field.x * c.div_v;
+    c.rate_B.y = rho * (s.resistivity.y - s.cleaning.y) - s.stretching.y * per - i.field.y * c.div_v;
+    c.rate_B.z = rho * (s.resistivity.z - s.cleaning.z) - s.stretching.z * per - i.field.z * c.div_v;
+    c.rate_u = i.p * sph_medium_weight(i.medium) * s.div_v + s.heat;
+    c.rate_psi = sph_cleaning_rate(wave, i.psi, c.div_B, c.div_v);
+    return c;
+}
+
 /* -------- magnetohydrodynamics and divergence cleaning: sweeps
    Lists of all pairs with r < support * max(h_i, h_j) (SPH_LARGER). rho and Omega: from sph_density_adaptive,
    or any density and sph_scalars_same(&one) for an h that is constant. Vectors may have a third component in
    two dimensions: it is there if its array is. */
 
 /* m, rho, Omega of all sources */
-typedef struct sph_gas {
+typedef struct sph_medium {
     sph_scalars m, rho, omega;
-} sph_gas;
+} sph_medium;
 
 SPH_FN sph_cleaning_wave sphi_cleaning_wave(sph_real ch, sph_real sigma, sph_real h)
 {
@@ -4404,52 +4679,43 @@ SPH_FN sph_cleaning_wave sphi_cleaning_wave(sph_real ch, sph_real sigma, sph_rea
     w.h = h;
     return w;
 }
-SPH_FN int sphi_check_gas(sph_kernel k, int dim, sph_cloud cloud, sph_gas g)
+SPH_FN int sphi_check_medium(sph_kernel k, int dim, sph_cloud cloud, sph_medium g)
 {
-    int error = sphi_check_sweep(k, dim, cloud, g.m);
-    if (!error) error = sphi_check_positive(g.rho, cloud.points.n);
-    return error ? error : sphi_check_positive(g.omega, cloud.points.n);
+    int error = sphi_check_sweep(k, dim, cloud, "m", g.m);
+    if (!error) error = sphi_check_positive("rho", g.rho, cloud.points.n);
+    return error ? error : sphi_check_positive("omega", g.omega, cloud.points.n);
 }
 /* three components where there are three arrays, else dim */
 SPH_FN int sphi_components(int dim, sph_vectors v) { return v.z.p ? 3 : dim; }
-SPH_FN int sphi_check_out(int parts, sph_vector_out v) { return sphi_check_vector(parts, v.x, v.y, v.z); }
 
-/* the pair i, j: x_ij, r, and the factors of the kernel. One division serves all of rho_j and Omega_j. */
-typedef struct sphi_mhd_pair {
-    sph_vec x;
-    sph_real r, F_i, F_j, g_i, g_j, per_rho, per_omega;
-} sphi_mhd_pair;
-SPH_FN sphi_mhd_pair sphi_mhd_pair_of(sph_kernel k, int dim, int uniform, sph_points x, sph_scalars h,
-                                      const sph_gas *g, sph_vec x_i, sph_real h_i, sph_real own, sph_index j)
+SPH_FN sph_medium_side sphi_medium_side(const sph_medium *g, sph_index i)
 {
-    const sph_real rho_j = sphi_at(g->rho, j), omega_j = sphi_at(g->omega, j),
-                   per_both = SPH_R(1) / (omega_j * rho_j);
-    sphi_mhd_pair c;
-    c.x = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
-    c.r = sph_length(dim, c.x);
-    c.F_i = sph_kernel_f(k, dim, c.r, h_i);
-    c.F_j = uniform ? c.F_i : sph_kernel_f(k, dim, c.r, sphi_at(h, j));
-    c.g_i = c.F_i * own;
-    c.per_rho = omega_j * per_both;
-    c.per_omega = rho_j * per_both;
-    c.g_j = c.F_j * c.per_rho * per_both;
-    return c;
+    sph_medium_side a;
+    a.m = sphi_at(g->m, i);
+    a.rho = sphi_at(g->rho, i);
+    a.omega = sphi_at(g->omega, i);
+    return a;
 }
-SPH_FN sph_real sphi_mhd_own(const sph_gas *g, sph_index i)
+SPH_FN sph_pair_kernel sphi_pair_kernel(sph_kernel k, int dim, int uniform, sph_vec x_ij, sph_real h_i,
+                                        sph_scalars h, sph_index j)
 {
-    return SPH_R(1) / (sphi_at(g->omega, i) * sphi_at(g->rho, i) * sphi_at(g->rho, i));
+    sph_pair_kernel f;
+    f.r = sph_length(dim, x_ij);
+    f.f_i = sph_kernel_f(k, dim, f.r, h_i);
+    f.f_j = uniform ? f.f_i : sph_kernel_f(k, dim, f.r, sphi_at(h, j));
+    return f;
 }
 
 /* div A_i = -(1 / (Omega_i rho_i)) sum_j m_j (A_i - A_j) . grad_i W_ij(h_i): difference form, (20); exact for
    constants, and -(drho/dt) / rho for A = v. */
-SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_cloud cloud, sph_gas gas,
-                                           sph_vectors field, SPH_GLOBAL sph_real *out)
+SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
+                                           sph_vectors field, sph_scalar_out out)
 {
-    int error = sphi_check_gas(k, dim, cloud, gas);
+    int error = sphi_check_medium(k, dim, cloud, medium);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_vectors(dim, field, cloud.points.n);
-    if (!error && !out) error = SPH_ERROR_NULL;
-    if (error) return error;
+    if (!error) error = sphi_check_vectors("field", dim, field, cloud.points.n);
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i), A_i = sphi_vector_at(dim, field, i);
         const sph_real h_i = sphi_at(cloud.h, i);
@@ -4458,116 +4724,115 @@ SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_cloud clou
         for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
-            const sph_vec A_ij = sph_subtract(
-                dim, A_i,
-                sphi_vector_at(
-                    dim, field,
-                    j)); /* by itself: tcc 0.9.27 loses a float product with a call of a call of a struct */
-            sum += sphi_at(gas.m, j) * sph_dot(dim, A_ij, x_ij) *
-                   sph_kernel_f(k, dim, sph_length(dim, x_ij), h_i);
+            const sph_vec A_ij = sph_subtract(dim, A_i, sphi_vector_at(dim, field, j));
+            const sph_real f_i = sph_kernel_f(k, dim, sph_length(dim, x_ij), h_i);
+            sum += sph_divergence_pair_difference(dim, sphi_at(medium.m, j) * f_i, A_ij, x_ij);
         }
-        failed += sphi_store_finite(out, i, -sum / (sphi_at(gas.omega, i) * sphi_at(gas.rho, i)));
+        failed += sphi_store(out, i, sph_medium_difference(sphi_medium_side(&medium, i), sum));
     }
     return failed;
 }
 /* div A_i = rho_i sum_j m_j (A_i g_i + A_j g_j) . x_ij: symmetric form; what (9) subtracts. It measures the
    disorder of the particles, too, and is not 0 for constant A. */
-SPH_FN sph_index sph_divergence_symmetric(sph_kernel k, int dim, sph_cloud cloud, sph_gas gas,
-                                          sph_vectors field, SPH_GLOBAL sph_real *out)
+SPH_FN sph_index sph_divergence_symmetric(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
+                                          sph_vectors field, sph_scalar_out out)
 {
-    int error = sphi_check_gas(k, dim, cloud, gas);
+    int error = sphi_check_medium(k, dim, cloud, medium);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_vectors(dim, field, cloud.points.n);
-    if (!error && !out) error = SPH_ERROR_NULL;
-    if (error) return error;
+    if (!error) error = sphi_check_vectors("field", dim, field, cloud.points.n);
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i), A_i = sphi_vector_at(dim, field, i);
-        const sph_real h_i = sphi_at(cloud.h, i), own = sphi_mhd_own(&gas, i);
+        const sph_real h_i = sphi_at(cloud.h, i), own = sph_medium_weight(sphi_medium_side(&medium, i));
         sph_real sum = SPH_R(0);
         SPH_SUM(sum)
         for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
             const sph_index j = cloud.list.index[p];
-            const sphi_mhd_pair c =
-                sphi_mhd_pair_of(k, dim, 0, cloud.points, cloud.h, &gas, x_i, h_i, own, j);
-            sum += sphi_at(gas.m, j) * (sph_dot(dim, A_i, c.x) * c.g_i +
-                                        sph_dot(dim, sphi_vector_at(dim, field, j), c.x) * c.g_j);
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_medium_side other = sphi_medium_side(&medium, j);
+            const sph_pair_weights w = sph_pair_weights_of(
+                other.m, sphi_pair_kernel(k, dim, 0, x_ij, h_i, cloud.h, j), own, sph_medium_weight(other));
+            sum += sph_divergence_pair_symmetric(dim, w, A_i, sphi_vector_at(dim, field, j), x_ij);
         }
-        failed += sphi_store_finite(out, i, sphi_at(gas.rho, i) * sum);
+        failed += sphi_store(out, i, sphi_at(medium.rho, i) * sum);
     }
     return failed;
 }
 /* grad f_i = rho_i sum_j m_j (f_i g_i + f_j g_j) x_ij: the conjugate of the difference divergence, (23); not
    0 for constant f. */
-SPH_FN sph_index sph_gradient_symmetric(sph_kernel k, int dim, sph_cloud cloud, sph_gas gas, sph_scalars f,
-                                        sph_vector_out out)
+SPH_FN sph_index sph_gradient_symmetric(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
+                                        sph_scalars f, sph_vector_out out)
 {
-    int error = sphi_check_gas(k, dim, cloud, gas);
+    int error = sphi_check_medium(k, dim, cloud, medium);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_field(f, cloud.points.n);
-    if (!error) error = sphi_check_out(dim, out);
-    if (error) return error;
+    if (!error) error = sphi_check_field("f", f, cloud.points.n);
+    if (!error) error = sphi_check_out("out", dim, out);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
-        const sph_real h_i = sphi_at(cloud.h, i), own = sphi_mhd_own(&gas, i), f_i = sphi_at(f, i),
-                       rho_i = sphi_at(gas.rho, i);
+        const sph_real h_i = sphi_at(cloud.h, i), own = sph_medium_weight(sphi_medium_side(&medium, i)),
+                       f_i = sphi_at(f, i), rho_i = sphi_at(medium.rho, i);
         sph_real sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
         sph_vec sum;
         SPH_SUM(sx, sy, sz)
         for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
             const sph_index j = cloud.list.index[p];
-            const sphi_mhd_pair c =
-                sphi_mhd_pair_of(k, dim, 0, cloud.points, cloud.h, &gas, x_i, h_i, own, j);
-            const sph_real b = rho_i * sphi_at(gas.m, j) * (f_i * c.g_i + sphi_at(f, j) * c.g_j);
-            sx += b * c.x.x;
-            if (dim > 1) sy += b * c.x.y;
-            if (dim > 2) sz += b * c.x.z;
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_medium_side other = sphi_medium_side(&medium, j);
+            const sph_pair_weights w = sph_pair_weights_of(
+                other.m, sphi_pair_kernel(k, dim, 0, x_ij, h_i, cloud.h, j), own, sph_medium_weight(other));
+            const sph_vec c = sph_gradient_pair_symmetric(w, f_i, sphi_at(f, j), x_ij);
+            sx += c.x;
+            if (dim > 1) sy += c.y;
+            if (dim > 2) sz += c.z;
         }
-        sum.x = sx;
-        sum.y = sy;
-        sum.z = sz;
+        sum.x = rho_i * sx;
+        sum.y = rho_i * sy;
+        sum.z = rho_i * sz;
         failed += sphi_store_vector(dim, out, i, sum);
     }
     return failed;
 }
 /* curl A_i = (1 / (Omega_i rho_i)) sum_j m_j (A_i - A_j) x grad_i W_ij(h_i): difference form, three
    components (in 2D of A that has two: the third). Exact for constants. Price 2012, (79). */
-SPH_FN sph_index sph_curl_difference(sph_kernel k, int dim, sph_cloud cloud, sph_gas gas, sph_vectors field,
-                                     sph_vector_out out)
+SPH_FN sph_index sph_curl_difference(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
+                                     sph_vectors field, sph_vector_out out)
 {
     const int parts = sphi_components(dim, field);
-    int error = sphi_check_gas(k, dim, cloud, gas);
+    int error = sphi_check_medium(k, dim, cloud, medium);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_vectors(parts, field, cloud.points.n);
-    if (!error) error = sphi_check_out(3, out);
-    if (error) return error;
+    if (!error) error = sphi_check_vectors("field", parts, field, cloud.points.n);
+    if (!error) error = sphi_check_out("out", 3, out);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i), A_i = sphi_vector_at(parts, field, i);
-        const sph_real h_i = sphi_at(cloud.h, i),
-                       scale = SPH_R(1) / (sphi_at(gas.omega, i) * sphi_at(gas.rho, i));
+        const sph_real h_i = sphi_at(cloud.h, i);
+        const sph_medium_side own = sphi_medium_side(&medium, i);
         sph_real cx = SPH_R(0), cy = SPH_R(0), cz = SPH_R(0);
         sph_vec sum;
         SPH_SUM(cx, cy, cz)
         for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
-            const sph_vec d = sph_scale(sphi_at(gas.m, j) * sph_kernel_f(k, dim, sph_length(dim, x_ij), h_i),
-                                        sph_subtract(3, A_i, sphi_vector_at(parts, field, j)));
-            cx += d.y * x_ij.z - d.z * x_ij.y;
-            cy += d.z * x_ij.x - d.x * x_ij.z;
-            cz += d.x * x_ij.y - d.y * x_ij.x;
+            const sph_vec A_ij = sph_subtract(3, A_i, sphi_vector_at(parts, field, j));
+            const sph_real f_i = sph_kernel_f(k, dim, sph_length(dim, x_ij), h_i);
+            const sph_vec c = sph_curl_pair_difference(sphi_at(medium.m, j) * f_i, A_ij, x_ij);
+            cx += c.x;
+            cy += c.y;
+            cz += c.z;
         }
-        sum.x = scale * cx;
-        sum.y = scale * cy;
-        sum.z = scale * cz;
+        sum.x = -sph_medium_difference(own, cx);
+        sum.y = -sph_medium_difference(own, cy);
+        sum.z = -sph_medium_difference(own, cz);
         failed += sphi_store_vector(3, out, i, sum);
     }
     return failed;
 }
 
-enum { SPHI_CONJUGATE, SPHI_DIFFERENCES, SPHI_OTHER_CONJUGATE };
 /* div_v: null: 0. ch: speed of the cleaning waves. sigma: damping, see sph_cleaning_sigma. */
 typedef struct sph_cleaning {
-    sph_gas gas;
+    sph_medium medium;
     sph_vectors field;
     sph_scalars psi, div_v;
     sph_real ch, sigma;
@@ -4575,61 +4840,9 @@ typedef struct sph_cleaning {
 typedef struct sph_cleaning_out {
     sph_vector_out rate_B;
     SPH_GLOBAL sph_real *rate_psi, *div_B; /* div_B may be null */
+    size_t stride;                         /* of these two */
+    SPH_GLOBAL unsigned char *status;      /* may be null */
 } sph_cleaning_out;
-SPH_FN sph_index sphi_cleaning(int form, sph_kernel k, int dim, sph_cloud cloud, sph_cleaning state,
-                               sph_cleaning_out out)
-{
-    const sph_gas gas = state.gas;
-    const sph_vectors field = state.field;
-    const sph_scalars psi = state.psi, div_v = state.div_v;
-    const sph_real ch = state.ch, sigma = state.sigma;
-    int error = sphi_check_gas(k, dim, cloud, gas);
-    sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_vectors(dim, field, cloud.points.n);
-    if (!error) error = sphi_check_field(psi, cloud.points.n);
-    if (!error && div_v.p) error = sphi_check_field(div_v, cloud.points.n);
-    if (!error) error = sphi_check_out(dim, out.rate_B);
-    if (!error && !out.rate_psi) error = SPH_ERROR_NULL;
-    if (!error && (!sphi_finite(ch) || ch < SPH_R(0) || !sphi_finite(sigma) || sigma < SPH_R(0)))
-        error = SPH_ERROR_VALUE;
-    if (error) return error;
-    for (i = cloud.first; i < cloud.last; i++) {
-        const sph_vec x_i = sphi_point(dim, cloud.points, i), B_i = sphi_vector_at(dim, field, i);
-        const sph_real h_i = sphi_at(cloud.h, i), rho_i = sphi_at(gas.rho, i), own = sphi_mhd_own(&gas, i),
-                       psi_i = sphi_at(psi, i);
-        sph_real sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0), divergence = SPH_R(0);
-        sph_vec sum;
-        int lost;
-        SPH_SUM(sx, sy, sz, divergence)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
-            const sph_index j = cloud.list.index[p];
-            const sphi_mhd_pair c =
-                sphi_mhd_pair_of(k, dim, 0, cloud.points, cloud.h, &gas, x_i, h_i, own, j);
-            const sph_vec B_j = sphi_vector_at(dim, field, j);
-            const sph_real m_j = sphi_at(gas.m, j), psi_j = sphi_at(psi, j);
-            /* rho_i (psi_i g_i + psi_j g_j), or rho_i (psi_j - psi_i) g_i; the divergence likewise */
-            const sph_real b =
-                form == SPHI_CONJUGATE ? psi_i * c.g_i + psi_j * c.g_j : (psi_j - psi_i) * c.g_i;
-            divergence += m_j * (form == SPHI_OTHER_CONJUGATE
-                                     ? sph_dot(dim, B_i, c.x) * c.g_i + sph_dot(dim, B_j, c.x) * c.g_j
-                                     : sph_dot(dim, sph_subtract(dim, B_j, B_i), c.x) * c.g_i);
-            sx -= m_j * b * c.x.x;
-            if (dim > 1) sy -= m_j * b * c.x.y;
-            if (dim > 2) sz -= m_j * b * c.x.z;
-        }
-        sum.x = rho_i * sx;
-        sum.y = rho_i * sy;
-        sum.z = rho_i * sz;
-        divergence *= rho_i;
-        lost = sphi_store_vector(dim, out.rate_B, i, sum);
-        lost |= sphi_store_finite(out.rate_psi, i,
-                                  sph_cleaning_rate(sphi_cleaning_wave(ch, sigma, h_i), psi_i, divergence,
-                                                    div_v.p ? sphi_at(div_v, i) : SPH_R(0)));
-        if (out.div_B) lost |= sphi_store_finite(out.div_B, i, divergence);
-        failed += lost;
-    }
-    return failed;
-}
 /* Divergence cleaning alone, for a host that has the rest of its MHD: dB/dt = -grad psi in symmetric form
    (23), dpsi/dt = -ch^2 div B - sigma ch psi / h - psi div v / 2 with div B in difference form (20), (25).
    div_v: sph_scalars_array(0) where nothing moves. div_B may be null. ch: one speed for all particles, the
@@ -4639,26 +4852,60 @@ SPH_FN sph_index sphi_cleaning(int form, sph_kernel k, int dim, sph_cloud cloud,
 SPH_FN sph_index sph_cleaning_rates(sph_kernel k, int dim, sph_cloud cloud, sph_cleaning state,
                                     sph_cleaning_out out)
 {
-    return sphi_cleaning(SPHI_CONJUGATE, k, dim, cloud, state, out);
-}
-/* The pair of difference forms that came before. DO NOT USE: it does not conserve energy, and grows
-   exponentially at free boundaries and density jumps. Here to compare with. */
-SPH_FN sph_index sph_cleaning_rates_nonconservative(sph_kernel k, int dim, sph_cloud cloud,
-                                                    sph_cleaning state, sph_cleaning_out out)
-{
-    return sphi_cleaning(SPHI_DIFFERENCES, k, dim, cloud, state, out);
-}
-/* The other conjugate pair: div B symmetric, grad psi in difference form. Conserves energy, too, but cleans
-   the disorder of the particles out of B: it dissipates magnetic energy. To compare with. */
-SPH_FN sph_index sph_cleaning_rates_symmetric(sph_kernel k, int dim, sph_cloud cloud, sph_cleaning state,
-                                              sph_cleaning_out out)
-{
-    return sphi_cleaning(SPHI_OTHER_CONJUGATE, k, dim, cloud, state, out);
+    const sph_medium medium = state.medium;
+    const sph_vectors field = state.field;
+    const sph_scalars psi = state.psi, div_v = state.div_v;
+    const sph_real ch = state.ch, sigma = state.sigma;
+    const size_t stride = sphi_stride(out.stride);
+    int error = sphi_check_medium(k, dim, cloud, medium);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_vectors("field", dim, field, cloud.points.n);
+    if (!error) error = sphi_check_field("psi", psi, cloud.points.n);
+    if (!error && div_v.p) error = sphi_check_field("div_v", div_v, cloud.points.n);
+    if (!error) error = sphi_check_out("rate_B", dim, out.rate_B);
+    if (!error && !out.rate_psi) error = sphi_refuse("out.rate_psi", -1, SPH_ERROR_NULL);
+    if (!error && (!sphi_finite(ch) || ch < SPH_R(0) || !sphi_finite(sigma) || sigma < SPH_R(0)))
+        error = sphi_refuse("ch, sigma", -1, SPH_ERROR_VALUE);
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), B_i = sphi_vector_at(dim, field, i);
+        const sph_real h_i = sphi_at(cloud.h, i), rho_i = sphi_at(medium.rho, i),
+                       own = sph_medium_weight(sphi_medium_side(&medium, i)), psi_i = sphi_at(psi, i);
+        sph_real sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0), divergence = SPH_R(0);
+        sph_vec sum;
+        int lost;
+        SPH_SUM(sx, sy, sz, divergence)
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_medium_side other = sphi_medium_side(&medium, j);
+            const sph_pair_weights w = sph_pair_weights_of(
+                other.m, sphi_pair_kernel(k, dim, 0, x_ij, h_i, cloud.h, j), own, sph_medium_weight(other));
+            const sph_vec B_ji = sph_subtract(dim, sphi_vector_at(dim, field, j), B_i);
+            const sph_vec c = sph_gradient_pair_symmetric(w, psi_i, sphi_at(psi, j), x_ij);
+            divergence += sph_divergence_pair_difference(dim, w.i, B_ji, x_ij);
+            sx -= c.x;
+            if (dim > 1) sy -= c.y;
+            if (dim > 2) sz -= c.z;
+        }
+        sum.x = rho_i * sx;
+        sum.y = rho_i * sy;
+        sum.z = rho_i * sz;
+        divergence *= rho_i; /* w.i has g_i, which is F_i / (Omega rho) over rho */
+        lost = sphi_store_vector(dim, out.rate_B, i, sum);
+        lost |= sphi_put(out.rate_psi, stride, i,
+                         sph_cleaning_rate(sphi_cleaning_wave(ch, sigma, h_i), psi_i, divergence,
+                                           div_v.p ? sphi_at(div_v, i) : SPH_R(0)));
+        lost |= sphi_put(out.div_B, stride, i, divergence);
+        sphi_tell(out.status, i, lost);
+        failed += lost;
+    }
+    return failed;
 }
 
 /* A magnetised gas; n numbers each, all sources. */
 typedef struct sph_mhd {
-    sph_gas gas;
+    sph_medium medium;
     sph_scalars p, u, cs; /* pressure, thermal energy per mass, sound speed */
     sph_scalars alpha,
         alpha_B; /* viscosity and resistivity of each particle, 0 ... 1 (0: none); a pair takes the mean */
@@ -4674,111 +4921,112 @@ typedef struct sph_mhd {
 typedef struct sph_mhd_out {
     sph_vector_out acceleration, rate_B;
     SPH_GLOBAL sph_real *rate_u, *rate_psi, *div_B, *div_v, *v_sig;
+    size_t stride; /* of these five */
+    SPH_GLOBAL unsigned char *status;
 } sph_mhd_out;
 
+SPH_FN sph_mhd_side sphi_mhd_side(int parts, int cleans, const sph_mhd *s, sph_index i)
+{
+    sph_mhd_side a;
+    a.medium = sphi_medium_side(&s->medium, i);
+    a.p = sphi_at(s->p, i);
+    a.u = sphi_at(s->u, i);
+    a.cs = sphi_at(s->cs, i);
+    a.alpha = sphi_at(s->alpha, i);
+    a.alpha_B = sphi_at(s->alpha_B, i);
+    a.psi = cleans ? sphi_at(s->psi, i) : SPH_R(0);
+    a.v = sphi_vector_at(parts, s->v, i);
+    a.field = sphi_vector_at(parts, s->field, i);
+    return a;
+}
 SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k, int dim, sph_cloud cloud,
                                 const sph_mhd *s, const sph_mhd_out *out)
 {
-    const sph_real support = sph_kernel_support(k);
+    const sph_real support = sph_kernel_support_ratio(k);
+    const size_t stride = sphi_stride(out->stride);
     sph_real v_sig[SPHI_TILE];
+    sph_mhd_terms terms;
     sph_index i, p, tile, end, failed = 0;
+    terms.beta = s->beta;
+    terms.alpha_u = s->alpha_u;
+    terms.parts = parts;
+    terms.cleans = cleans;
     for (i = cloud.first; i < cloud.last; i++) {
-        const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(parts, s->v, i),
-                      B_i = sphi_vector_at(parts, s->field, i);
-        const sph_real h_i = sphi_at(cloud.h, i), rho_i = sphi_at(s->gas.rho, i),
-                       own = sphi_mhd_own(&s->gas, i), omega_i = sphi_at(s->gas.omega, i);
-        const sph_real P_i = sphi_at(s->p, i), u_i = sphi_at(s->u, i), cs_i = sphi_at(s->cs, i),
-                       alpha_i = sphi_at(s->alpha, i), alpha_B_i = sphi_at(s->alpha_B, i),
-                       psi_i = cleans ? sphi_at(s->psi, i) : SPH_R(0);
-        const sph_real per_rho_i = SPH_R(1) / rho_i, per_omega_i = SPH_R(1) / omega_i, sound2_i = cs_i * cs_i,
-                       alfven2_i = sph_dot(3, B_i, B_i) * per_rho_i;
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        const sph_mhd_side own = sphi_mhd_side(parts, cleans, s, i);
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0), tension = SPH_R(0), sv = SPH_R(0),
                  sB = SPH_R(0), heat = SPH_R(0);
         sph_real ix = SPH_R(0), iy = SPH_R(0), iz = SPH_R(0), cx = SPH_R(0), cy = SPH_R(0), cz = SPH_R(0),
                  rx = SPH_R(0), ry = SPH_R(0), rz = SPH_R(0);
-        sph_vec a, b;
-        sph_real div_v, div_B, fastest = sphi_fast_speed(sound2_i, alfven2_i, SPH_R(0));
+        sph_mhd_sums sums;
+        sph_mhd_change change;
         int lost;
+        sums.speed = sph_mhd_fast_speed(own.cs, own.field, own.medium.rho, SPH_R(0));
         for (tile = cloud.list.start[i]; tile < cloud.list.start[i + 1]; tile = end) {
             end = cloud.list.start[i + 1] - tile < SPHI_TILE ? cloud.list.start[i + 1] : tile + SPHI_TILE;
             SPH_SUM(ax, ay, az, tension, sv, sB, heat, ix, iy, iz, cx, cy, cz, rx, ry, rz)
             for (p = tile; p < end; p++) {
                 const sph_index j = cloud.list.index[p];
-                const sphi_mhd_pair c =
-                    sphi_mhd_pair_of(k, dim, uniform, cloud.points, cloud.h, &s->gas, x_i, h_i, own, j);
-                const sph_vec B_j = sphi_vector_at(parts, s->field, j),
-                              v_ij = sph_subtract(parts, v_i, sphi_vector_at(parts, s->v, j)),
-                              B_ij = sph_subtract(parts, B_i, B_j);
-                const sph_real m_j = sphi_at(s->gas.m, j), P_j = sphi_at(s->p, j), cs_j = sphi_at(s->cs, j);
-                const sph_real per_rho = SPH_R(2) / (rho_i + sphi_at(s->gas.rho, j)); /* of the mean */
-                const sph_real Bx_i = sph_dot(dim, B_i, c.x), Bx_j = sph_dot(dim, B_j, c.x),
-                               vx = sph_dot(dim, v_ij, c.x), per_r = SPH_R(1) / (c.r + SPHI_TINY),
-                               w = vx * per_r, along_i = Bx_i * per_r, along_j = Bx_j * per_r,
-                               h_j = uniform ? h_i : sphi_at(cloud.h, j);
-                const sph_vec t_i = sph_mhd_traction(B_i, P_i, Bx_i, c.x),
-                              t_j = sph_mhd_traction(B_j, P_j, Bx_j, c.x);
-                const sph_real f_mean = SPH_R(0.5) * (c.F_i * per_omega_i + c.F_j * c.per_omega);
-                const sph_real speed =
-                    sph_mhd_signal_speed(sphi_fast_speed(sound2_i, alfven2_i, along_i * along_i * per_rho_i),
-                                         sphi_fast_speed(cs_j * cs_j, sph_dot(3, B_j, B_j) * c.per_rho,
-                                                         along_j * along_j * c.per_rho),
-                                         s->beta * SPHI_ABS(w));
-                const sph_real q = SPH_R(0.25) * (alpha_i + sphi_at(s->alpha, j)) * speed *
-                                   (w - SPHI_ABS(w)) *
-                                   per_rho; /* alpha v_sig w / rho where they approach; <= 0 */
-                const sph_real eta =
-                    SPH_R(0.5) * (alpha_B_i + sphi_at(s->alpha_B, j)) * speed * per_rho * per_rho;
-                const sph_real push = q * f_mean; /* times x: repels */
+                const sph_vec x_ij =
+                    sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+                const sph_pair_kernel f = sphi_pair_kernel(k, dim, uniform, x_ij, h_i, cloud.h, j);
+                const sph_mhd_sums c =
+                    sph_mhd_pair(dim, terms, own, sphi_mhd_side(parts, cleans, s, j), f, x_ij);
+                const sph_real h_j = uniform ? h_i : sphi_at(cloud.h, j);
+                ax += c.force.x;
+                ay += c.force.y;
+                az += c.force.z;
+                ix += c.stretching.x;
+                iy += c.stretching.y;
+                iz += c.stretching.z;
+                if (cleans) {
+                    cx += c.cleaning.x;
+                    cy += c.cleaning.y;
+                    cz += c.cleaning.z;
+                }
+                rx += c.resistivity.x;
+                ry += c.resistivity.y;
+                rz += c.resistivity.z;
+                tension += c.tension;
+                sv += c.div_v;
+                sB += c.div_B;
+                heat += c.heat;
                 /* 0 beyond both supports; no comparison, which would keep gcc from vectorising */
                 v_sig[p - tile] =
-                    speed * (SPH_R(0.5) +
-                             SPHI_COPYSIGN(SPH_R(0.5),
-                                           support * SPH_R(0.5) * (h_i + h_j + SPHI_ABS(h_i - h_j)) - c.r));
-                ax += m_j * (t_i.x * c.g_i + t_j.x * c.g_j + push * c.x.x);
-                ay += m_j * (t_i.y * c.g_i + t_j.y * c.g_j + push * c.x.y);
-                az += m_j * (t_i.z * c.g_i + t_j.z * c.g_j + push * c.x.z);
-                tension += m_j * (Bx_i * c.g_i + Bx_j * c.g_j);
-                sv += m_j * vx * c.F_i;
-                sB += m_j * (Bx_i - Bx_j) * c.F_i;
-                ix += m_j * v_ij.x * Bx_i * c.F_i;
-                iy += m_j * v_ij.y * Bx_i * c.F_i;
-                iz += m_j * v_ij.z * Bx_i * c.F_i;
-                if (cleans) {
-                    const sph_real e = m_j * (psi_i * c.g_i + sphi_at(s->psi, j) * c.g_j);
-                    cx += e * c.x.x;
-                    cy += e * c.x.y;
-                    cz += e * c.x.z;
-                }
-                rx += m_j * eta * B_ij.x * f_mean * c.r;
-                ry += m_j * eta * B_ij.y * f_mean * c.r;
-                rz += m_j * eta * B_ij.z * f_mean * c.r;
-                heat += m_j * f_mean * c.r *
-                        (SPH_R(-0.5) * q * w - SPH_R(0.5) * eta * sph_dot(parts, B_ij, B_ij) +
-                         s->alpha_u * sph_conductivity_speed(P_i, P_j, per_rho) * (u_i - sphi_at(s->u, j)) *
-                             per_rho);
+                    c.speed * (SPH_R(0.5) +
+                               SPHI_COPYSIGN(SPH_R(0.5),
+                                             support * SPH_R(0.5) * (h_i + h_j + SPHI_ABS(h_i - h_j)) - f.r));
             }
-            for (p = tile; p < end; p++) fastest = v_sig[p - tile] > fastest ? v_sig[p - tile] : fastest;
+            for (p = tile; p < end; p++)
+                sums.speed = v_sig[p - tile] > sums.speed ? v_sig[p - tile] : sums.speed;
         }
-        div_v = -sv / (omega_i * rho_i);
-        div_B = -sB / (omega_i * rho_i);
-        a.x = ax - s->tensile * B_i.x * tension;
-        a.y = ay - s->tensile * B_i.y * tension;
-        a.z = az - s->tensile * B_i.z * tension;
-        /* -(1 / (Omega rho)) sum m (v_ij (B_i . x) - B_i (v_ij . x)) F_i - grad psi + resistivity */
-        b.x = -ix / (omega_i * rho_i) - B_i.x * div_v + rho_i * (rx - cx);
-        b.y = -iy / (omega_i * rho_i) - B_i.y * div_v + rho_i * (ry - cy);
-        b.z = -iz / (omega_i * rho_i) - B_i.z * div_v + rho_i * (rz - cz);
-        lost = sphi_store_vector(parts, out->acceleration, i, a);
-        lost |= sphi_store_vector(parts, out->rate_B, i, b);
-        if (out->rate_u) lost |= sphi_store_finite(out->rate_u, i, P_i * own * sv + heat);
-        if (out->rate_psi)
-            lost |= sphi_store_finite(
-                out->rate_psi, i,
-                cleans ? sph_cleaning_rate(sphi_cleaning_wave(s->ch, s->sigma, h_i), psi_i, div_B, div_v)
-                       : SPH_R(0));
-        if (out->div_B) lost |= sphi_store_finite(out->div_B, i, div_B);
-        if (out->v_sig) lost |= sphi_store_finite(out->v_sig, i, fastest);
-        if (out->div_v) lost |= sphi_store_finite(out->div_v, i, div_v);
+        sums.force.x = ax;
+        sums.force.y = ay;
+        sums.force.z = az;
+        sums.stretching.x = ix;
+        sums.stretching.y = iy;
+        sums.stretching.z = iz;
+        sums.cleaning.x = cx;
+        sums.cleaning.y = cy;
+        sums.cleaning.z = cz;
+        sums.resistivity.x = rx;
+        sums.resistivity.y = ry;
+        sums.resistivity.z = rz;
+        sums.tension = tension;
+        sums.div_v = sv;
+        sums.div_B = sB;
+        sums.heat = heat;
+        change = sph_mhd_value(own, sums, s->tensile,
+                               sphi_cleaning_wave(cleans ? s->ch : SPH_R(0), s->sigma, h_i));
+        lost = sphi_store_vector(parts, out->acceleration, i, change.acceleration);
+        lost |= sphi_store_vector(parts, out->rate_B, i, change.rate_B);
+        lost |= sphi_put(out->rate_u, stride, i, change.rate_u);
+        lost |= sphi_put(out->rate_psi, stride, i, change.rate_psi);
+        lost |= sphi_put(out->div_B, stride, i, change.div_B);
+        lost |= sphi_put(out->div_v, stride, i, change.div_v);
+        lost |= sphi_put(out->v_sig, stride, i, sums.speed);
+        sphi_tell(out->status, i, lost);
         failed += lost;
     }
     return failed;
@@ -4796,12 +5044,12 @@ SPH_FN sph_index sphi_mhd_some(int parts, int cleans, sph_kernel k, int dim, sph
 SPH_FN int sphi_check_mhd(sph_kernel k, int dim, sph_cloud cloud, const sph_mhd *s)
 {
     const int parts = sphi_components(dim, s->v);
-    int error = sphi_check_gas(k, dim, cloud, s->gas);
-    if (!error) error = sphi_check_field(s->p, cloud.points.n);
-    if (!error) error = sphi_check_field(s->cs, cloud.points.n);
-    if (!error) error = sphi_check_vectors(parts, s->v, cloud.points.n);
-    if (!error) error = sphi_check_vectors(parts, s->field, cloud.points.n);
-    if (!error && !sphi_finite(s->beta)) error = SPH_ERROR_VALUE;
+    int error = sphi_check_medium(k, dim, cloud, s->medium);
+    if (!error) error = sphi_check_field("p", s->p, cloud.points.n);
+    if (!error) error = sphi_check_field("cs", s->cs, cloud.points.n);
+    if (!error) error = sphi_check_vectors("v", parts, s->v, cloud.points.n);
+    if (!error) error = sphi_check_vectors("field", parts, s->field, cloud.points.n);
+    if (!error && !sphi_finite(s->beta)) error = sphi_refuse("state.beta", -1, SPH_ERROR_VALUE);
     return error;
 }
 /* All rates of a magnetised gas in one pass:
@@ -4817,17 +5065,18 @@ SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_cloud cloud, sph_mhd s
 {
     const int parts = sphi_components(dim, state.v), cleans = state.psi.p != 0;
     int error = sphi_check_mhd(k, dim, cloud, &state);
-    if (!error) error = sphi_check_field(state.u, cloud.points.n);
-    if (!error) error = sphi_check_field(state.alpha, cloud.points.n);
-    if (!error) error = sphi_check_field(state.alpha_B, cloud.points.n);
-    if (!error && cleans) error = sphi_check_field(state.psi, cloud.points.n);
-    if (!error) error = sphi_check_out(parts, out.acceleration);
-    if (!error) error = sphi_check_out(parts, out.rate_B);
+    if (!error) error = sphi_check_field("u", state.u, cloud.points.n);
+    if (!error) error = sphi_check_field("alpha", state.alpha, cloud.points.n);
+    if (!error) error = sphi_check_field("alpha_B", state.alpha_B, cloud.points.n);
+    if (!error && cleans) error = sphi_check_field("psi", state.psi, cloud.points.n);
+    if (!error) error = sphi_check_out("acceleration", parts, out.acceleration);
+    if (!error) error = sphi_check_out("rate_B", parts, out.rate_B);
     if (!error && (!sphi_finite(state.ch) || state.ch < SPH_R(0) || !sphi_finite(state.sigma) ||
                    state.sigma < SPH_R(0)))
-        error = SPH_ERROR_VALUE;
-    if (!error && (!sphi_finite(state.alpha_u) || !sphi_finite(state.tensile))) error = SPH_ERROR_VALUE;
-    if (error) return error;
+        error = sphi_refuse("state.ch, sigma", -1, SPH_ERROR_VALUE);
+    if (!error && (!sphi_finite(state.alpha_u) || !sphi_finite(state.tensile)))
+        error = sphi_refuse("state.alpha_u, tensile", -1, SPH_ERROR_VALUE);
+    if (error) return sphi_answer_of(error);
     if (parts == dim) return sphi_mhd_some(dim, cleans, k, dim, cloud, &state, &out);
     return sphi_mhd_some(3, cleans, k, dim, cloud, &state, &out);
 }
@@ -4844,34 +5093,44 @@ SPH_FN sph_real sph_gravity_pair(sph_kernel k, sph_real r, sph_real h_i, sph_rea
 {
     return SPH_R(0.5) * (sph_gravity_force(k, r, h_i) + sph_gravity_force(k, r, h_j));
 }
+/* What self-gravity adds where h follows the density: weight of -G m_j x_ij in the acceleration of i: (zeta_i
+   F_i / Omega_i + zeta_j F_j / Omega_j) / 2; scaled = zeta / Omega. Price & Monaghan 2007, MNRAS 374,
+   1347. */
+SPH_FN sph_real sph_gravity_correction_pair(sph_pair_kernel f, sph_real scaled_i, sph_real scaled_j)
+{
+    return SPH_R(0.5) * (scaled_i * f.f_i + scaled_j * f.f_j);
+}
+/* zeta_i = dh_i/drho_i sum_j m_j dphi/dh(r, h_i), the particle itself included, dh/drho = -h / (3 rho): (22)
+   there. */
+SPH_FN sph_real sph_gravity_zeta_value(sph_real h, sph_real rho, sph_real sum)
+{
+    return -h / (SPH_R(3) * rho) * sum;
+}
 
 SPH_FN int sphi_check_gravity(sph_kernel k, sph_cloud cloud, sph_scalars m, sph_real newton)
 {
-    const sph_points x = cloud.points;
-    const sph_scalars h = cloud.h;
-    const sph_index first = cloud.first, last = cloud.last;
-    if ((unsigned)k >= (unsigned)SPH_KERNEL_COUNT || !sph_kernel_has_gravity(k)) return SPH_ERROR_KERNEL;
-    if (!x.x || !x.y || !x.z || !h.p || !m.p) return SPH_ERROR_NULL;
-    if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
-    if (first < 0 || first > last || last > x.n) return SPH_ERROR_RANGE;
-    if (!sphi_finite(newton)) return SPH_ERROR_VALUE;
-    if (!SPH_CHECK) return 0;
-    if (!sphi_all_finite(h, x.n) || !sphi_all_positive(h, x.n)) return SPH_ERROR_H;
-    if (sphi_check_positions(3, x)) return SPH_ERROR_POSITION;
-    return sphi_all_finite(m, x.n) ? 0 : SPH_ERROR_VALUE;
+    sph_real largest = SPH_R(0);
+    int error = sphi_check_targets(3, cloud);
+    if (error >= 0 && !sph_kernel_has_gravity(k)) return sphi_refuse("kernel", -1, SPH_ERROR_KERNEL);
+    if (!error) error = sphi_check_arrays(3, cloud.points);
+    if (!error && !sphi_finite(newton)) error = sphi_refuse("newton", -1, SPH_ERROR_VALUE);
+    if (!error && !cloud.h.p) error = sphi_refuse("h", -1, SPH_ERROR_NULL);
+    if (!error && cloud.checked != 1) error = sphi_check_h("h", cloud.h, cloud.points.n, &largest);
+    if (!error && cloud.checked != 1) error = sphi_check_positions(3, cloud.points);
+    return error ? error : sphi_check_field("m", m, cloud.points.n);
 }
 /* Acceleration and potential G sum_j m_j (phi(r, h_i) + phi(r, h_j)) / 2 (itself included; may be null) of
    the targets, by all sources: n^2 steps, for small clouds and to measure trees against. Isolated: box
    lengths are not looked at. Momentum is conserved to round-off. */
 SPH_FN sph_index sph_gravity_direct(sph_kernel k, sph_cloud cloud, sph_scalars m, sph_real newton,
-                                    sph_vector_out acceleration, SPH_GLOBAL sph_real *potential)
+                                    sph_vector_out acceleration, sph_scalar_out potential)
 {
     const sph_points x = cloud.points;
     const sph_scalars h = cloud.h;
     int error = sphi_check_gravity(k, cloud, m, newton);
     sph_index i, j, failed = 0;
-    if (!error) error = sphi_check_vector(3, acceleration.x, acceleration.y, acceleration.z);
-    if (error) return error;
+    if (!error) error = sphi_check_out("acceleration", 3, acceleration);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(3, x, i);
         const sph_real h_i = sphi_at(h, i);
@@ -4885,8 +5144,10 @@ SPH_FN sph_index sph_gravity_direct(sph_kernel k, sph_cloud cloud, sph_scalars m
             phi += SPH_R(0.5) * newton * m_j *
                    (sph_gravity_potential(k, r, h_i) + sph_gravity_potential(k, r, h_j));
         }
-        lost = sphi_store_vector(3, acceleration, i, a);
-        if (potential) lost |= sphi_store_finite(potential, i, phi);
+        lost = sphi_store_vector(3, acceleration, i, a) | !sphi_finite(phi);
+        if (potential.p)
+            sphi_answer(potential, i, sphi_finite(phi) ? phi : SPH_R(0),
+                        lost ? (int)SPH_NOT_FINITE : (int)SPH_OK);
         failed += lost;
     }
     return failed;
@@ -4894,14 +5155,14 @@ SPH_FN sph_index sph_gravity_direct(sph_kernel k, sph_cloud cloud, sph_scalars m
 /* zeta_i = dh_i/drho_i sum_j m_j dphi/dh(r, h_i), itself included, dh/drho = -h / (3 rho): (22) there. Lists
    as for the density. */
 SPH_FN sph_index sph_gravity_zeta(sph_kernel k, sph_cloud cloud, sph_scalars m, sph_scalars rho,
-                                  SPH_GLOBAL sph_real *zeta)
+                                  sph_scalar_out out)
 {
-    int error = sphi_check_sweep(k, 3, cloud, m);
+    int error = sphi_check_sweep(k, 3, cloud, "m", m);
     sph_index i, p, failed = 0;
-    if (!error && !sph_kernel_has_gravity(k)) error = SPH_ERROR_KERNEL;
-    if (!error) error = sphi_check_positive(rho, cloud.points.n);
-    if (!error && !zeta) error = SPH_ERROR_NULL;
-    if (error) return error;
+    if (error >= 0 && !sph_kernel_has_gravity(k)) error = sphi_refuse("kernel", -1, SPH_ERROR_KERNEL);
+    if (!error) error = sphi_check_positive("rho", rho, cloud.points.n);
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(3, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i);
@@ -4913,35 +5174,34 @@ SPH_FN sph_index sph_gravity_zeta(sph_kernel k, sph_cloud cloud, sph_scalars m, 
                        sph_length(3, sphi_separation(3, cloud.points, x_i,
                                                      sphi_point(3, cloud.points, cloud.list.index[p]))),
                        h_i);
-        failed += sphi_store_finite(zeta, i, -h_i / (SPH_R(3) * sphi_at(rho, i)) * sum);
+        failed += sphi_store(out, i, sph_gravity_zeta_value(h_i, sphi_at(rho, i), sum));
     }
     return failed;
 }
 /* What self-gravity adds where h follows the density: a_i = -(G/2) sum_j m_j (zeta_i F_i / Omega_i + zeta_j
    F_j / Omega_j) x_ij, pairwise antisymmetric. Lists of all pairs within the larger support (SPH_LARGER). */
-SPH_FN sph_index sph_gravity_correction(sph_kernel k, sph_cloud cloud, sph_gas gas, sph_scalars zeta,
+SPH_FN sph_index sph_gravity_correction(sph_kernel k, sph_cloud cloud, sph_medium medium, sph_scalars zeta,
                                         sph_real newton, sph_vector_out acceleration)
 {
-    int error = sphi_check_gas(k, 3, cloud, gas);
+    int error = sphi_check_medium(k, 3, cloud, medium);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_field(zeta, cloud.points.n);
-    if (!error) error = sphi_check_out(3, acceleration);
-    if (!error && !sphi_finite(newton)) error = SPH_ERROR_VALUE;
-    if (error) return error;
+    if (!error) error = sphi_check_field("zeta", zeta, cloud.points.n);
+    if (!error) error = sphi_check_out("acceleration", 3, acceleration);
+    if (!error && !sphi_finite(newton)) error = sphi_refuse("newton", -1, SPH_ERROR_VALUE);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(3, cloud.points, i);
-        const sph_real h_i = sphi_at(cloud.h, i), own = sphi_at(zeta, i) / sphi_at(gas.omega, i);
+        const sph_real h_i = sphi_at(cloud.h, i), own = sphi_at(zeta, i) / sphi_at(medium.omega, i);
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0);
         sph_vec sum;
         SPH_SUM(ax, ay, az)
         for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(3, cloud.points, x_i, sphi_point(3, cloud.points, j));
-            const sph_real r = sph_length(3, x_ij);
+            const sph_real scaled = sphi_at(zeta, j) / sphi_at(medium.omega, j);
             const sph_real b =
-                SPH_R(-0.5) * newton * sphi_at(gas.m, j) *
-                (own * sph_kernel_f(k, 3, r, h_i) +
-                 sphi_at(zeta, j) / sphi_at(gas.omega, j) * sph_kernel_f(k, 3, r, sphi_at(cloud.h, j)));
+                -newton * sphi_at(medium.m, j) *
+                sph_gravity_correction_pair(sphi_pair_kernel(k, 3, 0, x_ij, h_i, cloud.h, j), own, scaled);
             ax += b * x_ij.x;
             ay += b * x_ij.y;
             az += b * x_ij.z;
@@ -4967,16 +5227,16 @@ SPH_FN sph_index sph_nearest_distance(int dim, sph_cloud targets_of, sph_points 
     sph_points targets = targets_of.points;
     sph_index i, p, failed = 0;
     int error = sphi_check_frame(dim, targets_of);
-    targets_of.points = sources;
-    if (!error) error = sphi_check_frame(dim, sph_cloud_range(targets_of, 0, 0));
-    if (!error && !out.p) error = SPH_ERROR_NULL;
     targets.box = sources.box;
+    if (!error && sources.n < 0) error = sphi_refuse("sources.n", -1, SPH_ERROR_COUNT);
+    if (!error && sources.n > 0) error = sphi_check_arrays(dim, sources);
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
     if (!error) error = sphi_check_positions(dim, targets);
-    if (!error) error = sphi_check_positions(dim, sources);
-    if (!error) error = sphi_check_box(dim, targets, SPH_R(0));
-    if (!error) error = sphi_check_box(dim, sources, SPH_R(0));
+    if (!error && sources.n > 0) error = sphi_check_positions(dim, sources);
+    if (!error) error = sphi_check_box(dim, targets, SPH_R(0), 0);
+    if (!error) error = sphi_check_box(dim, sources, SPH_R(0), 0);
     if (!error) error = sphi_check_entries(first, last, list, sources.n, 1);
-    if (error) return error;
+    if (error) return sphi_answer_of(error);
     for (i = first; i < last; i++) {
         const sph_vec x_i = sphi_point(dim, targets, i);
         sph_real least = SPH_R(-1);
@@ -5003,10 +5263,10 @@ SPH_FN sph_index sph_nearest_distance(int dim, sph_cloud targets_of, sph_points 
    PRB 19, 2457. */
 SPH_FN sph_index sph_hexatic_order(sph_cloud cloud, sph_scalar_out out)
 {
-    const int error = sphi_check_list(2, cloud, SPH_R(0));
+    int error = sphi_check_list(2, cloud, SPH_R(0));
     sph_index i, p, failed = 0;
-    if (error) return error;
-    if (!out.p) return SPH_ERROR_NULL;
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(2, cloud.points, i);
         sph_real r2[6], re[6], im[6], a = SPH_R(0), b = SPH_R(0);
@@ -5043,22 +5303,22 @@ SPH_FN sph_index sph_hexatic_order(sph_cloud cloud, sph_scalar_out out)
     return failed;
 }
 
-/* The radial distribution function: g[b] for r between b and b + 1 times reach / bins: pairs found in a shell
-   per target over those expected at the number density (particles per volume). 1 far from a particle in a
-   large cloud. Full lists that hold every pair within reach. Returns how many shells are so small or large
-   that g overflows (it is 0 there), or an error: SPH_ERROR_VALUE if there are no targets. */
-SPH_FN sph_index sph_radial_distribution(int dim, sph_cloud cloud, sph_real reach, sph_real number_density,
+/* The radial distribution function: g[b] for r between b and b + 1 times farthest / bins: pairs found in a
+   shell per target over those expected at the number density (particles per volume). 1 far from a particle in
+   a large cloud. Full lists that hold every pair within farthest. Returns how many shells are so small or
+   large that g overflows (it is 0 there), or an error. Without targets g is not touched. */
+SPH_FN sph_index sph_radial_distribution(int dim, sph_cloud cloud, sph_real farthest, sph_real number_density,
                                          int bins, SPH_GLOBAL sph_real *g)
 {
     int error, b;
     sph_index i, p, failed = 0;
-    if (!sphi_finite(reach) || !(reach > SPH_R(0))) return SPH_ERROR_H;
-    error = sphi_check_list(dim, cloud, reach);
-    if (error) return error;
-    if (!g) return SPH_ERROR_NULL;
-    if (bins < 1) return SPH_ERROR_COUNT;
-    if (cloud.first == cloud.last || !sphi_finite(number_density) || !(number_density > SPH_R(0)))
-        return SPH_ERROR_VALUE;
+    if (!sphi_finite(farthest) || !(farthest > SPH_R(0))) return sphi_refuse("farthest", -1, SPH_ERROR_H);
+    if (bins < 1) return sphi_refuse("bins", -1, SPH_ERROR_COUNT);
+    error = sphi_check_list(dim, cloud, farthest);
+    if (!error && !g) error = sphi_refuse("g", -1, SPH_ERROR_NULL);
+    if (!error && (!sphi_finite(number_density) || !(number_density > SPH_R(0))))
+        error = sphi_refuse("number_density", -1, SPH_ERROR_VALUE);
+    if (error) return sphi_answer_of(error);
     for (b = 0; b < bins; b++) g[b] = SPH_R(0);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
@@ -5066,32 +5326,31 @@ SPH_FN sph_index sph_radial_distribution(int dim, sph_cloud cloud, sph_real reac
             const sph_real r =
                 sph_length(dim, sphi_separation(dim, cloud.points, x_i,
                                                 sphi_point(dim, cloud.points, cloud.list.index[p])));
-            if (r < reach) {
-                const int at = (int)(r / reach * (sph_real)bins);
+            if (r < farthest) {
+                const int at = (int)(r / farthest * (sph_real)bins);
                 g[at < 0 ? 0 : at < bins ? at : bins - 1] += SPH_R(1);
             }
         }
     }
     for (b = 0; b < bins; b++) {
-        const sph_real width = reach / (sph_real)bins, in = width * (sph_real)b, out = in + width;
+        const sph_real width = farthest / (sph_real)bins, in = width * (sph_real)b, out = in + width;
         const sph_real volume = dim == 1   ? SPH_R(2) * (out - in)
                                 : dim == 2 ? SPH_R(3.14159265358979323846) * (out * out - in * in)
                                            : SPH_R(4.18879020478639098462) * (out * out * out - in * in * in);
-        failed +=
-            sphi_store_finite(g, b, g[b] / ((sph_real)(cloud.last - cloud.first) * number_density * volume));
+        failed += sphi_put(g, 1, b, g[b] / ((sph_real)(cloud.last - cloud.first) * number_density * volume));
     }
     return failed;
 }
 
 /* Coincident pairs: targets that have a source within `distance` (1e-12 h: what the forces leave alone).
    Returns their number. */
-SPH_FN sph_index sph_count_coincident(int dim, sph_cloud cloud, sph_real distance)
+SPH_FN sph_index sph_coincident_count(int dim, sph_cloud cloud, sph_real distance)
 {
     sph_index i, p, found = 0;
     int error;
-    if (!sphi_finite(distance) || distance < SPH_R(0)) return SPH_ERROR_H;
+    if (!sphi_finite(distance) || distance < SPH_R(0)) return sphi_refuse("distance", -1, SPH_ERROR_H);
     error = sphi_check_list(dim, cloud, distance);
-    if (error) return error;
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         int near_by = 0;
@@ -5108,15 +5367,16 @@ SPH_FN sph_index sph_count_coincident(int dim, sph_cloud cloud, sph_real distanc
    that depends on its index only (the golden angle, so that no two nearby indices get the same): no force has
    a direction there, and neither kernels nor collisions separate such a pair. Writes the new position; those
    who coincide with nobody keep theirs. Returns how many were moved. The host wraps and stores them. */
-SPH_FN sph_index sph_separate_coincident(int dim, sph_cloud cloud, sph_real within, sph_real distance,
+SPH_FN sph_index sph_coincident_separate(int dim, sph_cloud cloud, sph_real within, sph_real distance,
                                          sph_vector_out position)
 {
     sph_index i, moved = 0;
     int error;
-    if (!sphi_finite(within) || within < SPH_R(0) || !sphi_finite(distance)) return SPH_ERROR_H;
+    if (!sphi_finite(within) || within < SPH_R(0) || !sphi_finite(distance))
+        return sphi_refuse("within, distance", -1, SPH_ERROR_H);
     error = sphi_check_list(dim, cloud, within);
-    if (!error) error = sphi_check_vector(dim, position.x, position.y, position.z);
-    if (error) return error;
+    if (!error) error = sphi_check_out("position", dim, position);
+    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec was = sphi_point(dim, cloud.points, i);
         sph_vec at = was;
@@ -5141,9 +5401,7 @@ SPH_FN sph_index sph_separate_coincident(int dim, sph_cloud cloud, sph_real with
                 at = was; /* there is no number for where it would be */
             moved++;
         }
-        position.x[i] = at.x;
-        if (dim > 1) position.y[i] = at.y;
-        if (dim > 2) position.z[i] = at.z;
+        sphi_store_vector(dim, position, i, at);
     }
     return moved;
 }
@@ -5168,15 +5426,12 @@ SPH_FN sph_index sph_conserved_sums(int dim, sph_cloud cloud, sph_scalars m, sph
     const sph_points x = cloud.points;
     sph_real sum[8], lost[8];
     sph_index i;
-    int c, error, ok = 1;
-    if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
-    if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z) || !out) return SPH_ERROR_NULL;
-    if (x.n < 1 || x.stride < 1) return SPH_ERROR_COUNT;
-    if (cloud.first < 0 || cloud.first > cloud.last || cloud.last > x.n) return SPH_ERROR_RANGE;
-    error = sphi_check_positions(dim, x);
-    if (!error) error = sphi_check_field(m, x.n);
-    if (!error) error = sphi_check_vectors(dim, v, x.n);
-    if (error) return error;
+    int c, ok = 1, error = out ? sphi_check_targets(dim, cloud) : sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (!error) error = sphi_check_arrays(dim, x);
+    if (!error && cloud.checked != 1) error = sphi_check_positions(dim, x);
+    if (!error) error = sphi_check_field("m", m, x.n);
+    if (!error) error = sphi_check_vectors("v", dim, v, x.n);
+    if (error < 0) return error;
     for (c = 0; c < 8; c++) sum[c] = lost[c] = SPH_R(0);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec r = sphi_point(dim, x, i), u = sphi_vector_at(dim, v, i);
@@ -5671,14 +5926,15 @@ SPH_FN sph_index sph_cloud_examine(sph_kernel k, int dim, sph_cloud cloud, int b
     sphi_case given;
     sphi_tally tally;
     sph_findings f;
-    int error = 0, axis, geometry = 1, trial, cause = 0;
+    int error, axis, geometry = 1, trial, cause = 0;
 
-    if (dim < 1 || dim > 3) return SPH_ERROR_DIM;
-    if ((unsigned)k >= (unsigned)SPH_KERNEL_COUNT) return SPH_ERROR_KERNEL;
-    if (!out) return SPH_ERROR_NULL;
-    if (both_sides != 0 && both_sides != 1) return SPH_ERROR_VALUE;
-    if (x.n < 0) return SPH_ERROR_COUNT;
-    if (cloud.first < 0 || cloud.first > cloud.last || cloud.last > x.n) return SPH_ERROR_RANGE;
+    if (dim < 1 || dim > 3) return sphi_refuse("dim", -1, SPH_ERROR_DIM);
+    if (sphi_check_kernel(k)) return SPH_ERROR_KERNEL;
+    if (!out) return sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (both_sides != 0 && both_sides != 1) return sphi_refuse("both_sides", -1, SPH_ERROR_VALUE);
+    cloud.checked = 0;
+    error = sphi_check_targets(dim, cloud);
+    if (error < 0) return error;
     f.set = 0;
     f.sampled = f.interior = 0;
     f.sum_lowest = f.sum_highest = SPH_R(0);
@@ -5687,26 +5943,30 @@ SPH_FN sph_index sph_cloud_examine(sph_kernel k, int dim, sph_cloud cloud, int b
         *out = f;
         return 0;
     }
-    if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z) || !list.start || !cloud.h.p) return SPH_ERROR_NULL;
-    if (x.stride < 1) return SPH_ERROR_COUNT;
+    error = sphi_check_arrays(dim, x);
+    if (error) return error;
+    if (!list.start) return sphi_refuse("list", -1, SPH_ERROR_NULL);
+    if (!cloud.h.p) return sphi_refuse("h", -1, SPH_ERROR_NULL);
 
     /* numbers: positions, h, volumes */
     for (i = 0; i < 8; i++) extra[i] = -1;
     low.x = low.y = low.z = high.x = high.y = high.z = SPH_R(0);
-    if (!sphi_extremes(cloud, x.x, &low.x, &high.x, extra)) return SPH_ERROR_POSITION;
-    if (dim > 1 && !sphi_extremes(cloud, x.y, &low.y, &high.y, extra + 2)) return SPH_ERROR_POSITION;
-    if (dim > 2 && !sphi_extremes(cloud, x.z, &low.z, &high.z, extra + 4)) return SPH_ERROR_POSITION;
+    if (!sphi_extremes(cloud, x.x, &low.x, &high.x, extra)) return sphi_refuse("x", -1, SPH_ERROR_POSITION);
+    if (dim > 1 && !sphi_extremes(cloud, x.y, &low.y, &high.y, extra + 2))
+        return sphi_refuse("y", -1, SPH_ERROR_POSITION);
+    if (dim > 2 && !sphi_extremes(cloud, x.z, &low.z, &high.z, extra + 4))
+        return sphi_refuse("z", -1, SPH_ERROR_POSITION);
     given.largest = lowest_h = sphi_at(cloud.h, 0);
     for (i = 0; i < (cloud.h.stride ? x.n : 1); i++) {
         const sph_real h_i = sphi_at(cloud.h, i);
-        if (!sphi_finite(h_i) || !(h_i > SPH_R(0))) return SPH_ERROR_H;
+        if (!sphi_finite(h_i) || !(h_i > SPH_R(0))) return sphi_refuse("h", i, SPH_ERROR_H);
         if (h_i > given.largest) given.largest = h_i;
         if (h_i < lowest_h) lowest_h = h_i;
         if (i < cloud.first || i >= cloud.last) continue;
         if (extra[6] < 0 || h_i < sphi_at(cloud.h, extra[6])) extra[6] = i;
         if (extra[7] < 0 || h_i > sphi_at(cloud.h, extra[7])) extra[7] = i;
     }
-    given.support_ratio = sph_kernel_support(k);
+    given.support_ratio = sph_kernel_support_ratio(k);
     given.largest *= given.support_ratio;
     for (axis = 0; axis < dim; axis++) {
         const sph_real length = axis == 0 ? x.box.x : axis == 1 ? x.box.y : x.box.z;
@@ -5716,11 +5976,11 @@ SPH_FN sph_index sph_cloud_examine(sph_kernel k, int dim, sph_cloud cloud, int b
                        two = axis == 0   ? high.x
                              : axis == 1 ? high.y
                                          : high.z;
-        if (!sphi_finite(length) || length < SPH_R(0)) return SPH_ERROR_BOX;
+        if (!sphi_finite(length) || length < SPH_R(0)) return sphi_refuse("box", -1, SPH_ERROR_BOX);
         if (!(length > SPH_R(0))) continue;
         if (!sphi_finite(SPH_R(1) / length) || SPHI_ABS(one) > SPH_R(1048576) * length ||
             SPHI_ABS(two) > SPH_R(1048576) * length)
-            return SPH_ERROR_BOX;
+            return sphi_refuse("box", -1, SPH_ERROR_BOX);
         if (!(given.largest <= SPH_R(0.5) * length * (SPH_R(1) + SPH_R(4) * SPH_EPSILON)))
             error = SPH_ERROR_BOX;
     }
@@ -5729,7 +5989,7 @@ SPH_FN sph_index sph_cloud_examine(sph_kernel k, int dim, sph_cloud cloud, int b
         const sph_index count = cloud.volume.stride ? x.n : 1;
         for (i = 0; i < count; i++) {
             const sph_real volume = sphi_at(cloud.volume, i);
-            if (!sphi_finite(volume)) return SPH_ERROR_VALUE;
+            if (!sphi_finite(volume)) return sphi_refuse("volume", i, SPH_ERROR_VALUE);
             if (volume < SPH_R(0) && negative < 0) negative = i;
             if (volume > SPH_R(0)) continue;
             if (first_unset < 0) first_unset = i;
@@ -5748,10 +6008,11 @@ SPH_FN sph_index sph_cloud_examine(sph_kernel k, int dim, sph_cloud cloud, int b
     if (cloud.first < cloud.last) {
         if (cloud.first == 0 && list.start[0] == 1) given.start_base = 1;
         shortest = list.start[cloud.first] - given.start_base;
-        if (shortest < 0) return SPH_ERROR_LIST;
+        if (shortest < 0) return sphi_refuse("list", cloud.first, SPH_ERROR_LIST);
         for (i = cloud.first; i < cloud.last; i++)
-            if (list.start[i + 1] < list.start[i]) return SPH_ERROR_LIST;
-        if (list.start[cloud.last] > list.start[cloud.first] && !list.index) return SPH_ERROR_NULL;
+            if (list.start[i + 1] < list.start[i]) return sphi_refuse("list", i, SPH_ERROR_LIST);
+        if (list.start[cloud.last] > list.start[cloud.first] && !list.index)
+            return sphi_refuse("list", -1, SPH_ERROR_NULL);
     }
     for (i = cloud.first; i < cloud.last; i++)
         for (p = list.start[i] - given.start_base; p < list.start[i + 1] - given.start_base; p++) {
@@ -5844,7 +6105,7 @@ SPH_FN sph_index sph_cloud_examine(sph_kernel k, int dim, sph_cloud cloud, int b
         }
     }
     for (axis = 0; axis < SPH_FINDING_COUNT; axis++) found += (f.set >> axis & 1u) ? 1 : 0;
-    if (!found && error) return error;
+    if (!found && error) return sphi_refuse(error == (int)SPH_ERROR_BOX ? "box" : "list", -1, error);
     *out = f;
     return found;
 }
@@ -5861,7 +6122,7 @@ SPH_FN const char *sph_finding_text(int finding)
     case SPH_FINDING_LIST_SUPPORT:
         return "The list ends at the distance h, not at support * h. Either it was built with the radius h "
                "(build it with "
-               "sph_kernel_support_from_h), or h holds the support radius (convert it with "
+               "sph_kernel_support), or h holds the support radius (convert it with "
                "sph_kernel_h_from_support). A list that is too "
                "short for another reason looks the same if it happens to end near h.";
     case SPH_FINDING_LIST_HALF:

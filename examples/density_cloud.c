@@ -1,19 +1,25 @@
 /* SPDX-License-Identifier: MIT
  *
- * density_cloud.c - the density of a cloud of random particles, each with a smoothing length that follows it.
+ * density_cloud.c - the density of a cloud of random particles, each with a smoothing length that follows
+ * it.
  *
  *     cc -O2 -I. -o density_cloud examples/density_cloud.c -lm
  *     ./density_cloud -o cloud.csv
  *
- * N particles of equal mass are drawn from a Gaussian, whose density is known: rho(r) = exp(-r^2 / 2) / (2 pi) for a mass of 1 and a width of 1.
- * sph_density_adaptive finds rho_i = sum_j m_j W_ij(h_i) and h_i = ETA (m_i / rho_i)^(1/2) together. A fluid keeps its particles in order and does with an ETA of
- * 1.3. Random positions are noisy: they need many neighbours (4 pi ETA^2), and know nothing of the particle at which the sum is taken, whose own m W(0) makes
- * the density too large by that much. The table has it both ways.
+ * N particles of equal mass are drawn from a Gaussian, whose density is known: rho(r) = exp(-r^2 / 2) / (2
+ * pi) for a mass of 1 and a width of 1. sph_density_adaptive finds rho_i = sum_j m_j W_ij(h_i) and h_i =
+ * ETA (m_i / rho_i)^(1/2) together. A fluid keeps its particles in order and does with an ETA of 1.3.
+ * Random positions are noisy: they need many neighbours (4 pi ETA^2), and know nothing of the particle at
+ * which the sum is taken, whose own m W(0) makes the density too large by that much. The table has it both
+ * ways.
  */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#define EXAMINE 0 /* 1: prints what is likely wrong with the first cloud */
+#define SPH_REFUSED(argument, particle, error) \
+    fprintf(stderr, "%s: %s, first at particle %d\n", argument, sph_status_text(error), (int)(particle))
 #include "sph.h"
 
 enum { N = 6000, DIM = 2, RINGS = 5, COLUMNS = 78, ROWS = 26 };
@@ -22,17 +28,20 @@ static const double ETA = 3.5, pi = 3.14159265358979324;
 static double x[N], y[N], h[N], rho[N], omega[N], reach[N], m = 1.0 / N;
 static unsigned char status[N];
 
-static void *must(void *memory)
-{
-    if (memory) return memory;
-    fprintf(stderr, "density_cloud: out of memory\n");
-    exit(1);
-}
 static void need(sph_index answer) /* what a sweep returns: below 0 an error */
 {
     if (answer >= 0) return;
     fprintf(stderr, "density_cloud: %s\n", sph_status_text((int)answer));
     exit(1);
+}
+static void examine(sph_cloud cloud) /* the density of a particle asks for no more than its own support */
+{
+    sph_findings f = {0}; /* stays so if there is an error, which the sweeps tell */
+    sph_cloud_examine(KERNEL, DIM, cloud, 0, 0, &f);
+    for (int i = 0; i < SPH_FINDING_COUNT; i++)
+        if (f.set >> i & 1)
+            fprintf(stderr, "particle %d, neighbour %d, ratio %g: %s\n", (int)f.at[i].particle,
+                    (int)f.at[i].neighbour, f.at[i].ratio, sph_finding_text(i));
 }
 
 static double uniform(void) /* within (0, 1) */
@@ -43,8 +52,7 @@ static double uniform(void) /* within (0, 1) */
 }
 static void fill(void)
 {
-    int i;
-    for (i = 0; i < N; i++) {
+    for (int i = 0; i < N; i++) {
         const double r = sqrt(-2 * log(uniform())), angle = 2 * pi * uniform(); /* Box & Muller */
         x[i] = r * cos(angle);
         y[i] = r * sin(angle);
@@ -53,39 +61,36 @@ static void fill(void)
 }
 static double exact(double r) { return exp(-0.5 * r * r) / (2 * pi); }
 
-/* Lists reach as far as the guess of h says; where that is too short, the operator says what h to try next. */
+/* Lists reach as far as the guess of h says. Where that is too short, the operator says what to try next. */
 static void density(void)
 {
-    const double support = sph_kernel_support(KERNEL);
+    const double support = sph_kernel_support_ratio(KERNEL);
     const sph_points points = sph_points_separate(N, x, y, NULL);
-    const size_t size = sph_grid_workspace(DIM, N);
-    void *const work = must(malloc(size));
-    sph_index *const start = must(malloc((N + 1) * sizeof *start)), *index = NULL, failed;
-    sph_grid grid;
-    int64_t pairs;
-    int i;
-    need(sph_grid_build(DIM, points, support * h[0], work, size, &grid));
-    for (i = 0; i < N; i++) reach[i] = support * h[i];
+    const sph_scalars R = sph_scalars_array(reach), mass = sph_scalars_same(&m);
+    const sph_density_options options = {.list_radius = R, .eta = ETA, .tolerance = 1e-6};
+    const sph_density_out out = {.h = h, .rho = rho, .omega = omega, .status = status};
+    void *memory = NULL;
+    size_t size = 0;
+    sph_neighbors found;
+    sph_cloud cloud;
+    sph_index failed;
+    for (int i = 0; i < N; i++) reach[i] = support * h[i];
     do {
-        const sph_scalars radius = sph_scalars_array(reach), none = sph_scalars_none();
-        const sph_density_options options = {.reach = radius, .eta = ETA, .tolerance = 1e-6};
-        const sph_density_out out = {h, rho, omega, status};
-        need(sph_grid_count(DIM, &grid, points, SPH_GATHER, radius, radius, 0, start, &pairs));
-        index = must(realloc(index, (size_t)pairs * sizeof *index));
-        need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, radius, radius, 0, start, index, pairs, &pairs));
-        const sph_cloud cloud = sph_cloud_of(points, (sph_list){start, index}, none, none);
-        failed = sph_density_adaptive(KERNEL, DIM, cloud, sph_scalars_same(&m), options, out);
+        while ((failed = sph_search(DIM, points, R, SPH_GATHER, memory, size, &found)) == SPH_ERROR_CAPACITY)
+            memory = realloc(memory, size = sph_search_size(DIM, N, found.pairs));
         need(failed);
-        for (i = 0; i < N; i++)
+        cloud = sph_cloud_of(points, found.list, sph_scalars_none(), sph_scalars_none());
+        need(failed = sph_density_adaptive(KERNEL, DIM, cloud, mass, options, out));
+        for (int i = 0; i < N; i++)
             if (status[i] == SPH_LIST_TOO_SHORT) reach[i] = support * h[i];
             else if (status[i] != SPH_OK) {
-                fprintf(stderr, "density_cloud: particle %d at (%g, %g): %s\n", i, x[i], y[i], sph_status_text(status[i]));
+                fprintf(stderr, "density_cloud: particle %d: %s\n", i, sph_status_text(status[i]));
                 exit(1);
             }
     } while (failed > 0);
-    free(index);
-    free(start);
-    free(work);
+    cloud.h = sph_scalars_array(h);
+    if (EXAMINE) examine(cloud);
+    free(memory);
 }
 
 /* densest particle of each place of the terminal, a factor of 2 from one character to the next */
@@ -97,7 +102,8 @@ static void draw(void)
     for (i = 0; i < N; i++) {
         row = (int)floor((4 - y[i]) / 8 * ROWS);
         column = (int)floor((x[i] + 6) / 12 * COLUMNS);
-        if (row >= 0 && row < ROWS && column >= 0 && column < COLUMNS) picture[row][column] = fmax(picture[row][column], rho[i]);
+        if (row >= 0 && row < ROWS && column >= 0 && column < COLUMNS)
+            picture[row][column] = fmax(picture[row][column], rho[i]);
     }
     for (row = 0; row < ROWS; row++) {
         for (column = 0; column < COLUMNS; column++) {
@@ -108,7 +114,8 @@ static void draw(void)
     }
 }
 
-/* means over ring k, particles from k/2 to (k + 1)/2 away from the centre: the density, that without the particle's own part, and the exact one */
+/* means over ring k, particles from k/2 to (k + 1)/2 away from the centre: the density, that without the
+   particle's own part, and the exact one */
 typedef struct ring {
     int count;
     double rho, others, exact;
@@ -116,8 +123,7 @@ typedef struct ring {
 static ring ring_of(int k)
 {
     ring a = {0, 0, 0, 0};
-    int i;
-    for (i = 0; i < N; i++) {
+    for (int i = 0; i < N; i++) {
         const double r = sqrt(x[i] * x[i] + y[i] * y[i]);
         if ((int)(2 * r) != k) continue;
         a.count++;
@@ -130,13 +136,14 @@ static ring ring_of(int k)
     a.exact /= a.count;
     return a;
 }
-static void table(void)
+static void rings(void)
 {
     int k;
     printf("radius      particles  density  without the particle's own  exact\n");
     for (k = 0; k < RINGS; k++) {
         const ring a = ring_of(k);
-        printf("%.1f to %.1f  %9d  %7.4f  %26.4f  %.4f\n", 0.5 * k, 0.5 * (k + 1), a.count, a.rho, a.others, a.exact);
+        printf("%.1f to %.1f  %9d  ", 0.5 * k, 0.5 * (k + 1), a.count);
+        printf("%7.4f  %26.4f  %.4f\n", a.rho, a.others, a.exact);
     }
 }
 
@@ -159,39 +166,35 @@ static int test(void)
     return failed;
 }
 
-static int write_csv(const char *name)
+static void table(void)
 {
-    char part[4096]; /* renamed when it is whole, so that no half of a file is left; a device is written as it is */
-    FILE *file;
-    int i;
+    puts("x,y,h,rho,exact");
+    for (int i = 0; i < N; i++)
+        printf("%.6g,%.6g,%.6g,%.6g,%.6g\n", x[i], y[i], h[i], rho[i], exact(hypot(x[i], y[i])));
+}
+static int save(const char *name) /* as NAME.part, renamed when it is whole; a device is written as it is */
+{
+    char part[4096];
     snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
-    file = fopen(part, "w");
-    if (!file) {
-        perror(name);
-        return 2;
-    }
-    fprintf(file, "x,y,h,rho,exact\n");
-    for (i = 0; i < N; i++) fprintf(file, "%.6g,%.6g,%.6g,%.6g,%.6g\n", x[i], y[i], h[i], rho[i], exact(sqrt(x[i] * x[i] + y[i] * y[i])));
-    if (!ferror(file) && fclose(file) == 0 && (rename(part, name) == 0 || (remove(name) == 0 && rename(part, name) == 0))) return 0;
-    perror(name);
-    if (strcmp(part, name) != 0) remove(part);
-    return 2;
+    if (!freopen(part, "w", stdout)) return perror(name), 2;
+    table();
+    if (!ferror(stdout) && !fclose(stdout) && (!rename(part, name) || (!remove(name) && !rename(part, name))))
+        return 0;
+    return perror(name), strcmp(part, name) && remove(part), 2;
 }
 
 int main(int argc, char **argv)
 {
-    const int tests = argc == 2 && strcmp(argv[1], "-t") == 0, writes = argc == 3 && strcmp(argv[1], "-o") == 0;
-    if (argc > 1 && !tests && !writes) {
-        const int help = strcmp(argv[1], "-h") == 0;
-        if (!help) fprintf(stderr, "density_cloud: unknown option, or no value for it: %s\n", argv[1]);
-        fprintf(help ? stdout : stderr, "density_cloud [-o FILE.csv | -t]   draw a cloud, write it for a plot, or test its density\n");
-        return help ? 0 : 2;
-    }
+    const int writes = argc == 3 && strcmp(argv[1], "-o") == 0, asks = argc == 2 && argv[1][0] == '-';
+    if (asks && strcmp(argv[1], "-h") == 0)
+        return puts("density_cloud [-o FILE.csv | -t]   draw a cloud, write it for a plot, or test it") < 0;
+    if (argc > 1 && !writes && !(asks && strcmp(argv[1], "-t") == 0))
+        return fprintf(stderr, "density_cloud: %s? -h tells\n", argv[1]), 2;
     fill();
     density();
-    if (tests) return test();
-    if (writes) return write_csv(argv[2]);
+    if (asks) return test();
+    if (writes) return save(argv[2]);
     draw();
-    table();
+    rings();
     return 0;
 }

@@ -5,45 +5,57 @@
  *     cc -O2 -I. -o heat_plate examples/heat_plate.c -lm
  *     ./heat_plate -o plate.csv
  *
- * dT/dt = div(m grad T) on particles that are not in order, by M-SPH (Lukyanov & Vuik 2020). Nothing moves, so the operator is made once, as rows of weights:
- * each step then is one pass over them, sph_rows_apply, and the longest stable step comes from the rows, too. The left edge has T = 1, the others T = 0.
+ * dT/dt = div(m grad T) on particles that are not in order, by M-SPH (Lukyanov & Vuik 2020). Nothing moves,
+ * so the operator is made once, as rows of weights: each step then is one pass over them, sph_rows_apply,
+ * and the longest stable step comes from the rows, too. The left edge has T = 1, the others T = 0.
  */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#define EXAMINE 0 /* 1: prints what is likely wrong with the first cloud */
+#define SPH_REFUSED(argument, particle, error) \
+    fprintf(stderr, "%s: %s, first at particle %d\n", argument, sph_status_text(error), (int)(particle))
 #include "sph.h"
 
-enum { DIM = 2, SIDE = 33, N = SIDE * SIDE, NEIGHBOURS = 40 };
+enum { DIM = 2, SIDE = 33, N = SIDE * SIDE };
 #define KERNEL SPH_WENDLAND_C2 /* a constant: the compiler then folds kernel and dimension away */
 static const double pi = 3.14159265358979324, conductivity = 1;
 static const double dx = 1.0 / (SIDE - 1), h = 1.3 / (SIDE - 1), V = 1.0 / ((SIDE - 1) * (SIDE - 1));
-static double x[N], y[N], temperature[N], rate[N], row[N * NEIGHBOURS], dt, t;
-static sph_index start[N + 1], list_index[N * NEIGHBOURS];
+static double x[N], y[N], temperature[N], rate[N], dt, t;
+static double *row;     /* one weight for each pair */
+static sph_cloud cloud; /* nothing moves: checked once, for all steps */
 
 static void need(sph_index failed) /* what a sweep returns: 0, or how many particles failed, or an error */
 {
-    if (failed == 0) return;
-    fprintf(stderr, "heat_plate: %s\n", failed < 0 ? sph_status_text((int)failed) : "particles without an answer");
-    exit(1);
+    const char *const why = failed < 0 ? sph_status_text((int)failed) : "particles without an answer";
+    if (failed) fprintf(stderr, "heat_plate: %s\n", why), exit(1);
 }
-
-static sph_cloud cloud(void)
+static void examine(sph_cloud cloud) /* M-SPH sums over pairs: both sides */
 {
-    const sph_list list = {start, list_index};
-    return sph_cloud_of(sph_points_separate(N, x, y, NULL), list, sph_scalars_same(&h), sph_scalars_same(&V));
+    sph_findings f = {0}; /* stays so if there is an error, which the sweeps tell */
+    sph_cloud_examine(KERNEL, DIM, cloud, 1, 0, &f);
+    for (int i = 0; i < SPH_FINDING_COUNT; i++)
+        if (f.set >> i & 1)
+            fprintf(stderr, "particle %d, neighbour %d, ratio %g: %s\n", (int)f.at[i].particle,
+                    (int)f.at[i].neighbour, f.at[i].ratio, sph_finding_text(i));
 }
 
-static int on_edge(int i) { return i % SIDE == 0 || i % SIDE == SIDE - 1 || i / SIDE == 0 || i / SIDE == SIDE - 1; }
+static int on_edge(int i)
+{
+    return i % SIDE == 0 || i % SIDE == SIDE - 1 || i / SIDE == 0 || i / SIDE == SIDE - 1;
+}
 
-/* a square lattice with its edge on that of the plate; inside, particles are displaced at random by up to a tenth of the spacing */
+/* a square lattice with its edge on that of the plate; inside, particles are displaced at random by up to a
+   tenth of the spacing */
 static void fill(void)
 {
     uint32_t state = 3;
     int i, c;
     for (i = 0; i < N; i++) {
         double jitter[2];
-        for (c = 0; c < 2; c++) jitter[c] = 0.2 * ((state = state * 1664525u + 1013904223u) / 4294967296.0 - 0.5);
+        for (c = 0; c < 2; c++)
+            jitter[c] = 0.2 * ((state = state * 1664525u + 1013904223u) / 4294967296.0 - 0.5);
         x[i] = (i % SIDE + (on_edge(i) ? 0 : jitter[0])) * dx;
         y[i] = (i / SIDE + (on_edge(i) ? 0 : jitter[1])) * dx;
     }
@@ -51,36 +63,38 @@ static void fill(void)
 
 static void make_rows(void)
 {
-    const sph_points points = cloud().points;
-    const double radius = sph_kernel_support(KERNEL) * h;
-    const sph_scalars R = sph_scalars_same(&radius);
-    const size_t size = sph_grid_workspace(DIM, N);
-    void *const work = malloc(size);
-    const sph_elliptic_options options = sph_elliptic_defaults();
-    sph_grid grid;
-    int64_t pairs;
-    need(sph_grid_build(DIM, points, radius, work, size, &grid));
-    need(sph_grid_lists(DIM, &grid, points, SPH_GATHER, R, R, 0, start, list_index, N * NEIGHBOURS, &pairs));
-    need(sph_elliptic_rows_msph(KERNEL, DIM, cloud(), sph_scalars_same(&conductivity), options,
-                                (sph_row_out){.row = row}));
-    need(sph_rows_time_step(cloud(), row, &dt));
-    dt *= 0.5; /* the longest stable step, and half of it so that nothing ever gets hotter than its neighbourhood */
-    free(work);
+    const sph_points points = sph_points_separate(N, x, y, NULL);
+    const double radius = sph_kernel_support_ratio(KERNEL) * h;
+    const sph_scalars R = sph_scalars_same(&radius), m = sph_scalars_same(&conductivity);
+    const sph_elliptic_options options = {0};
+    void *memory = NULL;
+    size_t size = 0;
+    sph_neighbors found;
+    sph_index answer;
+    while ((answer = sph_search(DIM, points, R, SPH_GATHER, memory, size, &found)) == SPH_ERROR_CAPACITY)
+        memory = realloc(memory, size = sph_search_size(DIM, N, found.pairs));
+    need(answer);
+    cloud = sph_cloud_of(points, found.list, sph_scalars_same(&h), sph_scalars_same(&V));
+    if (EXAMINE) examine(cloud);
+    cloud = sph_cloud_checked(DIM, cloud);
+    row = malloc((size_t)found.pairs * sizeof *row);
+    need(sph_elliptic_rows_msph(KERNEL, DIM, cloud, m, options, (sph_rows_out){.row = row}));
+    need(sph_rows_time_step(cloud, row, &dt));
+    dt *= 0.5; /* half of the longest stable step, so that nothing ever gets hotter than its neighbourhood */
 }
 
 static void step(void) /* explicit Euler; the particles on the edge keep their temperature */
 {
-    int i;
-    need(sph_rows_apply(cloud(), row, NULL, sph_scalars_array(temperature), rate));
-    for (i = 0; i < N; i++)
+    const sph_scalars T = sph_scalars_array(temperature), no_diagonal = sph_scalars_none();
+    need(sph_rows_apply(cloud, row, no_diagonal, T, sph_scalar_out_array(rate, NULL)));
+    for (int i = 0; i < N; i++)
         if (!on_edge(i)) temperature[i] += dt * rate[i];
     t += dt;
 }
 
 static void heat_left_edge(void)
 {
-    int i;
-    for (i = 0; i < N; i++) temperature[i] = i % SIDE == 0 ? 1 : 0;
+    for (int i = 0; i < N; i++) temperature[i] = i % SIDE == 0 ? 1 : 0;
     t = 0;
 }
 
@@ -107,17 +121,16 @@ static int test(void)
 {
     const int centre = SIDE / 2 * SIDE + SIDE / 2;
     double least = 1, most = 0, first;
-    int i;
     /* all edges cold: sin(pi x) sin(pi y) keeps its shape and decays as exp(-2 pi^2 m t) */
-    for (i = 0; i < N; i++) temperature[i] = on_edge(i) ? 0 : sin(pi * x[i]) * sin(pi * y[i]);
+    for (int i = 0; i < N; i++) temperature[i] = on_edge(i) ? 0 : sin(pi * x[i]) * sin(pi * y[i]);
     first = temperature[centre];
     while (t < 0.1) step();
     check("the rate of decay", log(first / temperature[centre]) / t / (2 * pi * pi * conductivity), 1, 0.02);
-    /* left edge hot, in the end: four such plates, one turned to each side, add up to T = 1, so a quarter of it in the centre */
+    /* left edge hot, in the end: four such plates, one turned to each side, add up to 1: 1/4 in the centre */
     heat_left_edge();
     while (t < 0.5) {
         step();
-        for (i = 0; i < N; i++) {
+        for (int i = 0; i < N; i++) {
             least = fmin(least, temperature[i]);
             most = fmax(most, temperature[i]);
         }
@@ -129,40 +142,38 @@ static int test(void)
     return failed;
 }
 
-int main(int argc, char **argv)
+static void run(int csv)
 {
     static const double times[] = {0.002, 0.02, 0.2};
-    const int tests = argc == 2 && strcmp(argv[1], "-t") == 0, writes = argc == 3 && strcmp(argv[1], "-o") == 0;
-    char part[4096]; /* renamed when it is whole, so that no half of a file is left; a device is written as it is */
-    FILE *file = stdout;
-    int k, i;
-    if (argc > 1 && !tests && !writes) {
-        const int help = strcmp(argv[1], "-h") == 0;
-        if (!help) fprintf(stderr, "heat_plate: unknown option, or no value for it: %s\n", argv[1]);
-        fprintf(help ? stdout : stderr, "heat_plate [-o FILE.csv | -t]   draw the plate at three times, write them for a plot, or test them\n");
-        return help ? 0 : 2;
+    heat_left_edge();
+    if (csv) puts("t,x,y,temperature");
+    for (int k = 0; k < 3; k++) {
+        while (t < times[k]) step();
+        for (int i = 0; i < N && csv; i++)
+            printf("%g,%.5g,%.5g,%.5g\n", times[k], x[i], y[i], temperature[i]);
+        if (!csv) draw();
     }
-    if (writes) {
-        snprintf(part, sizeof part, "%.4000s%s", argv[2], strncmp(argv[2], "/dev/", 5) ? ".part" : "");
-        file = fopen(part, "w");
-    }
-    if (!file) {
-        perror(argv[2]);
-        return 2;
-    }
+    if (!csv) printf("in the centre: %.4f; 0.25 in the end\n", temperature[SIDE / 2 * SIDE + SIDE / 2]);
+}
+static int save(const char *name) /* as NAME.part, renamed when it is whole; a device is written as it is */
+{
+    char part[4096];
+    snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
+    if (!freopen(part, "w", stdout)) return perror(name), 2;
+    run(1);
+    if (!ferror(stdout) && !fclose(stdout) && (!rename(part, name) || (!remove(name) && !rename(part, name))))
+        return 0;
+    return perror(name), strcmp(part, name) && remove(part), 2;
+}
+
+int main(int argc, char **argv)
+{
     fill();
     make_rows();
-    if (tests) return test();
-    heat_left_edge();
-    if (writes) fprintf(file, "t,x,y,temperature\n");
-    for (k = 0; k < 3; k++) {
-        while (t < times[k]) step();
-        for (i = 0; i < N && writes; i++) fprintf(file, "%g,%.5g,%.5g,%.5g\n", times[k], x[i], y[i], temperature[i]);
-        if (!writes) draw();
-    }
-    if (!writes) printf("in the centre: %.4f; 0.25 in the end\n", temperature[SIDE / 2 * SIDE + SIDE / 2]);
-    if (!writes || (!ferror(file) && fclose(file) == 0 && (rename(part, argv[2]) == 0 || (remove(argv[2]) == 0 && rename(part, argv[2]) == 0)))) return 0;
-    perror(argv[2]);
-    if (strcmp(part, argv[2]) != 0) remove(part);
-    return 2;
+    if (argc == 3 && strcmp(argv[1], "-o") == 0) return save(argv[2]);
+    if (argc == 2 && strcmp(argv[1], "-t") == 0) return test();
+    if (argc == 1) return run(0), 0;
+    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "heat_plate: %s? -h tells\n", argv[1]), 2;
+    return puts("heat_plate [-o FILE.csv | -t]   "
+                "draw the plate at three times, write them for a plot, or test them") < 0;
 }

@@ -13,11 +13,11 @@
 #include "sph.h"
 
 enum { COLUMNS = 64, ROWS = 20, DIM = 2 };
-static const double h = 1; /* smoothing length; the kernel ends at sph_kernel_support(k) * h */
+static const double h = 1; /* smoothing length; the kernel ends at sph_kernel_support_ratio(k) * h */
 
 static void draw(sph_kernel k)
 {
-    const double support = sph_kernel_support(k) * h;
+    const double support = sph_kernel_support_ratio(k) * h;
     char picture[ROWS + 1][COLUMNS + 1];
     double w[COLUMNS + 1], slope[COLUMNS + 1], highest = 0;
     int row, column;
@@ -29,39 +29,40 @@ static void draw(sph_kernel k)
     }
     memset(picture, ' ', sizeof picture);
     for (column = 0; column <= COLUMNS; column++) {
-        const int at = (int)(ROWS * slope[column] / highest + 0.5), up = (int)(ROWS * w[column] / highest + 0.5);
+        const int at = (int)(ROWS * slope[column] / highest + 0.5),
+                  up = (int)(ROWS * w[column] / highest + 0.5);
         if (at >= 0) picture[at][column] = 'o'; /* a few kernels have lobes below 0, which are not drawn */
         if (up >= 0) picture[up][column] = '#';
     }
     printf("%s in %dD: W = # and -dW/dr = o over r, h = %g\n", sph_kernel_name(k), (int)DIM, h);
-    for (row = ROWS; row >= 0; row--) printf("%6.3f |%.*s\n", highest * row / ROWS, COLUMNS + 1, picture[row]);
-    printf("       0%*.2f = %g h\n", COLUMNS, support, sph_kernel_support(k));
-    printf("W(0) = %.6f, W(h) = %.6f, F(h) = (1/r) dW/dr = %.6f\n", sph_kernel_w(k, DIM, 0, h), sph_kernel_w(k, DIM, h, h), sph_kernel_f(k, DIM, h, h));
+    for (row = ROWS; row >= 0; row--)
+        printf("%6.3f |%.*s\n", highest * row / ROWS, COLUMNS + 1, picture[row]);
+    printf("       0%*.2f = %g h\n", COLUMNS, support, sph_kernel_support_ratio(k));
+    printf("W(0) = %.6f, W(h) = %.6f, ", sph_kernel_w(k, DIM, 0, h), sph_kernel_w(k, DIM, h, h));
+    printf("F(h) = (1/r) dW/dr = %.6f\n", sph_kernel_f(k, DIM, h, h));
 }
 
-static int write_csv(const char *name)
+static void table(void)
 {
-    static const sph_kernel kernels[] = {SPH_CUBIC_SPLINE, SPH_QUINTIC_SPLINE, SPH_WENDLAND_C2, SPH_WENDLAND_C6};
-    char part[4096]; /* renamed when it is whole, so that no half of a file is left; a device is written as it is */
-    FILE *file;
-    size_t k;
-    int i;
-    snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
-    file = fopen(part, "w");
-    if (!file) {
-        perror(name);
-        return 2;
-    }
-    fprintf(file, "kernel,r,W,slope\n");
-    for (k = 0; k < sizeof kernels / sizeof *kernels; k++)
-        for (i = 0; i <= 120; i++) {
-            const double r = 3.0 * i / 120;
-            fprintf(file, "%s,%g,%.9g,%.9g\n", sph_kernel_name(kernels[k]), r, sph_kernel_w(kernels[k], DIM, r, h), -sph_kernel_dwdr(kernels[k], DIM, r, h));
+    static const sph_kernel kernels[] = {SPH_CUBIC_SPLINE, SPH_QUINTIC_SPLINE, SPH_WENDLAND_C2,
+                                         SPH_WENDLAND_C6};
+    puts("kernel,r,W,slope");
+    for (size_t k = 0; k < sizeof kernels / sizeof *kernels; k++)
+        for (int i = 0; i <= 120; i++) {
+            const double r = 3.0 * i / 120, slope = -sph_kernel_dwdr(kernels[k], DIM, r, h);
+            const double w = sph_kernel_w(kernels[k], DIM, r, h);
+            printf("%s,%g,%.9g,%.9g\n", sph_kernel_name(kernels[k]), r, w, slope);
         }
-    if (!ferror(file) && fclose(file) == 0 && (rename(part, name) == 0 || (remove(name) == 0 && rename(part, name) == 0))) return 0;
-    perror(name);
-    if (strcmp(part, name) != 0) remove(part);
-    return 2;
+}
+static int save(const char *name) /* as NAME.part, renamed when it is whole; a device is written as it is */
+{
+    char part[4096];
+    snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
+    if (!freopen(part, "w", stdout)) return perror(name), 2;
+    table();
+    if (!ferror(stdout) && !fclose(stdout) && (!rename(part, name) || (!remove(name) && !rename(part, name))))
+        return 0;
+    return perror(name), strcmp(part, name) && remove(part), 2;
 }
 
 static int failed;
@@ -75,21 +76,23 @@ static void check(sph_kernel k, int dim, const char *what, double value, double 
 /* Every kernel in 1D, 2D and 3D: is its integral 1, and is F = (1/r) dW/dr the slope of W? */
 static int test(void)
 {
-    static const double sphere[] = {2, 2 * 3.14159265358979324, 4 * 3.14159265358979324}; /* of radius 1: two points, a circle, a sphere */
+    static const double pi = 3.14159265358979324;
+    const double sphere[] = {2, 2 * pi, 4 * pi}; /* of radius 1: two points, a circle, a sphere */
     enum { STEPS = 12000 };
     int k, dim, i;
     for (k = 0; k < (int)SPH_KERNEL_COUNT; k++)
         for (dim = 1; dim <= 3; dim++) {
             const sph_kernel kernel = (sph_kernel)k;
-            const double step = sph_kernel_support(kernel) * h / STEPS, r = 0.7 * h, d = 1e-5;
-            const double difference = (sph_kernel_w(kernel, dim, r + d, h) - sph_kernel_w(kernel, dim, r - d, h)) / (2 * d);
+            const double step = sph_kernel_support_ratio(kernel) * h / STEPS, r = 0.7 * h, d = 1e-5;
+            const double after = sph_kernel_w(kernel, dim, r + d, h),
+                         before = sph_kernel_w(kernel, dim, r - d, h);
             double integral = 0;
             for (i = 0; i < STEPS; i++) { /* midpoint rule */
                 const double s = (i + 0.5) * step;
                 integral += sphere[dim - 1] * pow(s, dim - 1) * sph_kernel_w(kernel, dim, s, h) * step;
             }
             check(kernel, dim, "the integral", integral, 1);
-            check(kernel, dim, "F r", sph_kernel_f(kernel, dim, r, h) * r, difference);
+            check(kernel, dim, "F r", sph_kernel_f(kernel, dim, r, h) * r, (after - before) / (2 * d));
         }
     if (!failed) printf("ok\n");
     return failed;
@@ -101,8 +104,10 @@ static int usage(const char *option)
     FILE *const to = help ? stdout : stderr;
     int k;
     if (!help) fprintf(to, "hello_kernel: unknown option, or no (good) value for it: %s\n", option);
-    fprintf(to, "hello_kernel [-k KERNEL] [-o FILE.csv] [-t]   draw a kernel, write a few for a plot, or test them all\nKERNEL:");
-    for (k = 0; k < (int)SPH_KERNEL_COUNT; k++) fprintf(to, "%s %s", k % 5 ? "" : "\n   ", sph_kernel_name((sph_kernel)k));
+    fprintf(to, "hello_kernel [-k KERNEL] [-o FILE.csv] [-t]   ");
+    fprintf(to, "draw a kernel, write a few for a plot, or test them all\nKERNEL:");
+    for (k = 0; k < (int)SPH_KERNEL_COUNT; k++)
+        fprintf(to, "%s %s", k % 5 ? "" : "\n   ", sph_kernel_name((sph_kernel)k));
     fprintf(to, "\n");
     return help ? 0 : 2;
 }
@@ -112,7 +117,7 @@ int main(int argc, char **argv)
     int k = (int)SPH_WENDLAND_C2, i;
     for (i = 1; i < argc; i++) {
         if (strcmp(argv[i], "-t") == 0) return test();
-        if (strcmp(argv[i], "-o") == 0 && i + 1 < argc) return write_csv(argv[i + 1]);
+        if (strcmp(argv[i], "-o") == 0 && i + 1 < argc) return save(argv[i + 1]);
         if (strcmp(argv[i], "-k") != 0 || ++i == argc) return usage(argv[i < argc ? i : argc - 1]);
         k = sph_kernel_from_name(argv[i]);
         if (k < 0) return usage(argv[i]);

@@ -162,6 +162,25 @@ static inline sph_list cloud_list(const cloud *c)
     return l;
 }
 static inline sph_cloud cloud_view(const cloud *c) { return sph_cloud_of(cloud_points(c), cloud_list(c), cloud_h(c), cloud_V(c)); }
+/* Where derivatives go: arrays for gx, gy, gz, hxx, hxy, hyy, hxz, hyz, hzz, Laplacian and conditioning. */
+static inline sph_derivatives_out cloud_derivatives_out(sph_real *const *out, unsigned char *status)
+{
+    sph_derivatives_out o;
+    o.gx = out[0];
+    o.gy = out[1];
+    o.gz = out[2];
+    o.hxx = out[3];
+    o.hxy = out[4];
+    o.hyy = out[5];
+    o.hxz = out[6];
+    o.hyz = out[7];
+    o.hzz = out[8];
+    o.laplacian = out[9];
+    o.conditioning = out[10];
+    o.stride = 1;
+    o.status = status;
+    return o;
+}
 static inline void cloud_position(const cloud *c, sph_index i, double *p)
 {
     p[0] = (double)c->x[i];
@@ -190,9 +209,9 @@ static inline void cloud_neighbors(cloud *c, double radius)
     free(c->index);
     c->index = 0;
     if (sph_grid_build(c->dim, cloud_points(c), reach, work, size, &g) != 0) abort();
-    if (sph_grid_count(c->dim, &g, cloud_points(c), SPH_GATHER, R, R, 0, c->start, &c->pairs) != 0) abort();
+    if (sph_grid_count(c->dim, &g, sph_query_of(cloud_points(c), SPH_GATHER, R, 0), c->start, &c->pairs) != 0) abort();
     c->index = (sph_index *)cloud_memory((size_t)c->pairs, sizeof *c->index);
-    if (sph_grid_lists(c->dim, &g, cloud_points(c), SPH_GATHER, R, R, 0, c->start, c->index, c->pairs, &c->pairs) != 0) abort();
+    if (sph_grid_lists(c->dim, &g, sph_query_of(cloud_points(c), SPH_GATHER, R, 0), c->start, c->index, c->pairs, &c->pairs) != 0) abort();
     free(work);
 }
 

@@ -1,15 +1,22 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The complete program of README.md compiles without a warning and prints what its comment says; every function and file that the READMEs name exists.
+# The complete programs of README.md and examples/USING.md compile without a warning and print what the pages
+# say; every function and file that the pages name exists.
 . tests/check.sh
-awk '/^```c$/ { on = 1; next } /^```$/ { on = 0 } on' README.md > "$scratch/program.c"
-check "the program compiles" $CC -std=c99 -Wall -Wextra -Wpedantic -Werror -O2 -I. -o "$scratch/program" "$scratch/program.c" -lm
-"$scratch/program" > "$scratch/output"
-check "the program's output" grep -q "^f'' = 2.0000000000 at the end of the line, 2.0000000000 in the middle$" "$scratch/output"
-for name in $(grep -o 'sph_[a-z0-9_]*' README.md | grep -v -x -e sph_kernels -e sph_ops | sort -u); do
-    check "README.md names $name" grep -q -w "$name" sph_kernels.h sph_ops.h sph.h
-done
-for file in $(grep -h -o '`[a-z_/]*\.[a-z]*`' README.md examples/papers/README.md | tr -d '`' | grep / | sort -u); do
-    check "a README names $file" test -e "$file"
+pages="README.md examples/README.md examples/USING.md examples/OPERATORS.md examples/papers/README.md tests/README.md tests/PLATFORMS.md"
+program() { # PAGE TEXT: the page's only program, and what it must print
+    awk '/^```c$/ { on = 1; next } /^```$/ { on = 0 } on' "$1" > "$scratch/program.c"
+    check "the program of $1 compiles" $CC -std=c99 -Wall -Wextra -Wpedantic -Werror -O2 -I. -o "$scratch/program" "$scratch/program.c" -lm
+    check "the output of the program of $1" answers 0 "$2" "$scratch/program"
+}
+program README.md "^f'' = 2.0000000000 at the end of the line, 2.0000000000 in the middle$"
+program examples/USING.md "^gradient in the corner: 2.000000 -*0.000000 -*0.000000$"
+for page in $pages; do
+    for name in $(grep -o 'sph_[a-z0-9_]*' "$page" | grep -v -x -e sph_kernels -e sph_ops | sort -u); do
+        check "$page names $name" grep -q -w -e "$name" sph_kernels.h sph_ops.h sph.h
+    done
+    for file in $(grep -o '`[a-z_/]*\.[a-z]*`' "$page" | tr -d '`' | grep / | sort -u); do
+        check "$page names $file" test -e "$file"
+    done
 done
 finish readme

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # The single-file examples: each is at most 200 lines, builds from the root without a warning with the very line of its opening comment, passes its self-check (-t), draws something,
-# writes a table (-o), has help, and answers wrong use with a clear error and exit status 2. The gallery names each, with its picture and its line.
+# writes a table (-o), finds nothing wrong with its cloud (EXAMINE 1), has help, and answers wrong use with a clear error and exit status 2. The gallery names each, with its picture and its line.
 . tests/check.sh
 
 build() { # the cc line with this compiler, warnings as errors, into the scratch directory
@@ -9,12 +9,26 @@ build() { # the cc line with this compiler, warnings as errors, into the scratch
     $CC -Wall -Wextra -Werror $(echo "${1#cc }" | sed "s|-o $name|-o $scratch/$name|")
 }
 
+one_copy='-DSPH_FN=static __attribute__((noinline, unused))' # seconds to compile
+changed() { # name, what sed changes: builds that into the scratch directory, with the doctor
+    sed -e 's/^#define EXAMINE 0/#define EXAMINE 1/' -e "$2" "examples/$1.c" > "$scratch/$1-changed.c"
+    $CC -std=c99 -O1 "$one_copy" -I. -o "$scratch/$1-changed" "$scratch/$1-changed.c" -lm
+}
+quiet() { "$@" 2>&1 > /dev/null | { ! grep .; }; }
+
 for source in examples/*.c; do
     name=$(basename "$source" .c)
     line=$(sed -n 's/^ \*  *\(cc .*\)$/\1/p' "$source" | head -n 1)
     check "$name: 200 lines" test "$(wc -l < "$source")" -le 200
     check "$name: '$line'" build "$line"
     check "$name: self-check" answers 0 "^ok$" "$scratch/$name" -t
+    if grep -q '^#define EXAMINE 0' "$source"; then # not where there are no particles
+        check "$name, examined: compiles" changed "$name" ''
+        check "$name, examined: self-check" answers 0 "^ok$" "$scratch/$name-changed" -t
+        check "$name, examined: no finding" quiet "$scratch/$name-changed"
+    elif grep -q sph_cloud "$source"; then
+        check "$name: EXAMINE" false
+    fi
     check "$name: help" answers 0 "^$name .*-t" "$scratch/$name" -h
     check "$name: unknown option" answers 2 "$name: .*-nonsense" "$scratch/$name" -nonsense
     check "$name: missing value" answers 2 "$name: .*-o" "$scratch/$name" -o
@@ -28,6 +42,11 @@ for source in examples/*.c; do
     check "$name: the gallery has its picture" grep -q -F "(gallery/$name.png)" examples/README.md
     check "$name: a picture of at most 40 KB" test "$(wc -c < "examples/gallery/$name.png")" -le 40960
 done
+
+check "a list that is too short: compiles" changed dam_break 's/sph_kernel_support_ratio(KERNEL) \* h/h/'
+check "a list that is too short is found" answers 0 "^particle [0-9]*, neighbour [0-9]*, ratio .* The list ends at" "$scratch/dam_break-changed"
+check "a position that is none: compiles" changed dam_break 's/^    fill(20);/    fill(20);\n    x[17] = NAN;/'
+check "a position that is none is refused in words" answers 1 "^x: a position is not finite, first at particle 17$" "$scratch/dam_break-changed"
 
 for name in $(grep -o 'sph_[a-z0-9_]*' examples/README.md | sort -u); do
     check "examples/README.md names $name" grep -q -w -e "$name" sph_kernels.h sph_ops.h sph.h

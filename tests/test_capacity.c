@@ -199,7 +199,7 @@ static void check_rooms(const sample *s, const sph_grid *g, int criterion, int f
             size_t p;
             for (p = 0; p < end; p++) index[p] = guard_value;
             threads(counts[t]);
-            answer = sph_grid_lists(s->dim, g, sample_points(s), criterion, R, R, flags, start, index, capacity, &found);
+            answer = sph_grid_lists(s->dim, g, sph_query_of(sample_points(s), criterion, R, flags), start, index, capacity, &found);
             if (found != pairs) wrong = "the number of pairs is wrong";
             else if (answer != (capacity < pairs ? SPH_ERROR_CAPACITY : 0)) wrong = "the answer is wrong";
             for (p = (size_t)capacity; p < end; p++)
@@ -307,7 +307,7 @@ static void check_collapse(int dim, sph_index n, sph_index apart, int flags)
         const sph_index answer = countable ? SPH_ERROR_CAPACITY : SPH_ERROR_PAIRS;
         room = k == 0 ? ROOM : k == 1 ? 1 : 0;
         threads(k == 1 ? 3 : 1);
-        CHECK(sph_grid_lists(dim, &g, sample_points(&s), SPH_LARGER, R, R, flags, start, room > 0 ? index : 0, room, &found[k]) == answer);
+        CHECK(sph_grid_lists(dim, &g, sph_query_of(sample_points(&s), SPH_LARGER, R, flags), start, room > 0 ? index : 0, room, &found[k]) == answer);
     }
     threads(1);
     for (i = ROOM; i < ROOM + GUARD; i++) written |= index[i] != guard_value;
@@ -413,8 +413,8 @@ static void test_unused_radii(void)
     start = (sph_index *)cloud_memory((size_t)s.n + 1, sizeof *start);
     R = sph_scalars_array(s.R);
     CHECK(sph_grid_build(2, sample_points(&s), SPH_R(2.6), work, size, &g) == 0);
-    CHECK(sph_grid_count(2, &g, sample_points(&s), SPH_GATHER, R, none, 0, start, &pairs[0]) == 0);
-    CHECK(sph_grid_count(2, &g, sample_points(&s), SPH_SCATTER, none, R, 0, start, &pairs[1]) == 0);
+    CHECK(sph_grid_count(2, &g, (sph_query){sample_points(&s), SPH_GATHER, R, none, 0}, start, &pairs[0]) == 0);
+    CHECK(sph_grid_count(2, &g, (sph_query){sample_points(&s), SPH_SCATTER, none, R, 0}, start, &pairs[1]) == 0);
     CHECK(pairs[0] > 0 && pairs[0] == pairs[1]); /* j gathers i where i scatters to j */
     free(work);
     free(start);
@@ -436,7 +436,7 @@ static void test_radius_limits(void)
         int64_t pairs = -1;
         sph_grid g;
         CHECK(sph_grid_build(1, points, limits[k], work, size, &g) == 0);
-        CHECK(sph_grid_count(1, &g, points, SPH_LARGER, R, R, 0, start, &pairs) == 0);
+        CHECK(sph_grid_count(1, &g, sph_query_of(points, SPH_LARGER, R, 0), start, &pairs) == 0);
         CHECK(pairs == 2);
         free(work);
     }

@@ -68,7 +68,7 @@ static heap heap_new(sph_index n, double box)
         memcpy(p, spare, (size_t)n * sizeof *p);
     }
     free(spare);
-    for (i = 0; i < n; i++) s.radius[i] = sph_kernel_support(COLLAPSE_KERNEL) * s.h[i];
+    for (i = 0; i < n; i++) s.radius[i] = sph_kernel_support_ratio(COLLAPSE_KERNEL) * s.h[i];
     tree_reach(&s.t, s.radius);
     tree_neighbours(&s.t, s.x[0], s.x[1], s.x[2], s.radius, box, &s.rows);
     return s;
@@ -112,7 +112,7 @@ static void test_neighbours(void)
         sph_index i;
         for (i = 0; i < s.n; i++) widest = fmax(widest, s.radius[i]);
         CHECK(sph_grid_build(3, x, widest, work, size, &grid) == 0);
-        CHECK(sph_grid_lists(3, &grid, x, SPH_LARGER, radius, radius, SPH_LIST_SORTED, start, index, s.rows.pairs, &pairs) == 0);
+        CHECK(sph_grid_lists(3, &grid, sph_query_of(x, SPH_LARGER, radius, SPH_LIST_SORTED), start, index, s.rows.pairs, &pairs) == 0);
         CHECK(pairs == s.rows.pairs);
         for (i = 0; i < s.n; i++) qsort(s.rows.index + s.rows.start[i], (size_t)(s.rows.start[i + 1] - s.rows.start[i]), sizeof *s.rows.index, ascending);
         CHECK(pairs == s.rows.pairs && memcmp(start, s.rows.start, ((size_t)s.n + 1) * sizeof *start) == 0 &&
@@ -152,7 +152,7 @@ static void test_tree_gravity(void)
     const sph_vector_out a = sph_vector_out_separate(s.a[0], s.a[1], s.a[2]);
     double error[ANGLES], momentum[ANGLES], e, p, whole[3];
     int k, c;
-    CHECK(sph_gravity_direct(COLLAPSE_KERNEL, heap_cloud(&s), sph_scalars_array(s.m), 0.8, a, NULL) == 0);
+    CHECK(sph_gravity_direct(COLLAPSE_KERNEL, heap_cloud(&s), sph_scalars_array(s.m), 0.8, a, sph_scalar_out_array(NULL, 0)) == 0);
     tree_moments(&s.t, s.x[0], s.x[1], s.x[2], s.m);
     CHECK_CLOSE(s.t.node[0].q[0] + s.t.node[0].q[2] + s.t.node[0].q[5], 0.0, 1e-14);
     for (k = 0; k < ANGLES; k++) {
@@ -370,7 +370,7 @@ static double energy(const collapse *g)
     const sph_cloud open =
         sph_cloud_of(collapse_open(g), collapse_list(g), collapse_field(g, H), sph_scalars_none());
     sph_index i;
-    CHECK(sph_gravity_direct(COLLAPSE_KERNEL, open, sph_scalars_same(&g->model.m), 1, a, phi) == 0);
+    CHECK(sph_gravity_direct(COLLAPSE_KERNEL, open, sph_scalars_same(&g->model.m), 1, a, sph_scalar_out_array(phi, 0)) == 0);
     for (i = 0; i < g->s.n; i++)
         e += g->model.m * (0.5 * (pow(g->a[VX][i], 2) + pow(g->a[VY][i], 2) + pow(g->a[VZ][i], 2)) + g->a[P][i] / (0.4 * g->a[RHO][i]) + 0.5 * phi[i]);
     free(phi);

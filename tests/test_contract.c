@@ -4,6 +4,9 @@
  *
  * The tables are read when the test runs (from the repository's root), and so are the headers: a function without a row, a row without a function, a cell without a fault
  * behind it and a fault without a cell all fail. All arrays of a call lie in one piece of memory with guards in between; the whole of it is compared after each call.
+ * Each call that is refused must say so once (SPH_REFUSED), with the error, the argument and the first
+ * particle at fault. Each is made twice, the second time with a cloud that sph_cloud_checked has marked: same
+ * answer, same bytes. Those that are good are made once more, with outputs that are members of structs.
  *
  * A new function needs a row in the tables, a line in `functions` and one to call it; a new fault a column and an entry in `columns`.
  * tests/test_contract_unchecked.c is the same with SPH_CHECK = 0, without the columns under "Contents".
@@ -12,6 +15,21 @@
 #define _POSIX_C_SOURCE 200809L /* alarm */
 #endif
 #include "one_copy.h"
+
+/* what the functions say of what they refuse */
+static struct refusal {
+    int count, error;
+    long particle;
+    const char *argument;
+} refusal;
+static void refused(const char *argument, long particle, int error)
+{
+    refusal.count++;
+    refusal.argument = argument;
+    refusal.particle = particle;
+    refusal.error = error;
+}
+#define SPH_REFUSED(argument, particle, error) refused(argument, (long)(particle), error)
 
 #include "../sph.h"
 #include "check.h"
@@ -78,8 +96,8 @@ enum { ANY_NUMBER, NOT_NEGATIVE, POSITIVE, BELOW_ONE, OF_FLAGS, NO_LESS_THAN_0, 
 enum { VALUE_, LENGTH };
 /* clang-format off */
 #define NUMBERS_OF(X) \
-    X(LEAST, NOT_NEGATIVE, 0.0, VALUE_) X(CONDITIONING, ANY_NUMBER, 0.0, VALUE_) X(OPERATOR, ANY_NUMBER, 1.0, VALUE_) X(ETA, POSITIVE, 1.0, VALUE_) \
-    X(TOLERANCE, BELOW_ONE, 1e-3, VALUE_) X(RESTITUTION, NOT_NEGATIVE, 0.9, VALUE_) X(CONTACT, POSITIVE, 1.0, VALUE_) X(DENSITY, POSITIVE, 20.0, VALUE_) \
+    X(LEAST, NOT_NEGATIVE, 0.0, VALUE_) X(CONDITIONING, ANY_NUMBER, 0.0, VALUE_) X(OPERATOR, ANY_NUMBER, 1.0, VALUE_) X(ETA, NOT_NEGATIVE, 1.0, VALUE_) \
+    X(TOLERANCE, BELOW_ONE, 1e-3, VALUE_) X(RESTITUTION, NOT_NEGATIVE, 0.9, VALUE_) X(DENSITY, POSITIVE, 20.0, VALUE_) \
     X(GRAVITY, ANY_NUMBER, 1.0, VALUE_) X(CH, NOT_NEGATIVE, 1.0, VALUE_) X(SIGMA, NOT_NEGATIVE, 0.3, VALUE_) X(PARAMETER_A, ANY_NUMBER, 1.0, VALUE_) \
     X(PARAMETER_B, ANY_NUMBER, 0.5, VALUE_) X(PARAMETER_C, ANY_NUMBER, 0.1, VALUE_) X(TAU, ANY_NUMBER, 0.1, VALUE_) \
     X(WAVE, ANY_NUMBER, 1.0, VALUE_) X(SKIN, NOT_NEGATIVE, 0.1, VALUE_) X(GRADIENT, ONE_OF + 3, 0.0, VALUE_) X(MEAN, ONE_OF + 2, 0.0, VALUE_) \
@@ -102,9 +120,10 @@ typedef struct world {
     double number[NUMBERS];
     int k, dim, bins, left, right;
     sph_index first, last, n, m; /* n: sources, m: of the other positions */
-    size_t stride, other_stride, array_stride, work_size, block_size;
+    size_t stride, other_stride, array_stride, out_stride, work_size, block_size;
     double box[3];
     uint64_t same; /* one value for all */
+    int marked;    /* 1: the cloud is checked before the call */
 } world;
 
 static sph_real *real_of(const world *w, int a) { return (sph_real *)w->a[a]; }
@@ -118,7 +137,10 @@ static sph_vectors vectors_of(const world *w, int a)
     v.z = w->dim > 2 ? scalars_of(w, a + 2) : sph_scalars_array(0); /* a third component in 2D is there if its array is */
     return v;
 }
-static sph_vector_out vector_out_of(const world *w, int a) { return sph_vector_out_separate(real_of(w, a), real_of(w, a + 1), real_of(w, a + 2)); }
+static sph_vector_out vector_out_of(const world *w, int a)
+{
+    return sph_vector_out_strided(real_of(w, a), real_of(w, a + 1), real_of(w, a + 2), w->out_stride);
+}
 static sph_diagonal diagonal_of(const world *w, int a)
 {
     sph_diagonal d;
@@ -140,9 +162,9 @@ static sph_list list_of(const world *w)
     l.index = index_of(w, INDEX);
     return l;
 }
-static sph_gas gas_of(const world *w)
+static sph_medium gas_of(const world *w)
 {
-    sph_gas g;
+    sph_medium g;
     g.m = scalars_of(w, M);
     g.rho = scalars_of(w, RHO);
     g.omega = scalars_of(w, OMEGA);
@@ -150,12 +172,14 @@ static sph_gas gas_of(const world *w)
 }
 static sph_cloud cloud_of(const world *w)
 {
-    return sph_cloud_range(sph_cloud_of(points_of(w), list_of(w), scalars_of(w, H), scalars_of(w, V)), w->first, w->last);
+    const sph_cloud all = sph_cloud_of(points_of(w), list_of(w), scalars_of(w, H), scalars_of(w, V));
+    const sph_cloud c = sph_cloud_range(all, w->first, w->last);
+    return w->marked ? sph_cloud_checked(w->dim, c) : c;
 }
-static sph_cloud last_of(const world *w) /* its last target alone */
+static sph_cloud last_of(const world *w) /* its last target alone, if it has one */
 {
-    const sph_index i = w->first < 0 ? w->first : w->last - 1;
-    return sph_cloud_range(cloud_of(w), i, i + 1);
+    const sph_index i = w->first < 0 || w->first == w->last ? w->first : w->last - 1;
+    return sph_cloud_range(cloud_of(w), i, w->first == w->last ? i : i + 1);
 }
 static sph_cloud others_with_list(const world *w)
 {
@@ -176,9 +200,9 @@ static sph_fluid fluid_of(const world *w)
     f.eta = SPH_R(w->number[PARAMETER_C]);
     return f;
 }
-static sph_derivative_out derivative_out_of(const world *w)
+static sph_derivatives_out derivative_out_of(const world *w)
 {
-    sph_derivative_out o;
+    sph_derivatives_out o;
     o.gx = real_of(w, O0);
     o.gy = real_of(w, O1);
     o.gz = real_of(w, O2);
@@ -190,31 +214,33 @@ static sph_derivative_out derivative_out_of(const world *w)
     o.hzz = real_of(w, HZZ);
     o.laplacian = real_of(w, S0);
     o.conditioning = real_of(w, S1);
-    o.stride = 1;
+    o.stride = w->out_stride;
     o.status = (unsigned char *)w->a[STATUS];
     return o;
 }
 static sph_scalar_out scalar_out_of(const world *w)
 {
-    return sph_scalar_out_array(real_of(w, S0), (unsigned char *)w->a[STATUS]);
+    return sph_scalar_out_strided(real_of(w, S0), w->out_stride, (unsigned char *)w->a[STATUS]);
 }
-static sph_row_out row_out_of(const world *w)
+static sph_rows_out row_out_of(const world *w)
 {
-    sph_row_out o;
+    sph_rows_out o = {0};
     o.row = real_of(w, R0);
     o.diagonal = real_of(w, S0);
     o.factor = real_of(w, S2);
     o.conditioning = real_of(w, S1);
+    o.stride = w->out_stride;
     o.status = (unsigned char *)w->a[STATUS];
     return o;
 }
-static sph_gradient_row_out gradient_row_out_of(const world *w)
+static sph_gradient_rows_out gradient_row_out_of(const world *w)
 {
-    sph_gradient_row_out o;
+    sph_gradient_rows_out o = {0};
     o.x = real_of(w, R0);
     o.y = real_of(w, R1);
     o.z = real_of(w, R2);
     o.conditioning = real_of(w, S1);
+    o.stride = w->out_stride;
     o.status = (unsigned char *)w->a[STATUS];
     return o;
 }
@@ -226,7 +252,7 @@ static sph_jet jet_of(const world *w)
 }
 static sph_elliptic_options options_of(const world *w)
 {
-    sph_elliptic_options o = sph_elliptic_defaults();
+    sph_elliptic_options o = {0};
     o.gradient = (int)w->number[GRADIENT];
     o.mean = (int)w->number[MEAN];
     o.conditioning_min = SPH_R(w->number[CONDITIONING]);
@@ -266,7 +292,7 @@ static sph_collision collision_of(const world *w)
 static sph_cleaning cleaning_of(const world *w)
 {
     sph_cleaning c;
-    c.gas = gas_of(w);
+    c.medium = gas_of(w);
     c.field = vectors_of(w, BX);
     c.psi = scalars_of(w, F);
     c.div_v = scalars_of(w, U);
@@ -276,11 +302,37 @@ static sph_cleaning cleaning_of(const world *w)
 }
 static sph_cleaning_out cleaning_out_of(const world *w)
 {
-    sph_cleaning_out o;
+    sph_cleaning_out o = {0};
     o.rate_B = vector_out_of(w, O0);
     o.rate_psi = real_of(w, S0);
     o.div_B = real_of(w, S1);
+    o.stride = w->out_stride;
+    o.status = (unsigned char *)w->a[STATUS];
     return o;
+}
+static sph_scalar_out potential_of(const world *w)
+{
+    return sph_scalar_out_strided(real_of(w, S0), w->out_stride, 0);
+}
+static sph_derivatives_options derivatives_options_of(const world *w)
+{
+    sph_derivatives_options o = {0};
+    o.conditioning_min = SPH_R(w->number[LEAST]);
+    return o;
+}
+static sph_fluid_out fluid_out_of(const world *w)
+{
+    sph_fluid_out o = {0};
+    o.acceleration = vector_out_of(w, O0);
+    o.rate = real_of(w, S0);
+    o.heating = real_of(w, S1);
+    o.stride = w->out_stride;
+    o.status = (unsigned char *)w->a[STATUS];
+    return o;
+}
+static sph_query query_of(const world *w)
+{
+    return sph_query_of(points_of(w), (int)w->number[CRITERION], scalars_of(w, REACH), (int)w->number[FLAGS]);
 }
 static sph_vec along_x(double x)
 {
@@ -303,24 +355,22 @@ static sph_vec along_x(double x)
 #define STATE (unsigned char *)w->a[STATUS]
 #define CALL(name, ...) static sph_index call_##name(const world *w) { return (sph_index)sph_##name(__VA_ARGS__); }
 
-CALL(shepard_sum, RANGE, R(S0))
+CALL(shepard_sum, RANGE, scalar_out_of(w))
 CALL(interpolate_shepard, RANGE, A(F), scalar_out_of(w))
-CALL(density_summation, RANGE, A(M), R(S0))
+CALL(density_summation, RANGE, A(M), scalar_out_of(w))
 CALL(gradient_difference, RANGE, A(F), vector_out_of(w, O0))
 CALL(gradient_cspm, RANGE, A(F), derivative_out_of(w))
 CALL(gradient_rows_cspm, RANGE, gradient_row_out_of(w))
-CALL(laplacian_brookshaw, RANGE, A(F), R(S0))
-CALL(laplacian_rows_brookshaw, RANGE, R(R0))
-CALL(laplacian_kernel, RANGE, A(F), R(S0))
-CALL(laplacian_rows_kernel, RANGE, R(R0))
-CALL(derivatives_cspm, RANGE, A(F), X(LEAST), derivative_out_of(w))
-CALL(derivatives_icspm, RANGE, A(F), X(LEAST), 0, derivative_out_of(w))
-CALL(derivatives_wls, RANGE, A(F), X(LEAST), derivative_out_of(w))
-CALL(derivative_rows_cspm, RANGE, jet_of(w), row_out_of(w))
-CALL(derivative_rows_icspm, RANGE, jet_of(w), row_out_of(w))
-CALL(derivative_rows_wls, RANGE, jet_of(w), row_out_of(w))
+CALL(laplacian_brookshaw, RANGE, A(F), scalar_out_of(w))
+CALL(laplacian_rows_brookshaw, RANGE, row_out_of(w))
+CALL(derivatives_cspm, RANGE, A(F), derivatives_options_of(w), derivative_out_of(w))
+CALL(derivatives_icspm, RANGE, A(F), derivatives_options_of(w), derivative_out_of(w))
+CALL(derivatives_wls, RANGE, A(F), derivatives_options_of(w), derivative_out_of(w))
+CALL(derivatives_rows_cspm, RANGE, jet_of(w), row_out_of(w))
+CALL(derivatives_rows_icspm, RANGE, jet_of(w), row_out_of(w))
+CALL(derivatives_rows_wls, RANGE, jet_of(w), row_out_of(w))
 CALL(second_derivative_bim, RANGE_ONE, A(F), w->left, w->right, scalar_out_of(w))
-CALL(second_derivative_rows_bim, RANGE_ONE, w->left, w->right, R(R0), STATE)
+CALL(second_derivative_rows_bim, RANGE_ONE, w->left, w->right, row_out_of(w))
 CALL(elliptic_brookshaw, RANGE, A(MX), options_with_source(w), A(F), scalar_out_of(w))
 CALL(elliptic_brookshaw_corrected, RANGE, A(MX), options_with_source(w), A(F), scalar_out_of(w))
 CALL(elliptic_schwaiger, RANGE, A(MX), options_with_source(w), A(F), scalar_out_of(w))
@@ -330,46 +380,40 @@ CALL(elliptic_rows_brookshaw_corrected, RANGE, A(MX), options_of(w), row_out_of(
 CALL(elliptic_rows_schwaiger, RANGE, A(MX), options_of(w), row_out_of(w))
 CALL(elliptic_rows_msph, RANGE, A(MX), options_of(w), row_out_of(w))
 CALL(elliptic_rows_anisotropic, RANGE, diagonal_of(w, MX), row_out_of(w))
-CALL(elliptic_rows_msph_diagonal, RANGE, diagonal_of(w, MX), options_of(w), row_out_of(w))
 CALL(elliptic_rows_boundary, RANGE, A(MX), options_of(w), boundary_of(w), row_out_of(w))
-CALL(rows_apply, cloud_of(w), R(ROW), R(DIAGONAL), A(F), R(S0))
-CALL(rows_monotone, cloud_of(w), R(ROW), R(DIAGONAL), STATE)
+CALL(rows_apply, cloud_of(w), R(ROW), A(DIAGONAL), A(F), scalar_out_of(w))
+CALL(rows_monotone, cloud_of(w), R(ROW), A(DIAGONAL), STATE)
 CALL(rows_time_step, cloud_of(w), R(ROW), R(S0))
 CALL(rows_growth, w->dim, last_of(w), R(ROW), X(TAU), along_x(w->number[WAVE]), R(S0), R(S1))
 CALL(csr_size, cloud_of(w))
-CALL(csr_assemble, cloud_of(w), R(ROW), R(DIAGONAL), 0, csr_of(w), (int64_t *)w->a[REPORT])
-CALL(fluid_rates_monaghan, RANGE, fluid_of(w), vector_out_of(w, O0), R(S0), R(S1))
-CALL(fluid_rates_colagrossi, RANGE, fluid_of(w), vector_out_of(w, O0), R(S0), R(S1))
-CALL(fluid_rates_hu_adams, RANGE, fluid_of(w), vector_out_of(w, O0), R(S0), R(S1))
-CALL(density_number, RANGE, A(M), R(S0))
-CALL(viscous_mu_morris, RANGE, fluid_of(w), A(U), vector_out_of(w, O0))
-CALL(viscous_mu_monaghan_cleary, RANGE, fluid_of(w), A(U), vector_out_of(w, O0))
+CALL(csr_assemble, cloud_of(w), R(ROW), A(DIAGONAL), 0, csr_of(w), (int64_t *)w->a[REPORT])
+CALL(fluid_rates_monaghan, RANGE, fluid_of(w), fluid_out_of(w))
+CALL(fluid_rates_colagrossi, RANGE, fluid_of(w), fluid_out_of(w))
+CALL(fluid_rates_hu_adams, RANGE, fluid_of(w), fluid_out_of(w))
+CALL(density_number, RANGE, A(M), scalar_out_of(w))
+CALL(viscosity_mu_morris, RANGE, fluid_of(w), A(U), vector_out_of(w, O0))
+CALL(viscosity_mu_monaghan_cleary, RANGE, fluid_of(w), A(U), vector_out_of(w, O0))
 CALL(velocity_xsph, RANGE, fluid_of(w), X(PARAMETER_C), vector_out_of(w, O0))
 CALL(collision_count, LIST, collision_of(w), vectors_of(w, VX), I(I0))
 CALL(collision_change_weighted, LIST, collision_of(w), vectors_of(w, VX), I(COUNT), vector_out_of(w, O0))
-CALL(collision_change_literal, LIST, collision_of(w), vectors_of(w, VX), vector_out_of(w, O0))
-CALL(collision_acceleration_literal, LIST, collision_of(w), vectors_of(w, VX), X(CONTACT),
-     vector_out_of(w, O0))
 CALL(nearest_distance, w->dim, others_with_list(w), points_of(w), scalar_out_of(w))
 CALL(hexatic_order, cloud_of(w), scalar_out_of(w))
 CALL(radial_distribution, LIST, X(DISTANCE), X(DENSITY), w->bins, R(S0))
-CALL(count_coincident, LIST, X(WITHIN))
-CALL(separate_coincident, LIST, X(WITHIN), X(STEP), vector_out_of(w, O0))
+CALL(coincident_count, LIST, X(WITHIN))
+CALL(coincident_separate, LIST, X(WITHIN), X(STEP), vector_out_of(w, O0))
 CALL(conserved_sums, LIST, A(M), vectors_of(w, VX), (sph_conserved *)w->a[S0])
-CALL(divergence_difference, RANGE, gas_of(w), vectors_of(w, BX), R(S0))
-CALL(divergence_symmetric, RANGE, gas_of(w), vectors_of(w, BX), R(S0))
+CALL(divergence_difference, RANGE, gas_of(w), vectors_of(w, BX), scalar_out_of(w))
+CALL(divergence_symmetric, RANGE, gas_of(w), vectors_of(w, BX), scalar_out_of(w))
 CALL(gradient_symmetric, RANGE, gas_of(w), A(F), vector_out_of(w, O0))
 CALL(cleaning_rates, RANGE, cleaning_of(w), cleaning_out_of(w))
-CALL(cleaning_rates_symmetric, RANGE, cleaning_of(w), cleaning_out_of(w))
-CALL(cleaning_rates_nonconservative, RANGE, cleaning_of(w), cleaning_out_of(w))
-CALL(gravity_direct, RANGE_ONE, A(M), X(GRAVITY), vector_out_of(w, O0), R(S0))
-CALL(gravity_zeta, RANGE_ONE, A(M), A(RHO), R(S0))
+CALL(gravity_direct, RANGE_ONE, A(M), X(GRAVITY), vector_out_of(w, O0), potential_of(w))
+CALL(gravity_zeta, RANGE_ONE, A(M), A(RHO), scalar_out_of(w))
 CALL(gravity_correction, RANGE_ONE, gas_of(w), A(F), X(GRAVITY), vector_out_of(w, O0))
 CALL(grid_workspace, w->dim, w->n)
 CALL(grid_build, w->dim, points_of(w), X(DISTANCE), w->a[WORK], w->work_size, (sph_grid *)w->a[GRID])
-CALL(grid_lists, w->dim, (const sph_grid *)w->a[GRID], points_of(w), (int)w->number[CRITERION], A(REACH), A(REACH), (int)w->number[FLAGS], I(I0), I(I1),
+CALL(grid_lists, w->dim, (const sph_grid *)w->a[GRID], query_of(w), I(I0), I(I1),
      (int64_t)w->number[CAPACITY], (int64_t *)w->a[REPORT])
-CALL(grid_count, w->dim, (const sph_grid *)w->a[GRID], points_of(w), (int)w->number[CRITERION], A(REACH), A(REACH), (int)w->number[FLAGS], I(I0),
+CALL(grid_count, w->dim, (const sph_grid *)w->a[GRID], query_of(w), I(I0),
      (int64_t *)w->a[REPORT])
 CALL(grid_renumber, (sph_grid *)w->a[GRID])
 CALL(search, w->dim, points_of(w), A(REACH), (int)w->number[CRITERION], w->a[WORK], w->block_size, (sph_neighbors *)w->a[REPORT])
@@ -378,36 +422,39 @@ CALL(permute, w->n, I(ORDER), R(F), w->array_stride, R(S0))
 CALL(permute_inverse, w->n, I(ORDER), I(I0))
 CALL(rebuild_due, w->dim, points_of(w), others_of(w), X(SKIN))
 /* clang-format on */
-static sph_index call_collide_sequential(const world *w)
+static sph_index call_collision_sequential(const world *w)
 {
     sph_collision_report *const report = (sph_collision_report *)w->a[REPORT];
-    const sph_index answer = sph_collide_sequential(LIST, collision_of(w), vector_out_of(w, VX), report);
+    const sph_index answer = sph_collision_sequential(LIST, collision_of(w), vector_out_of(w, VX), report);
     if (answer >= 0 && report) CHECK(sphi_finite(report->energy));
+    if (answer >= 0 && report && w->first == w->last) CHECK(report->collisions == 0 && report->coincident == 0);
     return answer;
 }
-static sph_index call_grid_order(const world *w) { return sph_grid_order((const sph_grid *)w->a[GRID]) ? 1 : 0; }
+static sph_index call_grid_permutation(const world *w) { return sph_grid_permutation((const sph_grid *)w->a[GRID]) ? 1 : 0; }
 static sph_index call_curl_difference(const world *w) /* three components in any dimension */
 {
-    return sph_curl_difference(RANGE, gas_of(w), vectors_of(w, BX), sph_vector_out_separate(R(O0), R(S0), R(S1)));
+    return sph_curl_difference(RANGE, gas_of(w), vectors_of(w, BX),
+                               sph_vector_out_strided(R(O0), R(S0), R(S1), w->out_stride));
 }
 static sph_index call_density_adaptive(const world *w)
 {
     sph_density_options d;
-    sph_density_out o;
-    d.reach = A(REACH);
+    sph_density_out o = {0};
+    d.list_radius = A(REACH);
     d.eta = X(ETA);
     d.tolerance = X(TOLERANCE);
     o.h = R(GUESS);
     o.rho = R(S0);
     o.omega = R(S3);
+    o.stride = w->out_stride;
     o.status = STATE;
     return sph_density_adaptive(RANGE, A(M), d, o);
 }
 static sph_index call_wall_adami(const world *w)
 {
     sph_wall s;
-    sph_wall_out o;
-    s.share = A(V);
+    sph_wall_out o = {0};
+    s.share = A(M);
     s.rho = A(U);
     s.p = A(P);
     s.v = vectors_of(w, VX);
@@ -416,12 +463,13 @@ static sph_index call_wall_adami(const world *w)
     s.gravity = along_x(w->number[GRAVITY]);
     o.p = R(S0);
     o.v = vector_out_of(w, O0);
+    o.stride = w->out_stride;
     o.status = STATE;
     return sph_wall_adami(RANGE, s, o);
 }
 static sph_index call_elliptic_diagnose(const world *w)
 {
-    sph_elliptic_report r;
+    sph_elliptic_report r = {0};
     r.sign_least = R(S0);
     r.sign_most = R(S1);
     r.xi = R(S2);
@@ -429,15 +477,16 @@ static sph_index call_elliptic_diagnose(const world *w)
     r.n = R(S4);
     r.n_bound = R(S5);
     r.eigenvalue_least = R(S6);
-    r.condition = R(S7);
+    r.eigenvalue_ratio = R(S7);
+    r.stride = w->out_stride;
     r.status = STATE;
     return sph_elliptic_diagnose(RANGE, options_of(w), r);
 }
 static sph_index call_mhd_rates(const world *w)
 {
     sph_mhd s;
-    sph_mhd_out o;
-    s.gas = gas_of(w);
+    sph_mhd_out o = {0};
+    s.medium = gas_of(w);
     s.p = A(P);
     s.u = A(U);
     s.cs = A(C);
@@ -458,12 +507,16 @@ static sph_index call_mhd_rates(const world *w)
     o.div_B = R(S2);
     o.div_v = R(S3);
     o.v_sig = R(S4);
+    o.stride = w->out_stride;
+    o.status = STATE;
     return sph_mhd_rates(RANGE, s, o);
 }
 
 /* What a function has besides arrays and numbers. COUNTS: its answer is no number of failures. OPAQUE: its outputs are not one number a target (or pair). RAW: numbers are moved,
    not looked at. HEAVY: masses must be positive. KEEPS: only the first scalar output is 0 where there is no answer. SIZE: it answers a size.
-   SAYS: REPORT begins with a number of pairs, and is written whatever the answer. */
+   SAYS: REPORT begins with a number of pairs, and is written whatever the answer. TOTALS: it answers a total,
+   which is given for no particles, too. CALLER: a function of sph.h. PARTS: of what has no answer only that is
+   0 which overflowed. */
 enum {
     DIM = 1,
     KERNEL = 2,
@@ -479,7 +532,10 @@ enum {
     SIZE = 2048,
     HEAVY = 4096,
     KEEPS = 8192,
-    SAYS = 16384
+    SAYS = 16384,
+    TOTALS = 32768,
+    CALLER = 65536,
+    PARTS = 131072
 };
 
 typedef struct function {
@@ -515,25 +571,23 @@ typedef struct function {
 #define FUNCTION(name, ...) {"sph_" #name, call_##name, __VA_ARGS__}
 
 static const function functions[] = { /* has, dims, reads, may read, writes, may write, numbers */
-    FUNCTION(shepard_sum, SMOOTHED, ALL, VOLUMES, 0, BIT(S0), 0, 0),
+    FUNCTION(shepard_sum, SMOOTHED, ALL, VOLUMES, 0, BIT(S0), BIT(STATUS), 0),
     FUNCTION(interpolate_shepard, SMOOTHED, ALL, VOLUMES | BIT(F), 0, BIT(S0), BIT(STATUS), 0),
-    FUNCTION(density_summation, SMOOTHED, ALL, MASSES, 0, BIT(S0), 0, 0),
+    FUNCTION(density_summation, SMOOTHED, ALL, MASSES, 0, BIT(S0), BIT(STATUS), 0),
     FUNCTION(density_adaptive, SMOOTHED, ALL, LIST_OF | BIT(REACH) | BIT(M), 0, BIT(GUESS) | BIT(S0), BIT(S3) | BIT(STATUS), N(ETA) | N(TOLERANCE)),
     FUNCTION(gradient_difference, SMOOTHED, ALL, VOLUMES | BIT(F), 0, XYZ(O0), 0, 0),
     FUNCTION(gradient_cspm, SMOOTHED, ALL, VOLUMES | BIT(F), 0, XYZ(O0), BIT(S1) | BIT(STATUS), 0),
     FUNCTION(gradient_rows_cspm, SMOOTHED, ALL, VOLUMES, 0, XYZ(R0), BIT(S1) | BIT(STATUS), 0),
-    FUNCTION(laplacian_brookshaw, SMOOTHED, ALL, VOLUMES | BIT(F), 0, BIT(S0), 0, 0),
-    FUNCTION(laplacian_rows_brookshaw, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), 0, 0),
-    FUNCTION(laplacian_kernel, SMOOTHED, ALL, VOLUMES | BIT(F), 0, BIT(S0), 0, 0),
-    FUNCTION(laplacian_rows_kernel, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), 0, 0),
+    FUNCTION(laplacian_brookshaw, SMOOTHED, ALL, VOLUMES | BIT(F), 0, BIT(S0), BIT(STATUS), 0),
+    FUNCTION(laplacian_rows_brookshaw, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, 0),
     FUNCTION(derivatives_cspm, SMOOTHED, ALL, VOLUMES | BIT(F), 0, 0, DERIVATIVES, N(LEAST)),
     FUNCTION(derivatives_icspm, SMOOTHED, ALL, VOLUMES | BIT(F), 0, 0, DERIVATIVES, N(LEAST)),
     FUNCTION(derivatives_wls, SMOOTHED, ALL, VOLUMES | BIT(F), 0, 0, DERIVATIVES, N(LEAST)),
-    FUNCTION(derivative_rows_cspm, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, N(OPERATOR)),
-    FUNCTION(derivative_rows_icspm, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, N(OPERATOR)),
-    FUNCTION(derivative_rows_wls, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, N(OPERATOR)),
+    FUNCTION(derivatives_rows_cspm, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, N(OPERATOR)),
+    FUNCTION(derivatives_rows_icspm, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, N(OPERATOR)),
+    FUNCTION(derivatives_rows_wls, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, N(OPERATOR)),
     FUNCTION(second_derivative_bim, KERNEL | TARGETS | COUNTED | ENDS, 1, VOLUMES | BIT(F), 0, BIT(S0), BIT(STATUS), 0),
-    FUNCTION(second_derivative_rows_bim, KERNEL | TARGETS | COUNTED | ENDS, 1, VOLUMES, 0, BIT(R0), BIT(STATUS), 0),
+    FUNCTION(second_derivative_rows_bim, KERNEL | TARGETS | COUNTED | ENDS, 1, VOLUMES, 0, BIT(R0), ROW_EXTRAS, 0),
     FUNCTION(elliptic_brookshaw, SMOOTHED, ALL, VOLUMES | BIT(MX) | BIT(F), BIT(U), BIT(S0), BIT(STATUS), CHOICE),
     FUNCTION(elliptic_brookshaw_corrected, SMOOTHED, ALL, VOLUMES | BIT(MX) | BIT(F), BIT(U), BIT(S0), BIT(STATUS), CHOICE),
     FUNCTION(elliptic_schwaiger, SMOOTHED, ALL, VOLUMES | BIT(MX) | BIT(F), BIT(U), BIT(S0), BIT(STATUS), CHOICE),
@@ -543,58 +597,53 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(elliptic_rows_schwaiger, SMOOTHED, ALL, VOLUMES | BIT(MX), 0, BIT(R0), ROW_EXTRAS, CHOICE),
     FUNCTION(elliptic_rows_msph, SMOOTHED, ALL, VOLUMES | BIT(MX), 0, BIT(R0), ROW_EXTRAS, CHOICE),
     FUNCTION(elliptic_rows_anisotropic, SMOOTHED, ALL, VOLUMES | XYZ(MX), 0, BIT(R0), ROW_EXTRAS, 0),
-    FUNCTION(elliptic_rows_msph_diagonal, SMOOTHED, ALL, VOLUMES | XYZ(MX), 0, BIT(R0), ROW_EXTRAS, CHOICE),
     FUNCTION(elliptic_rows_boundary, SMOOTHED, ALL, VOLUMES | BIT(MX) | XYZ(BX) | BIT(F) | BIT(U), 0, BIT(R0) | BIT(S0), BIT(S1) | BIT(S2) | BIT(STATUS), CHOICE),
     FUNCTION(elliptic_diagnose, SMOOTHED | KEEPS, ALL, VOLUMES, 0, 0, XYZ(S0) | XYZ(S3) | BIT(S6) | BIT(S7) | BIT(STATUS), N(GRADIENT) | N(CONDITIONING)),
-    FUNCTION(rows_apply, TARGETS | COUNTED, ALL, ROWS_OF | BIT(ROW) | BIT(F), BIT(DIAGONAL), BIT(S0), 0, 0),
+    FUNCTION(rows_apply, TARGETS | COUNTED, ALL, ROWS_OF | BIT(ROW) | BIT(F), BIT(DIAGONAL), BIT(S0), BIT(STATUS), 0),
     FUNCTION(rows_monotone, TARGETS | COUNTED | COUNTS, ALL, ROWS_OF | BIT(ROW) | BIT(DIAGONAL), 0, 0, BIT(STATUS), 0),
-    FUNCTION(rows_time_step, TARGETS | COUNTED | OPAQUE, ALL, ROWS_OF | BIT(ROW), 0, BIT(S0), 0, 0),
+    FUNCTION(rows_time_step, TARGETS | COUNTED | OPAQUE | TOTALS, ALL, ROWS_OF | BIT(ROW), 0, BIT(S0), 0, 0),
     FUNCTION(rows_growth, LISTED | OPAQUE | ONE_ROW, ALL, LIST_OF | BIT(ROW), 0, BIT(S0) | BIT(S1), 0, N(TAU) | N(WAVE)),
     FUNCTION(csr_size, TARGETS | SIZE, ALL, BIT(START), 0, 0, 0, 0),
-    FUNCTION(csr_assemble, TARGETS | COUNTED | OPAQUE, ALL, ROWS_OF | BIT(ROW) | BIT(DIAGONAL), 0, BIT(I0) | BIT(I1) | BIT(R0), BIT(REPORT), 0),
-    FUNCTION(fluid_rates_monaghan, SMOOTHED | HEAVY, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1), VISCOUS),
-    FUNCTION(fluid_rates_colagrossi, SMOOTHED | HEAVY, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1), VISCOUS),
-    FUNCTION(fluid_rates_hu_adams, SMOOTHED | HEAVY, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1), VISCOUS),
-    FUNCTION(density_number, SMOOTHED, ALL, MASSES, 0, BIT(S0), 0, 0),
-    FUNCTION(viscous_mu_morris, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(U) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
-    FUNCTION(viscous_mu_monaghan_cleary, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(U) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
+    FUNCTION(csr_assemble, TARGETS | COUNTED | OPAQUE | TOTALS, ALL, ROWS_OF | BIT(ROW) | BIT(DIAGONAL), 0, BIT(I0) | BIT(I1) | BIT(R0), BIT(REPORT), 0),
+    FUNCTION(fluid_rates_monaghan, SMOOTHED | HEAVY | PARTS, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1) | BIT(STATUS), VISCOUS),
+    FUNCTION(fluid_rates_colagrossi, SMOOTHED | HEAVY | PARTS, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1) | BIT(STATUS), VISCOUS),
+    FUNCTION(fluid_rates_hu_adams, SMOOTHED | HEAVY | PARTS, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1) | BIT(STATUS), VISCOUS),
+    FUNCTION(density_number, SMOOTHED, ALL, MASSES, 0, BIT(S0), BIT(STATUS), 0),
+    FUNCTION(viscosity_mu_morris, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(U) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
+    FUNCTION(viscosity_mu_monaghan_cleary, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(U) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
     FUNCTION(velocity_xsph, SMOOTHED, ALL, MASSES | BIT(RHO) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
-    FUNCTION(wall_adami, SMOOTHED | KEEPS, ALL, VOLUMES | BIT(U) | BIT(P) | XYZ(VX) | XYZ(BX), BIT(MX), BIT(S0) | XYZ(O0), BIT(STATUS), N(GRAVITY)),
-    FUNCTION(collide_sequential, LISTED | OPAQUE, ALL, COLLIDERS, 0, XYZ(VX), BIT(REPORT),
+    FUNCTION(wall_adami, SMOOTHED | KEEPS, ALL, MASSES | BIT(U) | BIT(P) | XYZ(VX) | XYZ(BX), BIT(MX), BIT(S0) | XYZ(O0), BIT(STATUS), N(GRAVITY)),
+    FUNCTION(collision_sequential, LISTED | OPAQUE | TOTALS, ALL, COLLIDERS, 0, XYZ(VX), BIT(REPORT),
              N(DISTANCE) | N(RESTITUTION)),
     FUNCTION(collision_count, LISTED | COUNTS, ALL, COLLIDERS, 0, BIT(I0), 0, N(DISTANCE)),
     FUNCTION(collision_change_weighted, LISTED, ALL, COLLIDERS | BIT(COUNT), 0, XYZ(O0), 0, N(DISTANCE) | N(RESTITUTION)),
-    FUNCTION(collision_change_literal, LISTED, ALL, COLLIDERS, 0, XYZ(O0), 0, N(DISTANCE) | N(RESTITUTION)),
-    FUNCTION(collision_acceleration_literal, LISTED, ALL, COLLIDERS, 0, XYZ(O0), 0, N(DISTANCE) | N(RESTITUTION) | N(CONTACT)),
     FUNCTION(nearest_distance, LISTED, ALL, POSITIONS | ROWS_OF, 0, BIT(S0), BIT(STATUS), 0),
     FUNCTION(hexatic_order, TARGETS | COUNTED, 2, LIST_OF, 0, BIT(S0), BIT(STATUS), 0),
     FUNCTION(radial_distribution, LISTED | BINS | OPAQUE, ALL, LIST_OF, 0, BIT(S0), 0, N(DISTANCE) | N(DENSITY)),
-    FUNCTION(count_coincident, LISTED | COUNTS, ALL, LIST_OF, 0, 0, 0, N(WITHIN)),
-    FUNCTION(separate_coincident, LISTED | COUNTS, ALL, LIST_OF, 0, XYZ(O0), 0, N(WITHIN) | N(STEP)),
-    FUNCTION(conserved_sums, LISTED | OPAQUE, ALL, XYZ(PX) | BIT(M) | XYZ(VX), 0, BIT(S0), 0, 0),
-    FUNCTION(mhd_rates, SMOOTHED, ALL, GAS | BIT(P) | BIT(U) | BIT(C) | BIT(ALPHA) | BIT(ALPHA_B) | XYZ(VX) | XYZ(BX), BIT(F), XYZ(O0) | XYZ(O3), XYZ(S0) | BIT(S3) | BIT(S4),
+    FUNCTION(coincident_count, LISTED | COUNTS, ALL, LIST_OF, 0, 0, 0, N(WITHIN)),
+    FUNCTION(coincident_separate, LISTED | COUNTS, ALL, LIST_OF, 0, XYZ(O0), 0, N(WITHIN) | N(STEP)),
+    FUNCTION(conserved_sums, LISTED | OPAQUE | TOTALS, ALL, XYZ(PX) | BIT(M) | XYZ(VX), 0, BIT(S0), 0, 0),
+    FUNCTION(mhd_rates, SMOOTHED | PARTS, ALL, GAS | BIT(P) | BIT(U) | BIT(C) | BIT(ALPHA) | BIT(ALPHA_B) | XYZ(VX) | XYZ(BX), BIT(F), XYZ(O0) | XYZ(O3), XYZ(S0) | BIT(S3) | BIT(S4) | BIT(STATUS),
              N(CH) | N(SIGMA) | N(PARAMETER_A) | N(PARAMETER_B) | N(PARAMETER_C)),
-    FUNCTION(cleaning_rates, SMOOTHED, ALL, GAS | XYZ(BX) | BIT(F), BIT(U), XYZ(O0) | BIT(S0), BIT(S1), N(CH) | N(SIGMA)),
-    FUNCTION(cleaning_rates_symmetric, SMOOTHED, ALL, GAS | XYZ(BX) | BIT(F), BIT(U), XYZ(O0) | BIT(S0), BIT(S1), N(CH) | N(SIGMA)),
-    FUNCTION(cleaning_rates_nonconservative, SMOOTHED, ALL, GAS | XYZ(BX) | BIT(F), BIT(U), XYZ(O0) | BIT(S0), BIT(S1), N(CH) | N(SIGMA)),
-    FUNCTION(divergence_difference, SMOOTHED, ALL, GAS | XYZ(BX), 0, BIT(S0), 0, 0),
-    FUNCTION(divergence_symmetric, SMOOTHED, ALL, GAS | XYZ(BX), 0, BIT(S0), 0, 0),
+    FUNCTION(cleaning_rates, SMOOTHED | PARTS, ALL, GAS | XYZ(BX) | BIT(F), BIT(U), XYZ(O0) | BIT(S0), BIT(S1) | BIT(STATUS), N(CH) | N(SIGMA)),
+    FUNCTION(divergence_difference, SMOOTHED, ALL, GAS | XYZ(BX), 0, BIT(S0), BIT(STATUS), 0),
+    FUNCTION(divergence_symmetric, SMOOTHED, ALL, GAS | XYZ(BX), 0, BIT(S0), BIT(STATUS), 0),
     FUNCTION(gradient_symmetric, SMOOTHED, ALL, GAS | BIT(F), 0, XYZ(O0), 0, 0),
     FUNCTION(curl_difference, SMOOTHED, ALL, GAS | XYZ(BX), 0, BIT(O0) | BIT(S0) | BIT(S1), 0, 0),
     FUNCTION(gravity_direct, KERNEL | TARGETS | COUNTED, 4, XYZ(PX) | BIT(H) | BIT(M), 0, XYZ(O0), BIT(S0), N(GRAVITY)),
-    FUNCTION(gravity_zeta, KERNEL | TARGETS | COUNTED, 4, MASSES | BIT(RHO), 0, BIT(S0), 0, 0),
+    FUNCTION(gravity_zeta, KERNEL | TARGETS | COUNTED, 4, MASSES | BIT(RHO), 0, BIT(S0), BIT(STATUS), 0),
     FUNCTION(gravity_correction, KERNEL | TARGETS | COUNTED, 4, GAS | BIT(F), 0, XYZ(O0), 0, N(GRAVITY)),
-    FUNCTION(grid_workspace, DIM | COUNTED | SIZE, ALL, 0, 0, 0, 0, 0),
-    FUNCTION(grid_build, DIM | COUNTED | OPAQUE, ALL, XYZ(PX), 0, BIT(WORK) | BIT(GRID), 0, N(DISTANCE)),
-    FUNCTION(grid_lists, DIM | COUNTED | OPAQUE | SAYS, ALL, XYZ(PX) | BIT(REACH) | BIT(GRID), 0, BIT(I0) | BIT(I1) | BIT(REPORT), 0, N(CRITERION) | N(FLAGS) | N(CAPACITY)),
-    FUNCTION(grid_count, DIM | COUNTED | OPAQUE | SAYS, ALL, XYZ(PX) | BIT(REACH) | BIT(GRID), 0, BIT(I0) | BIT(REPORT), 0, N(CRITERION) | N(FLAGS)),
-    FUNCTION(search, DIM | COUNTED | OPAQUE | SAYS, ALL, XYZ(PX) | BIT(REACH), 0, BIT(WORK) | BIT(REPORT), 0, N(CRITERION)),
-    FUNCTION(search_size, DIM | COUNTED | SIZE, ALL, 0, 0, 0, 0, 0),
-    FUNCTION(grid_order, SIZE, ALL, BIT(GRID), 0, 0, 0, 0),
-    FUNCTION(grid_renumber, OPAQUE, ALL, 0, 0, BIT(GRID) | BIT(WORK), 0, 0),
-    FUNCTION(permute, COUNTED | STRIDE | RAW, ALL, BIT(ORDER) | BIT(F), 0, BIT(S0), 0, 0),
-    FUNCTION(permute_inverse, COUNTED | OPAQUE, ALL, BIT(ORDER), 0, BIT(I0), 0, 0),
-    FUNCTION(rebuild_due, DIM | COUNTED | COUNTS, ALL, POSITIONS, 0, 0, 0, N(SKIN)),
+    FUNCTION(grid_workspace, CALLER | DIM | COUNTED | SIZE, ALL, 0, 0, 0, 0, 0),
+    FUNCTION(grid_build, CALLER | DIM | COUNTED | OPAQUE | TOTALS, ALL, XYZ(PX), 0, BIT(WORK) | BIT(GRID), 0, N(DISTANCE)),
+    FUNCTION(grid_lists, CALLER | DIM | COUNTED | OPAQUE | SAYS | TOTALS, ALL, XYZ(PX) | BIT(REACH) | BIT(GRID), 0, BIT(I0) | BIT(I1) | BIT(REPORT), 0, N(CRITERION) | N(FLAGS) | N(CAPACITY)),
+    FUNCTION(grid_count, CALLER | DIM | COUNTED | OPAQUE | SAYS | TOTALS, ALL, XYZ(PX) | BIT(REACH) | BIT(GRID), 0, BIT(I0) | BIT(REPORT), 0, N(CRITERION) | N(FLAGS)),
+    FUNCTION(search, CALLER | DIM | COUNTED | OPAQUE | SAYS | TOTALS, ALL, XYZ(PX) | BIT(REACH), 0, BIT(WORK) | BIT(REPORT), 0, N(CRITERION)),
+    FUNCTION(search_size, CALLER | DIM | COUNTED | SIZE, ALL, 0, 0, 0, 0, 0),
+    FUNCTION(grid_permutation, CALLER | SIZE, ALL, BIT(GRID), 0, 0, 0, 0),
+    FUNCTION(grid_renumber, CALLER | OPAQUE, ALL, 0, 0, BIT(GRID) | BIT(WORK), 0, 0),
+    FUNCTION(permute, CALLER | COUNTED | STRIDE | RAW, ALL, BIT(ORDER) | BIT(F), 0, BIT(S0), 0, 0),
+    FUNCTION(permute_inverse, CALLER | COUNTED | OPAQUE, ALL, BIT(ORDER), 0, BIT(I0), 0, 0),
+    FUNCTION(rebuild_due, CALLER | DIM | COUNTED | COUNTS, ALL, POSITIONS, 0, 0, 0, N(SKIN)),
 };
 /* clang-format on */
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
@@ -607,7 +656,7 @@ typedef struct ground {
     world good;
     sph_index pairs;
     size_t offset[ARRAYS], size[ARRAYS], total;
-    unsigned char *live, *before, *good_bytes;
+    unsigned char *live, *before, *good_bytes, *spoiled, *after;
 } ground;
 static ground grounds[4]; /* by dim */
 
@@ -649,6 +698,8 @@ static ground ground_new(int dim, int side)
     g.live = (unsigned char *)cloud_memory(g.total, 1);
     g.before = (unsigned char *)cloud_memory(g.total, 1);
     g.good_bytes = (unsigned char *)cloud_memory(g.total, 1);
+    g.spoiled = (unsigned char *)cloud_memory(g.total, 1);
+    g.after = (unsigned char *)cloud_memory(g.total, 1);
     memset(g.live, GUARD_MARK, g.total);
     for (a = 0; a < ARRAYS; a++) {
         w->a[a] = g.live + g.offset[a];
@@ -663,7 +714,7 @@ static ground ground_new(int dim, int side)
     w->bins = 7;
     w->right = (int)c.n - 1;
     w->last = w->n = w->m = c.n;
-    w->stride = w->other_stride = w->array_stride = 1;
+    w->stride = w->other_stride = w->array_stride = w->out_stride = 1;
     w->work_size = sph_grid_workspace(dim, c.n);
     w->block_size = room[WORK_ROOM];
 
@@ -691,7 +742,7 @@ static ground ground_new(int dim, int side)
         real_of(w, DIAGONAL)[i] = -sum;
     }
     build_grid(w);
-    memcpy(w->a[ORDER], sph_grid_order((const sph_grid *)w->a[GRID]), n * sizeof(sph_index));
+    memcpy(w->a[ORDER], sph_grid_permutation((const sph_grid *)w->a[GRID]), n * sizeof(sph_index));
     memcpy(g.good_bytes, g.live, g.total);
     cloud_free(&c);
     return g;
@@ -701,6 +752,8 @@ static void ground_free(ground *g)
     free(g->live);
     free(g->before);
     free(g->good_bytes);
+    free(g->spoiled);
+    free(g->after);
 }
 /* what sanitizers see: arrays with nothing between them */
 static void ground_guards(const ground *g, int on)
@@ -732,6 +785,12 @@ static int64_t needed; /* the size that would do */
 static int64_t said;   /* the number of pairs that is to be said */
 static const ground *here;
 
+/* What a refusal must say: which argument (null: any), and the particle: -1 for none, -2 for any. */
+static struct {
+    const char *argument;
+    long particle;
+} blame;
+
 static int nth(uint64_t set, int v) /* the member number v of a set, or -1 */
 {
     int a;
@@ -754,6 +813,7 @@ static uint64_t values_of(const function *f, const world *w)
     return f->has & RAW ? 0 : (of_each(inputs_of(f, w)) | (inputs_of(f, w) & BIT(ROW))) & ~(POSITIONS | BIT(H) | BIT(REACH) | BIT(GUESS));
 }
 
+static const char *argument_of(const function *f, int a);
 /* Three places of an array of one number a particle, or a pair: in the last row, or the first. A function of one row looks at the last only. */
 static int place(const function *f, const world *w, int a, int which, sph_index *at)
 {
@@ -769,6 +829,8 @@ static int set_one(const function *f, world *w, uint64_t set, int v, double valu
     sph_index at;
     if (a < 0) return END;
     snprintf(what, sizeof what, "%s %g", arrays[a].name, value);
+    blame.argument = argument_of(f, a);
+    blame.particle = 0;
     if (v % 4 == 3) { /* one for all */
         if (BIT(a) & (POSITIONS | BIT(GUESS) | BIT(ROW) | BIT(DIAGONAL)) || BIT(a) & f->writes) return NOT_THIS;
         w->same = BIT(a);
@@ -777,6 +839,8 @@ static int set_one(const function *f, world *w, uint64_t set, int v, double valu
     }
     if (!place(f, w, a, v % 4, &at)) return NOT_THIS;
     real_of(w, a)[at] = SPH_R(value);
+    blame.particle = a == ROW ? -2 : at; /* a row's are counted by entries */
+    if (a == DIAGONAL && at > 0) w->first = 1;
     return GO;
 }
 static int set_either(const function *f, world *w, uint64_t set, int v, double one, double other) { return set_one(f, w, set, v / 2, v % 2 ? other : one); }
@@ -787,20 +851,48 @@ static int spoil_null(const function *f, world *w, int v)
     if (a < 0) return END;
     snprintf(what, sizeof what, "%s", arrays[a].name);
     w->a[a] = 0;
+    blame.argument = a < (int)FIRST_OUTPUT && !(f->writes & BIT(a)) ? argument_of(f, a) : 0;
+    if (POSITIONS & BIT(a)) blame.argument = "points";
     return GO;
+}
+/* nothing to do: no particles, or no targets, and no arrays but for those of totals */
+static void leave_out(const function *f, world *w)
+{
+    const uint64_t kept = f->has & TOTALS ? BIT(GRID) | BIT(REPORT) | BIT(I0) | BIT(S0) : 0;
+    int a;
+    for (a = 0; a < ARRAYS; a++)
+        if (!(kept & BIT(a))) w->a[a] = 0;
+}
+static void set_none(world *w)
+{
+    w->n = w->m = w->first = w->last = 0;
 }
 static int set_count(const function *f, world *w, int v, int count)
 {
-    if (v > 3) return END;
-    snprintf(what, sizeof what, v == 0 ? "n" : v == 1 ? "n of the others" : v == 2 ? "bins" : "two that differ");
+    static const char *const name[] = {"n", "n of the others", "bins", "bins 0", "two that differ", "n, no arrays"};
+    if (v > 5) return END;
+    snprintf(what, sizeof what, "%s", name[v]);
     if (v == 0) w->n = count;
     else if (v == 1) w->m = count;
-    else if (v == 2) w->bins = count;
-    else w->m = w->n - 1;
-    return (v == 0 && f->has & COUNTED) || (v == 1 && f->reads & BIT(QX)) || (v == 2 && f->has & BINS) || (v == 3 && f->call == call_rebuild_due) ? GO
-                                                                                                                                                  : NOT_THIS;
+    else if (v == 2 || v == 3) w->bins = v == 2 ? count : 0;
+    else if (v == 4) w->m = w->n - 1;
+    else {
+        w->n = w->m = count;
+        leave_out(f, w);
+    }
+    if (v == 1) return f->reads & BIT(QX) ? GO : NOT_THIS;
+    if (v == 4) return f->call == call_rebuild_due ? GO : NOT_THIS;
+    return f->has & (v == 2 || v == 3 ? BINS : COUNTED) ? GO : NOT_THIS;
 }
-static int spoil_count_0(const function *f, world *w, int v) { return set_count(f, w, v, 0); }
+static int spoil_count_0(const function *f, world *w, int v)
+{
+    if (v > 2) return END;
+    snprintf(what, sizeof what, v == 0 ? "all arrays" : v == 1 ? "no arrays" : "none of the others");
+    if (v < 2) set_none(w);
+    else w->m = w->first = w->last = 0;
+    if (v == 1) leave_out(f, w);
+    return f->has & COUNTED && (v < 2 || (f->reads & BIT(QX) && f->has & TARGETS)) ? GO : NOT_THIS;
+}
 static int spoil_count_negative(const function *f, world *w, int v) { return set_count(f, w, v, -1); }
 static int spoil_stride(const function *f, world *w, int v)
 {
@@ -812,9 +904,10 @@ static int spoil_stride(const function *f, world *w, int v)
 }
 static int spoil_no_target(const function *f, world *w, int v)
 {
-    if (v > 2) return END;
-    w->first = w->last = v == 0 ? 0 : v == 1 ? w->n / 2 : w->n;
-    return f->has & TARGETS && !(f->has & ONE_ROW) ? GO : NOT_THIS;
+    if (v > 3) return END;
+    w->first = w->last = v == 0 ? 0 : v == 2 ? w->n : w->n / 2;
+    if (v == 3) leave_out(f, w);
+    return f->has & TARGETS ? GO : NOT_THIS;
 }
 static int spoil_first(const function *f, world *w, int v)
 {
@@ -845,15 +938,22 @@ static int spoil_last(const function *f, world *w, int v)
 static int spoil_dim(const function *f, world *w, int v)
 {
     static const int wrong[] = {0, 4, -1};
-    if (v > 2) return END;
-    w->dim = wrong[v];
+    if (v > 5) return END;
+    w->dim = wrong[v % 3];
+    if (v > 2) set_none(w);
+    if (v > 2 && f->has & COUNTED) leave_out(f, w);
+    blame.argument = "dim";
     return f->has & DIM ? GO : NOT_THIS;
 }
 static int spoil_kernel(const function *f, world *w, int v)
 {
-    if (v > 2) return END;
-    w->k = v == 0 ? -1 : v == 1 ? (int)SPH_KERNEL_COUNT : (int)SPH_GAUSSIAN;
-    return f->has & KERNEL && (v < 2 || f->call == call_gravity_direct || f->call == call_gravity_zeta) ? GO : NOT_THIS;
+    const int gravity = f->call == call_gravity_direct || f->call == call_gravity_zeta;
+    if (v > 5) return END;
+    w->k = v % 3 == 0 ? -1 : v % 3 == 1 ? (int)SPH_KERNEL_COUNT : (int)SPH_GAUSSIAN;
+    if (v > 2) set_none(w);
+    if (v > 2) leave_out(f, w);
+    blame.argument = "kernel";
+    return f->has & KERNEL && (v % 3 < 2 || gravity) ? GO : NOT_THIS;
 }
 static int spoil_numbers(const function *f, world *w, int v, int kind)
 {
@@ -906,6 +1006,8 @@ static int spoil_self(const function *f, world *w, int v)
 {
     if (v > 0) return END;
     index_of(w, INDEX)[index_of(w, START)[w->n - 1]] = w->n - 1;
+    blame.argument = "list";
+    blame.particle = w->n - 1;
     return f->reads & BIT(INDEX) ? GO : NOT_THIS;
 }
 static int spoil_entry(const function *f, world *w, int v)
@@ -915,6 +1017,8 @@ static int spoil_entry(const function *f, world *w, int v)
     if (v > 7) return END;
     if (v >= 4 && f->has & ONE_ROW) return NOT_THIS;
     index_of(w, a)[v >= 4 ? 0 : a == ORDER ? w->n - 1 : here->pairs - 1] = wrong[v % 4];
+    blame.argument = "list";
+    blame.particle = v >= 4 ? 0 : w->n - 1;
     return f->reads & (BIT(INDEX) | BIT(ORDER)) ? GO : NOT_THIS;
 }
 static int spoil_start(const function *f, world *w, int v)
@@ -925,6 +1029,8 @@ static int spoil_start(const function *f, world *w, int v)
     else if (v == 1) start[n - 1] = start[n] + 1;
     else if (v == 2) start[0] = -1;
     else start[1] = start[2] + 1;
+    blame.argument = "list";
+    blame.particle = v < 2 ? n - 1 : v == 2 ? 0 : 1;
     return f->reads & BIT(START) && !(v > 1 && f->has & ONE_ROW) ? GO : NOT_THIS;
 }
 /* how far the sums of a function reach, and so how large a box must be */
@@ -934,6 +1040,62 @@ static double reach_of(const function *f, const world *w)
     if (f->reads & BIT(REACH)) return (double)real_of(w, REACH)[2];
     if (f->numbers & N(DISTANCE)) return w->number[DISTANCE];
     return f->numbers & N(WITHIN) ? w->number[WITHIN] : 0.0;
+}
+/* The names of the arguments that the arrays stand for, and where a function has others for them. */
+static const char *argument_of(const function *f, int a)
+{
+    static const struct {
+        const char *names; /* of functions, how they begin */
+        uint64_t set;
+        const char *argument;
+    } named[] = {{"sph_wall_adami", BIT(M), "share"},
+                 {"sph_wall_adami", BIT(U), "rho"},
+                 {"sph_wall_adami", XYZ(BX), "velocity"},
+                 {"sph_wall_adami", XYZ(MX), "normal"},
+                 {"sph_elliptic_rows_anis", BIT(MX), "mobility.x"},
+                 {"sph_elliptic_rows_anis", BIT(MY), "mobility.y"},
+                 {"sph_elliptic_rows_anis", BIT(MZ), "mobility.z"},
+                 {"sph_elliptic_rows_bound", BIT(F), "alpha"},
+                 {"sph_elliptic_rows_bound", BIT(U), "beta"},
+                 {"sph_elliptic_rows_bound", XYZ(BX), "normal"},
+                 {"sph_elliptic", BIT(MX), "m"},
+                 {"sph_elliptic", BIT(F), "u"},
+                 {"sph_elliptic", BIT(U), "options.source"},
+                 {"sph_rows", BIT(F), "u"},
+                 {"sph_cleaning", BIT(F), "psi"},
+                 {"sph_cleaning", BIT(U), "div_v"},
+                 {"sph_mhd", BIT(F), "psi"},
+                 {"sph_mhd", BIT(C), "cs"},
+                 {"sph_mhd", BIT(U), "u"},
+                 {"sph_viscosity", BIT(U), "mu"},
+                 {"sph_gravity", BIT(F), "zeta"},
+                 {"sph_", BIT(PX) | BIT(QX), "x"},
+                 {"sph_", BIT(PY) | BIT(QY), "y"},
+                 {"sph_", BIT(PZ) | BIT(QZ), "z"},
+                 {"sph_", BIT(H), "h"},
+                 {"sph_", BIT(REACH), "list_radius"},
+                 {"sph_", BIT(GUESS), "out.h"},
+                 {"sph_", BIT(V), "volume"},
+                 {"sph_", BIT(M), "m"},
+                 {"sph_", BIT(RHO), "rho"},
+                 {"sph_", BIT(OMEGA), "omega"},
+                 {"sph_", BIT(INVERSE_M), "inverse_mass"},
+                 {"sph_", BIT(F), "f"},
+                 {"sph_", BIT(P), "p"},
+                 {"sph_", BIT(C), "c"},
+                 {"sph_", BIT(ALPHA), "alpha"},
+                 {"sph_", BIT(ALPHA_B), "alpha_B"},
+                 {"sph_", XYZ(VX), "v"},
+                 {"sph_", XYZ(BX), "field"},
+                 {"sph_", BIT(ROW), "row"},
+                 {"sph_", BIT(DIAGONAL), "diagonal"},
+                 {"sph_", BIT(START) | BIT(INDEX), "list"},
+                 {"sph_", BIT(COUNT), "count"}};
+    size_t i;
+    for (i = 0; i < sizeof named / sizeof *named; i++)
+        if (named[i].set & BIT(a) && strncmp(f->name, named[i].names, strlen(named[i].names)) == 0)
+            return named[i].argument;
+    return 0;
 }
 static int looks_at_box(const function *f) { return f->reads & BIT(PX) && f->call != call_gravity_direct && f->call != call_conserved_sums; }
 static int spoil_small_box(const function *f, world *w, int v)
@@ -958,6 +1120,8 @@ static int spoil_image(const function *f, world *w, int v)
     for (c = 0; c < w->dim; c++) w->box[c] = 8.0;
     if (f->reads & BIT(GRID)) build_grid(w); /* of its own box */
     real_of(w, a)[w->n - 1] -= SPH_R(8.0 * 2097152.0);
+    blame.argument = "points";
+    blame.particle = w->n - 1;
     snprintf(what, sizeof what, "%s", arrays[a].name);
     return looks_at_box(f) ? GO : NOT_THIS;
 }
@@ -1035,6 +1199,7 @@ static int moved(const function *f, const world *w)
 {
     if (!(f->reads & BIT(PX))) return NOT_THIS;
     if (f->reads & BIT(GRID)) build_grid(w);
+    if (f->has & ENDS) blame.particle = -2; /* which may be at one place now */
     return GO;
 }
 static int spoil_coincident(const function *f, world *w, int v)
@@ -1131,8 +1296,7 @@ static int spoil_capacity(const function *f, world *w, int v) /* every size up t
     int64_t pairs = 0;
     needed = said = work ? (int64_t)w->work_size : column ? here->pairs + w->n : 0;
     if (f->numbers & N(CAPACITY) || block) {
-        if (sph_grid_count(w->dim, (const sph_grid *)w->a[GRID], points_of(w), (int)w->number[CRITERION], scalars_of(w, REACH), scalars_of(w, REACH), 0,
-                           index_of(w, I0), &pairs) != 0)
+        if (sph_grid_count(w->dim, (const sph_grid *)w->a[GRID], sph_query_of(points_of(w), (int)w->number[CRITERION], scalars_of(w, REACH), 0), index_of(w, I0), &pairs) != 0)
             abort();
         memset(w->a[I0], MARK, here->size[I0]);
         needed = said = pairs;
@@ -1198,6 +1362,13 @@ static void complain(const char *text, long got)
     fprintf(stderr, "test_contract.c: failed: %s, %s (%s) in %dD: %s; answered %ld, expected %s\n", now_function, now_column, what, now_dim, text, got,
             now_answer);
 }
+static void complain_refusal(const char *text, long answer)
+{
+    complain(text, answer);
+    fprintf(stderr, "    said %d times: %s at particle %ld, error %d; expected %s at %ld\n", refusal.count,
+            refusal.count ? refusal.argument : "", refusal.particle, refusal.error,
+            blame.argument ? blame.argument : "any", blame.particle);
+}
 static void died(int sig)
 {
     fprintf(stderr, "test_contract.c: signal %d: %s, %s (%s) in %dD\n", sig, now_function, now_column, what, now_dim);
@@ -1224,7 +1395,7 @@ static const char *judge_outputs(const function *f, const world *w, sph_index an
 {
     const uint64_t outputs = there(w->dim, f->writes | f->may_write);
     const unsigned char *const status = f->has & COUNTS || !(outputs & BIT(STATUS)) ? 0 : (const unsigned char *)w->a[STATUS];
-    const uint64_t must_be_0 = outputs & (f->has & KEEPS ? BIT(S0) : ~NEED_NOT_BE_0);
+    const uint64_t must_be_0 = f->has & PARTS ? 0 : outputs & (f->has & KEEPS ? BIT(S0) : ~NEED_NOT_BE_0);
     sph_real marked;
     sph_index i, p, failures = 0;
     int a;
@@ -1294,6 +1465,120 @@ static const char *judge(const function *f, const world *w, const char *expected
     return 0;
 }
 
+/* Totals are given by every call that is not refused, and are 0 (the time step: not) where there is nothing. */
+static const char *judge_totals(const function *f, const world *w, sph_index answer)
+{
+    const int nothing = f->has & TARGETS ? w->first == w->last : w->n == 0,
+              is_step = f->call == call_rows_time_step;
+    static const int totals[] = {S0, I0, REPORT};
+    size_t k, b;
+    if (!(f->has & TOTALS) || answer < 0) return 0;
+    for (k = 0; k < 3; k++) {
+        const unsigned char *const at = (const unsigned char *)w->a[totals[k]];
+        const size_t size = k == 0   ? (is_step ? 1 : 8) * sizeof(sph_real)
+                            : k == 1 ? sizeof(sph_index)
+                                     : sizeof(int64_t);
+        int zero = 1, marked = 1;
+        if (!at || !((f->writes | f->may_write) & BIT(totals[k]))) continue;
+        for (b = 0; b < size; b++) zero &= at[b] == 0, marked &= at[b] == MARK;
+        if (marked) return "a total is not given";
+        if (nothing && zero == is_step) return "a total of nothing is wrong";
+    }
+    return 0;
+}
+
+/* Once for each call that is refused, with its error, and never for another. That there is too little room is no
+   refusal, but an answer. Of functions of sph.h only how often and with which error. */
+static const char *judge_refusal(const function *f, sph_index answer)
+{
+    const int room = answer == SPH_ERROR_CAPACITY || answer == SPH_ERROR_PAIRS;
+    const int fails = answer < 0 && !room && !(f->has & SIZE);
+    if (!fails) return refusal.count == 0 ? 0 : "SPH_REFUSED in a call that is not refused";
+    if (refusal.count == 0) return "SPH_REFUSED is not called";
+    if (refusal.count > 1) return "SPH_REFUSED is called more than once";
+    if (refusal.error != answer) return "SPH_REFUSED with another error";
+    if (!refusal.argument || !*refusal.argument) return "SPH_REFUSED without an argument";
+    if (f->has & CALLER) return 0;
+    if (blame.argument && strcmp(blame.argument, refusal.argument) != 0)
+        return "SPH_REFUSED with another argument";
+    if (blame.particle != -2 && blame.particle != refusal.particle)
+        return "SPH_REFUSED with another particle";
+    return 0;
+}
+
+/* Can the cloud of this call be marked? Where a function needs no positions or list they may not be there, or be
+   wrong; and the sources of sph_nearest_distance are not those of its cloud. */
+static int can_be_marked(const function *f, const world *w)
+{
+    const int boxed = w->box[0] != 0.0 || w->box[1] != 0.0 || w->box[2] != 0.0; /* a NaN, too */
+    if (!(f->has & TARGETS) || f->call == call_nearest_distance) return 0;
+    if (w->first == w->last) return 1;
+    return w->a[PX] && w->a[START] && w->a[INDEX] && (!boxed || looks_at_box(f));
+}
+static const char *judge_marked(const function *f, const world *given, sph_index answer)
+{
+    world w = *given;
+    sph_index again;
+    if (!can_be_marked(f, given)) return 0;
+    memcpy(here->after, here->live, here->total);
+    memcpy(here->live, here->spoiled, here->total);
+    w.marked = 1;
+    refusal.count = 0;
+    again = f->call(&w);
+    if (again != answer) return "another answer with a checked cloud";
+    if (memcmp(here->live, here->after, here->total) != 0) return "other results with a checked cloud";
+    if (again < 0 && w.dim >= 1 && w.dim <= 3) return judge_refusal(f, again); /* both say a bad dimension */
+    if (again < 0 || refusal.count == 0 || f->has & SIZE)
+        return 0; /* a size has no errors, but the mark has */
+    return "SPH_REFUSED in a call with a checked cloud that is not refused";
+}
+
+/* A stride of 0 counts as 1. The outputs as members of an array of structs, with a member that is none before,
+   after and between them: the same numbers, and not a byte elsewhere. */
+static const char *judge_strided(const function *f, const world *given, sph_index answer)
+{
+    const uint64_t outputs = there(given->dim, f->writes | f->may_write);
+    const sph_index n = here->good.n;
+    world w = *given;
+    unsigned char *members;
+    const char *wrong = 0;
+    int a, slot = 1, width = 2;
+    sph_index i;
+    size_t b;
+    if (f->has & (RAW | SIZE) || (f->has & OPAQUE && !(f->writes & BIT(VX)))) return 0;
+    memcpy(here->after, here->live, here->total);
+    memcpy(here->live, here->spoiled, here->total);
+    w.out_stride = 0;
+    if (f->call(&w) != answer) return "another answer with outputs of stride 0";
+    if (memcmp(here->live, here->after, here->total) != 0) return "other results with outputs of stride 0";
+    for (a = 0; a < ARRAYS; a++)
+        if (outputs & BIT(a) && arrays[a].holds == REAL && arrays[a].room == EACH) width += 2;
+    members = (unsigned char *)cloud_memory((size_t)n * (size_t)width, sizeof(sph_real));
+    memset(members, MARK, (size_t)n * (size_t)width * sizeof(sph_real));
+    memcpy(here->live, here->spoiled, here->total);
+    w.out_stride = (size_t)width;
+    for (a = 0; a < ARRAYS; a++) {
+        if (!(outputs & BIT(a)) || arrays[a].holds != REAL || arrays[a].room != EACH) continue;
+        for (i = 0; i < n; i++)
+            memcpy((sph_real *)(void *)members + i * width + slot, real_of(given, a) + i, sizeof(sph_real));
+        w.a[a] = (sph_real *)(void *)members + slot;
+        slot += 2;
+    }
+    if (f->call(&w) != answer) wrong = "another answer with outputs in structs";
+    for (a = 0; a < ARRAYS; a++) { /* back to where they belong, which leaves nothing but marks */
+        if (w.a[a] == given->a[a]) continue;
+        for (i = 0; i < n; i++) {
+            memcpy(real_of(given, a) + i, real_of(&w, a) + i * width, sizeof(sph_real));
+            memset(real_of(&w, a) + i * width, MARK, sizeof(sph_real));
+        }
+    }
+    if (memcmp(here->live, here->after, here->total) != 0) wrong = "other results with outputs in structs";
+    for (b = 0; b < (size_t)n * (size_t)width * sizeof(sph_real); b++)
+        if (members[b] != MARK) wrong = "something between outputs in structs was written";
+    free(members);
+    return wrong;
+}
+
 /* Every way of a fault, in every dimension of the function. Returns how many there were. */
 static int run_cell(const function *f, const struct column *c, const char *expected)
 {
@@ -1311,6 +1596,8 @@ static int run_cell(const function *f, const struct column *c, const char *expec
             int go;
             const char *wrong;
             what[0] = '\0';
+            blame.argument = 0;
+            blame.particle = -1;
             memcpy(here->live, here->good_bytes, here->total);
             go = c->spoil(f, &w, v);
             if (go == END) break;
@@ -1318,10 +1605,23 @@ static int run_cell(const function *f, const struct column *c, const char *expec
             ways++;
             if (strcmp(expected, "-") == 0) continue;
             memcpy(here->before, here->live, here->total);
+            memcpy(here->spoiled, here->live, here->total);
+            refusal.count = 0;
             ground_guards(here, 1);
             answer = f->call(&w);
             ground_guards(here, 0);
             wrong = judge(f, &w, expected, answer);
+            if (!check_count(!wrong)) complain(wrong, (long)answer);
+            wrong = judge_totals(f, &w, answer);
+            if (!check_count(!wrong)) complain(wrong, (long)answer);
+            wrong = judge_refusal(f, answer);
+            if (!check_count(!wrong)) complain_refusal(wrong, (long)answer);
+            wrong = judge_marked(f, &w, answer);
+            if (!check_count(!wrong)) complain(wrong, (long)answer);
+            if (c->spoil != spoil_nothing) continue;
+            memcpy(here->live, here->spoiled, here->total);
+            (void)f->call(&w); /* after judge_marked */
+            wrong = judge_strided(f, &w, answer);
             if (!check_count(!wrong)) complain(wrong, (long)answer);
         }
     }
@@ -1436,6 +1736,7 @@ static void test_complete(const char *path)
         snprintf(name, sizeof name, "%.*s", (int)(end - from), from);
         if (strcmp(name, "sph_cloud_examine") == 0) continue; /* tests/test_doctor.c has its answers */
         if (strncmp(name, "sph_", 4) != 0 || strncmp(text, "SPH_FN sph_points ", 18) == 0 || strncmp(text, "SPH_FN sph_cloud ", 17) == 0) continue;
+        if (strncmp(text, "SPH_FN sph_query ", 17) == 0) continue;
         *strchr(end, ')') = '\0';
         for (i = 0; i < sizeof takes / sizeof *takes && !strstr(from, takes[i]); i++) {}
         if (i == sizeof takes / sizeof *takes) continue;

@@ -34,38 +34,24 @@ typedef struct arguments {
 #define SWEEP (sph_kernel) a->k, a->dim, a->cloud
 #define SWEEP_1D (sph_kernel) a->k, a->cloud
 
-static sph_derivative_out derivative_out(const arguments *a)
+static sph_derivatives_out derivative_out(const arguments *a)
 {
-    sph_derivative_out o;
-    o.gx = a->out[0];
-    o.gy = a->out[1];
-    o.gz = a->out[2];
-    o.hxx = a->out[3];
-    o.hxy = a->out[4];
-    o.hyy = a->out[5];
-    o.hxz = a->out[6];
-    o.hyz = a->out[7];
-    o.hzz = a->out[8];
-    o.laplacian = a->out[9];
-    o.conditioning = a->out[10];
-    o.stride = 1;
-    o.status = a->status;
-    return o;
+    return cloud_derivatives_out(a->out, a->status);
 }
 static sph_scalar_out scalar_out(const arguments *a) { return sph_scalar_out_array(a->out[0], a->status); }
 static sph_vector_out vector_out(const arguments *a)
 {
     return sph_vector_out_separate(a->out[0], a->out[1], a->out[2]);
 }
-static sph_derivative_out gradient_out(const arguments *a)
+static sph_derivatives_out gradient_out(const arguments *a)
 {
-    sph_derivative_out o = derivative_out(a);
+    sph_derivatives_out o = derivative_out(a);
     o.conditioning = a->out[3];
     return o;
 }
-static sph_gradient_row_out gradient_row_out(const arguments *a)
+static sph_gradient_rows_out gradient_row_out(const arguments *a)
 {
-    sph_gradient_row_out o;
+    sph_gradient_rows_out o = {0};
     o.x = a->out[0];
     o.y = a->out[1];
     o.z = a->out[2];
@@ -73,9 +59,9 @@ static sph_gradient_row_out gradient_row_out(const arguments *a)
     o.status = a->status;
     return o;
 }
-static sph_row_out row_out(const arguments *a)
+static sph_rows_out row_out(const arguments *a)
 {
-    sph_row_out o;
+    sph_rows_out o = {0};
     o.row = a->out[0];
     o.diagonal = a->out[1];
     o.factor = a->out[2];
@@ -84,7 +70,7 @@ static sph_row_out row_out(const arguments *a)
     return o;
 }
 
-static sph_index shepard_sum(const arguments *a) { return sph_shepard_sum(SWEEP, a->out[0]); }
+static sph_index shepard_sum(const arguments *a) { return sph_shepard_sum(SWEEP, sph_scalar_out_array(a->out[0], 0)); }
 static sph_index interpolate(const arguments *a)
 {
     return sph_interpolate_shepard(SWEEP, a->f, scalar_out(a));
@@ -98,21 +84,19 @@ static sph_index gradient_rows(const arguments *a)
 {
     return sph_gradient_rows_cspm(SWEEP, gradient_row_out(a));
 }
-static sph_index brookshaw(const arguments *a) { return sph_laplacian_brookshaw(SWEEP, a->f, a->out[0]); }
-static sph_index brookshaw_rows(const arguments *a) { return sph_laplacian_rows_brookshaw(SWEEP, a->out[0]); }
-static sph_index kernel_laplacian(const arguments *a) { return sph_laplacian_kernel(SWEEP, a->f, a->out[0]); }
-static sph_index kernel_rows(const arguments *a) { return sph_laplacian_rows_kernel(SWEEP, a->out[0]); }
-static sph_index cspm(const arguments *a) { return sph_derivatives_cspm(SWEEP, a->f, a->least, derivative_out(a)); }
-static sph_index icspm(const arguments *a) { return sph_derivatives_icspm(SWEEP, a->f, a->least, a->fallback, derivative_out(a)); }
-static sph_index wls(const arguments *a) { return sph_derivatives_wls(SWEEP, a->f, a->least, derivative_out(a)); }
-static sph_index cspm_rows(const arguments *a) { return sph_derivative_rows_cspm(SWEEP, a->d, row_out(a)); }
-static sph_index icspm_rows(const arguments *a) { return sph_derivative_rows_icspm(SWEEP, a->d, row_out(a)); }
-static sph_index wls_rows(const arguments *a) { return sph_derivative_rows_wls(SWEEP, a->d, row_out(a)); }
+static sph_index brookshaw(const arguments *a) { return sph_laplacian_brookshaw(SWEEP, a->f, sph_scalar_out_array(a->out[0], 0)); }
+static sph_index brookshaw_rows(const arguments *a) { return sph_laplacian_rows_brookshaw(SWEEP, (sph_rows_out){.row = a->out[0]}); }
+static sph_index cspm(const arguments *a) { return sph_derivatives_cspm(SWEEP, a->f, (sph_derivatives_options){.conditioning_min = a->least}, derivative_out(a)); }
+static sph_index icspm(const arguments *a) { return sph_derivatives_icspm(SWEEP, a->f, (sph_derivatives_options){.conditioning_min = a->least, .fallback_wls = a->fallback}, derivative_out(a)); }
+static sph_index wls(const arguments *a) { return sph_derivatives_wls(SWEEP, a->f, (sph_derivatives_options){.conditioning_min = a->least}, derivative_out(a)); }
+static sph_index cspm_rows(const arguments *a) { return sph_derivatives_rows_cspm(SWEEP, a->d, row_out(a)); }
+static sph_index icspm_rows(const arguments *a) { return sph_derivatives_rows_icspm(SWEEP, a->d, row_out(a)); }
+static sph_index wls_rows(const arguments *a) { return sph_derivatives_rows_wls(SWEEP, a->d, row_out(a)); }
 static sph_index bim(const arguments *a)
 {
     return sph_second_derivative_bim(SWEEP_1D, a->f, a->left, a->right, scalar_out(a));
 }
-static sph_index bim_rows(const arguments *a) { return sph_second_derivative_rows_bim(SWEEP_1D, a->left, a->right, a->out[0], a->status); }
+static sph_index bim_rows(const arguments *a) { return sph_second_derivative_rows_bim(SWEEP_1D, a->left, a->right, (sph_rows_out){.row = a->out[0], .status = a->status}); }
 
 /* what a function has: a dimension, an output for each axis, ends of the domain, a status */
 enum { DIM = 1, VECTOR = 2, ENDS = 4, STATUS = 8 };
@@ -135,14 +119,12 @@ static const function functions[] = {
     {"sph_gradient_rows_cspm", gradient_rows, DIM | VECTOR | STATUS, NEEDS_GRADIENT, 4, 3},
     {"sph_laplacian_brookshaw", brookshaw, DIM, NEEDS_NOTHING, 1, 0},
     {"sph_laplacian_rows_brookshaw", brookshaw_rows, DIM, NEEDS_NOTHING, 1, 1},
-    {"sph_laplacian_kernel", kernel_laplacian, DIM, NEEDS_NOTHING, 1, 0},
-    {"sph_laplacian_rows_kernel", kernel_rows, DIM, NEEDS_NOTHING, 1, 1},
     {"sph_derivatives_cspm", cspm, DIM | STATUS, NEEDS_CSPM, OUTPUTS, 0},
     {"sph_derivatives_icspm", icspm, DIM | STATUS, NEEDS_BOTH, OUTPUTS, 0},
     {"sph_derivatives_wls", wls, DIM | STATUS, NEEDS_BOTH, OUTPUTS, 0},
-    {"sph_derivative_rows_cspm", cspm_rows, DIM | STATUS, NEEDS_CSPM, 4, 1},
-    {"sph_derivative_rows_icspm", icspm_rows, DIM | STATUS, NEEDS_ICSPM_ROW, 4, 1},
-    {"sph_derivative_rows_wls", wls_rows, DIM | STATUS, NEEDS_BOTH, 4, 1},
+    {"sph_derivatives_rows_cspm", cspm_rows, DIM | STATUS, NEEDS_CSPM, 4, 1},
+    {"sph_derivatives_rows_icspm", icspm_rows, DIM | STATUS, NEEDS_ICSPM_ROW, 4, 1},
+    {"sph_derivatives_rows_wls", wls_rows, DIM | STATUS, NEEDS_BOTH, 4, 1},
     {"sph_second_derivative_bim", bim, ENDS | STATUS, NEEDS_ENDS, 1, 0},
     {"sph_second_derivative_rows_bim", bim_rows, ENDS | STATUS, NEEDS_ENDS, 1, 1},
 };

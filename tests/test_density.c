@@ -111,14 +111,14 @@ static void gas_lists(gas *g)
 }
 static sph_index solve(sph_kernel k, gas *g, double eta, double tolerance)
 {
-    const sph_density_out out = {g->h, g->rho, g->omega, g->status};
+    const sph_density_out out = {.h = g->h, .rho = g->rho, .omega = g->omega, .status = g->status};
     return sph_density_adaptive(k, g->dim, gas_cloud(g, sph_scalars_none()), sph_scalars_array(g->m),
                                 gas_options(g, eta, tolerance), out);
 }
 /* What a host does: build lists for the guesses, solve, and again where the list was too short. Returns the number of rounds, or ROUNDS + 1. */
 static int settle(sph_kernel k, gas *g, double eta, double tolerance)
 {
-    const double support = (double)sph_kernel_support(k);
+    const double support = (double)sph_kernel_support_ratio(k);
     int round;
     for (round = 1; round <= ROUNDS; round++) {
         sph_index i, failed, too_short = 0;
@@ -152,6 +152,7 @@ static void check_solution(sph_kernel k, gas *g, double eta, double tolerance, d
 {
     const double round_off = 64.0 * (double)SPH_EPSILON, allowed = (tolerance > round_off ? tolerance : round_off) + BY_PRECISION(1e-13, 2e-5);
     double worst = 0.0, worst_rho = 0.0, worst_omega = 0.0;
+    const char *said;
     sph_index i;
     for (i = 0; i < g->n; i++) {
         const double h = (double)g->h[i], step = h * BY_PRECISION(1e-5, 2e-2), rho = (double)g->rho[i];
@@ -163,9 +164,10 @@ static void check_solution(sph_kernel k, gas *g, double eta, double tolerance, d
         if (fabs(density_at(k, g, i, h) / rho - 1.0) > worst_rho) worst_rho = fabs(density_at(k, g, i, h) / rho - 1.0);
         if (fabs(omega - (double)g->omega[i]) > worst_omega) worst_omega = fabs(omega - (double)g->omega[i]);
     }
-    CHECK_CLOSE(worst, 0.0, allowed);
-    CHECK_CLOSE(worst_rho, 0.0, BY_PRECISION(1e-12, 1e-5));
-    CHECK_CLOSE(worst_omega, 0.0, omega_error);
+    said = check_words("%s in %dD: ", sph_kernel_name(k), g->dim);
+    CHECK_WORST(check_words("%seta (m / rho)^(1 / dim) / h", said), worst, allowed);
+    CHECK_WORST(check_words("%srho / (sum of m W)", said), worst_rho, BY_PRECISION(1e-12, 1e-5));
+    CHECK_WORST(check_words("%sOmega beside differences", said), worst_omega, omega_error);
 }
 
 static gas lattice(int dim, int side, double jitter, uint64_t seed)
@@ -195,16 +197,18 @@ static void test_lattice(sph_kernel k, int dim, int side, double rho_error, doub
     for (i = 0; i < g.n; i++) g.h[i] = SPH_R(eta * dx);
     CHECK(settle(k, &g, eta, 1e-10) <= 2);
     for (i = 0; i < g.n; i++) {
-        CHECK(g.status[i] == SPH_OK);
-        CHECK_CLOSE((double)g.rho[i], 1.0, rho_error);
-        CHECK_CLOSE((double)g.h[i] / (eta * dx), 1.0, rho_error);
-        CHECK_CLOSE((double)g.omega[i], 1.0, omega_error);
+        const char *const said = check_words("%s on a lattice in %dD: ", sph_kernel_name(k), dim);
+        CHECK_SAME(check_words("%sstatus", said), i, g.status[i], SPH_OK);
+        CHECK_NEAR(check_words("%srho", said), i, g.rho[i], 1.0, rho_error);
+        CHECK_NEAR(check_words("%sh / (eta dx)", said), i, (double)g.h[i] / (eta * dx), 1.0, rho_error);
+        CHECK_NEAR(check_words("%sOmega", said), i, g.omega[i], 1.0, omega_error);
     }
     check_solution(k, &g, eta, 1e-10, smooth);
     /* the sum alone, with the h that was found */
-    CHECK(sph_density_summation(k, dim, gas_cloud(&g, sph_scalars_array(g.h)), sph_scalars_array(g.m),
-                                given) == 0);
-    for (i = 0; i < g.n; i++) CHECK_RELATIVE((double)given[i], (double)g.rho[i], BY_PRECISION(1e-13, 2e-6));
+    CHECK(sph_density_summation(k, dim, gas_cloud(&g, sph_scalars_array(g.h)), sph_scalars_array(g.m), sph_scalar_out_array(given, 0)) == 0);
+    for (i = 0; i < g.n; i++)
+        CHECK_NEAR_RELATIVE("density with the h that was found", i, given[i], g.rho[i],
+                            BY_PRECISION(1e-13, 2e-6));
     free(given);
     gas_free(&g);
 }
@@ -252,15 +256,16 @@ static void test_jump(int dim, sph_kernel k, double wrong)
     rounds = settle(k, &g, eta, tolerance);
     CHECK(rounds <= (wrong > 1.0 ? 1 : 5)); /* doubled four times and a bit */
     for (i = 0; i < g.n; i++) {
-        CHECK(g.status[i] == SPH_OK);
-        CHECK(g.omega[i] > SPH_R(0));
+        CHECK_SAME("status at a jump", i, g.status[i], SPH_OK);
+        CHECK_AT("Omega at a jump", i, g.omega[i] > SPH_R(0));
         first[i] = g.h[i];
     }
     check_solution(k, &g, eta, tolerance, smooth);
     /* the solution is unique: from the other guess the same */
     for (i = 0; i < g.n; i++) g.h[i] = SPH_R(1.7) * first[i];
     CHECK(settle(k, &g, eta, tolerance) <= 6);
-    for (i = 0; i < g.n; i++) CHECK_RELATIVE((double)g.h[i], (double)first[i], BY_PRECISION(2e-7, 2e-3));
+    for (i = 0; i < g.n; i++)
+        CHECK_NEAR_RELATIVE("h from another guess", i, g.h[i], first[i], BY_PRECISION(2e-7, 2e-3));
     free(first);
     gas_free(&g);
 }
@@ -283,7 +288,8 @@ static void test_kernels(void)
         CHECK(settle(k, &g, eta, tolerance) <= 6);
         for (i = 0; i < g.n; i++) {
             ok += g.status[i] == SPH_OK;
-            CHECK(g.status[i] == SPH_OK || g.status[i] == SPH_ILL_CONDITIONED);
+            CHECK_AT(check_words("status by %s", sph_kernel_name(k)), i,
+                     g.status[i] == SPH_OK || g.status[i] == SPH_ILL_CONDITIONED);
             h[i] = g.h[i];
             rho[i] = g.rho[i];
         }
@@ -300,7 +306,8 @@ static void test_kernels(void)
             CHECK(sph_density_adaptive(k, 2, targets, sph_scalars_array(g.m), options, out) >= 0);
         }
         for (i = 0; i < g.n; i++)
-            CHECK_RELATIVE((double)g.rho[i], (double)rho[i], k == SPH_GAUSSIAN || k == SPH_SUPER_GAUSSIAN ? 0.02 : BY_PRECISION(2e-5, 4e-3));
+            CHECK_NEAR_RELATIVE(check_words("rho by ranges, %s", sph_kernel_name(k)), i, g.rho[i], rho[i],
+                                k == SPH_GAUSSIAN || k == SPH_SUPER_GAUSSIAN ? 0.02 : BY_PRECISION(2e-5, 4e-3));
         free(h);
         free(rho);
         gas_free(&g);
@@ -399,22 +406,25 @@ static void test_too_short(void)
     gas_lists(&g);
     CHECK(solve(SPH_WENDLAND_C2, &g, 1.3, 1e-6) == g.n);
     for (i = 0; i < g.n; i++) {
-        CHECK(g.status[i] == SPH_LIST_TOO_SHORT);
-        CHECK(g.h[i] > SPH_R(0.104) && g.h[i] < SPH_R(0.201));
-        CHECK_RELATIVE((double)g.rho[i], density_at(SPH_WENDLAND_C2, &g, i, 0.1), BY_PRECISION(1e-12, 1e-5));
-        CHECK(g.omega[i] > SPH_R(0));
+        CHECK_SAME("status of a short list", i, g.status[i], SPH_LIST_TOO_SHORT);
+        CHECK_AT("h to try next", i, g.h[i] > SPH_R(0.104) && g.h[i] < SPH_R(0.201));
+        CHECK_NEAR_RELATIVE("rho at the longest h", i, g.rho[i], density_at(SPH_WENDLAND_C2, &g, i, 0.1),
+                            BY_PRECISION(1e-12, 1e-5));
+        CHECK_AT("Omega at the longest h", i, g.omega[i] > SPH_R(0));
     }
     /* half the box is as far as it goes */
     for (i = 0; i < g.n; i++) g.reach[i] = SPH_R(0.5);
     gas_lists(&g);
     CHECK(solve(SPH_WENDLAND_C2, &g, 4.0, 1e-6) == g.n);
     for (i = 0; i < g.n; i++) {
-        CHECK(g.status[i] == SPH_TOO_FEW);
-        CHECK_RELATIVE((double)g.h[i], 0.25, BY_PRECISION(1e-14, 1e-6));
+        CHECK_SAME("status where half the box is not enough", i, g.status[i], SPH_TOO_FEW);
+        CHECK_NEAR_RELATIVE("h by half the box", i, g.h[i], 0.25, BY_PRECISION(1e-14, 1e-6));
     }
     for (i = 0; i < g.n; i++) g.reach[i] = SPH_R(0.45);
     CHECK(solve(SPH_WENDLAND_C2, &g, 4.0, 1e-6) == g.n);
-    for (i = 0; i < g.n; i++) CHECK(g.status[i] == SPH_LIST_TOO_SHORT && g.h[i] <= SPH_R(0.25) * (1 + 4 * SPH_EPSILON));
+    for (i = 0; i < g.n; i++)
+        CHECK_AT("h to try next in a box", i,
+                 g.status[i] == SPH_LIST_TOO_SHORT && g.h[i] <= SPH_R(0.25) * (1 + 4 * SPH_EPSILON));
     gas_free(&g);
 }
 
@@ -432,14 +442,17 @@ static void test_masses(void)
     CHECK(solve(SPH_CUBIC_SPLINE, &g, 1.2, 1e-6) == 2);
     CHECK(g.status[3] == SPH_NOT_AVAILABLE && g.status[4] == SPH_NOT_AVAILABLE && g.status[5] == SPH_OK);
     CHECK(fabs((double)g.rho[3]) + fabs((double)g.omega[3]) <= 0.0);
-    CHECK_RELATIVE((double)g.h[3], 0.06, BY_PRECISION(1e-15, 1e-6));
+    CHECK_NEAR_RELATIVE("h without a mass", 3, g.h[3], 0.06, BY_PRECISION(1e-15, 1e-6));
     for (i = 0; i < g.n; i++) g.m[i] = BY_PRECISION(SPH_R(1e300), SPH_R(1e37));
     for (i = 0; i < g.n; i++) g.x[0][i] *= BY_PRECISION(SPH_R(1e-15), SPH_R(1e-7));
     for (i = 0; i < g.n; i++) g.h[i] *= BY_PRECISION(SPH_R(1e-15), SPH_R(1e-7));
     for (i = 0; i < g.n; i++) g.reach[i] *= BY_PRECISION(SPH_R(1e-15), SPH_R(1e-7));
     g.box[0] = BY_PRECISION(1e-15, 1e-7);
     CHECK(solve(SPH_CUBIC_SPLINE, &g, 1.2, 1e-6) == g.n); /* a density beyond all numbers */
-    for (i = 0; i < g.n; i++) CHECK(g.status[i] == SPH_NOT_FINITE && fabs((double)g.rho[i]) + fabs((double)g.omega[i]) <= 0.0 && g.h[i] > SPH_R(0));
+    for (i = 0; i < g.n; i++)
+        CHECK_AT("a density that is no number", i,
+                 g.status[i] == SPH_NOT_FINITE && fabs((double)g.rho[i]) + fabs((double)g.omega[i]) <= 0.0 &&
+                     g.h[i] > SPH_R(0));
     gas_free(&g);
     { /* a mass that the kernel makes nothing of: no density, and none of its factor */
         const sph_real x = SPH_R(0), m = BY_PRECISION(SPH_R(4.9406564584124654e-324), SPH_R(1.4012984643248171e-45)), reach = SPH_R(0.3);
@@ -450,7 +463,7 @@ static void test_masses(void)
         const sph_density_options options = {sph_scalars_same(&reach), SPH_R(1.2), SPH_R(1e-3)};
         sph_real h = SPH_R(0.1), rho = SPH_R(7), omega = SPH_R(7);
         unsigned char status = SPH_OK;
-        const sph_density_out out = {&h, &rho, &omega, &status};
+        const sph_density_out out = {.h = &h, .rho = &rho, .omega = &omega, .status = &status};
         CHECK(sph_density_adaptive(SPH_CUBIC_SPLINE, 3, alone, sph_scalars_same(&m), options, out) == 1);
         CHECK(status != SPH_OK && fabs((double)rho) + fabs((double)omega) <= 0.0 && h > SPH_R(0));
     }

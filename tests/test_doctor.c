@@ -87,7 +87,7 @@ static double distance(const scene *s, sph_index i, sph_index j, const double *b
 /* Rows of all r < factor * (support ratio * h by the criterion, or `fixed` if positive). half: only j > i. */
 static void scene_list(scene *s, int criterion, double factor, double fixed, int half_list)
 {
-    const double ratio = (double)sph_kernel_support(s->k);
+    const double ratio = (double)sph_kernel_support_ratio(s->k);
     sph_index i, j, pairs = 0, room = 64 * s->n;
     s->index = (sph_index *)realloc(s->index, (size_t)room * sizeof(sph_index));
     for (i = 0; i < s->n && s->index; i++) {
@@ -229,7 +229,7 @@ static sph_findings expect_missing(const scene *s, int finding)
     const sph_findings f = expect(s, BIT(finding), 0);
     const sph_offender o = f.at[finding];
     if (f.set & BIT(finding)) {
-        const double ratio = (double)sph_kernel_support(s->k), a = ratio * (double)s->h[o.particle],
+        const double ratio = (double)sph_kernel_support_ratio(s->k), a = ratio * (double)s->h[o.particle],
                      b = ratio * (double)s->h[o.neighbour];
         const double R = s->both && b > a ? b : a;
         const double box[3] = {(double)s->cloud.points.box.x, (double)s->cloud.points.box.y,
@@ -268,7 +268,7 @@ static void check_healthy(int dim, sph_kernel k)
             healthy(&s);
             label = "healthy, list of some steps ago"; /* moved by less than half of the skin, 0.1 R */
             jitter(&s,
-                   0.1 * (double)sph_kernel_support(k) * (double)sph_kernel_h_over_dx(k) / sqrt((double)dim),
+                   0.1 * (double)sph_kernel_support_ratio(k) * (double)sph_kernel_h_over_dx(k) / sqrt((double)dim),
                    77);
             healthy(&s);
             label = "healthy, very long list";
@@ -303,7 +303,7 @@ static void check_healthy_adaptive(int dim, sph_kernel k)
         s.both = OWN;
         healthy(&s);
         label = "adaptive, one radius for all";
-        scene_list(&s, SPH_GATHER, 1.0, (double)sph_kernel_support(k) * 3.0 * s.dx, 0);
+        scene_list(&s, SPH_GATHER, 1.0, (double)sph_kernel_support_ratio(k) * 3.0 * s.dx, 0);
         healthy(&s);
         s.both = BOTH;
         healthy(&s);
@@ -421,7 +421,7 @@ static void check_healthy_shapes(int dim, sph_kernel k)
 
 static void check_lists(int dim, sph_kernel k, int periodic)
 {
-    const double ratio = (double)sph_kernel_support(k), h_over_dx = (double)sph_kernel_h_over_dx(k);
+    const double ratio = (double)sph_kernel_support_ratio(k), h_over_dx = (double)sph_kernel_h_over_dx(k);
     int a;
     for (a = 0; a < 3; a += dim == 3 ? 2 : 1) {
         scene s = block(k, dim, jitter_of[a], periodic, (uint64_t)(20 + a));
@@ -496,7 +496,7 @@ static void check_one_sided(int dim, sph_kernel k)
         scene_list(&s, SPH_LARGER, 0.8, 0.0, 0);
         expect_missing(&s, SPH_FINDING_LIST_SHORT);
         label = "adaptive, radius h";
-        scene_list(&s, SPH_LARGER, 1.0 / (double)sph_kernel_support(k), 0.0, 0);
+        scene_list(&s, SPH_LARGER, 1.0 / (double)sph_kernel_support_ratio(k), 0.0, 0);
         expect_missing(&s, SPH_FINDING_LIST_SUPPORT);
         label = "adaptive, half";
         scene_list(&s, SPH_LARGER, 1.0, 0.0, 1);
@@ -568,7 +568,7 @@ static void check_box(int dim, sph_kernel k)
                                distance(&s, o.particle, o.neighbour, s.seen_box)) > 1e-3 * s.dx);
                     CHECK_CLOSE((double)o.ratio,
                                 distance(&s, o.particle, o.neighbour, s.seen_box) /
-                                    ((double)sph_kernel_support(k) * (double)s.h[0]),
+                                    ((double)sph_kernel_support_ratio(k) * (double)s.h[0]),
                                 2e-4);
                     CHECK(o.ratio < SPH_R(1e-3) ||
                           listed(&s, o.particle, o.neighbour) == (o.ratio > SPH_R(1)));

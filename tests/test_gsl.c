@@ -39,7 +39,7 @@ static double value(double r, void *p)
 static void test_integral(which *a, gsl_integration_workspace *space)
 {
     const double epsilon = SPH_SINGLE ? 1e-6 : 1e-12, tolerance = SPH_SINGLE ? 3e-6 : 2e-12;
-    const double edge = a->h * (double)sph_kernel_support(a->kernel);
+    const double edge = a->h * (double)sph_kernel_support_ratio(a->kernel);
     /* the knots of all kernels; those of others do no harm. The last one is the edge */
     static const double knot[] = {0.0, 0.5, 2.0 / 3.0, 1.0, 1.5, 2.0, 2.5, 3.0};
     double point[sizeof knot / sizeof knot[0]], sum = 0.0, error = 0.0;
@@ -71,7 +71,7 @@ static double slope(double r, void *p)
 static void test_slope_integral(which *a)
 {
     const double unit = (double)sph_kernel_w(a->kernel, a->dim, SPH_R(0), SPH_R(a->h)), epsilon = unit * (SPH_SINGLE ? 1e-6 : 1e-13);
-    const int parts = (int)((double)sph_kernel_support(a->kernel) * 6.0 + 0.5);
+    const int parts = (int)((double)sph_kernel_support_ratio(a->kernel) * 6.0 + 0.5);
     gsl_function f;
     int part;
     f.function = slope;
@@ -92,7 +92,7 @@ static void test_slope_integral(which *a)
 /* In double only: gsl_deriv_central makes the step shorter until the rounding of float is all that it sees. */
 static void test_slope(which *a)
 {
-    const double edge = (double)sph_kernel_support(a->kernel);
+    const double edge = (double)sph_kernel_support_ratio(a->kernel);
     const double unit = (double)sph_kernel_w(a->kernel, a->dim, SPH_R(0), SPH_R(a->h)) / a->h;
     gsl_function f;
     int part, i;

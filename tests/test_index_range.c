@@ -32,7 +32,7 @@ static int64_t line_pairs(sph_index n, double apart, sph_index *answer, int *wro
     for (i = 0; i < n; i++) x[i] = SPH_R(i * apart);
     *wrong = 0;
     *answer = sph_grid_build(1, p, one, work, size, &g);
-    if (*answer == 0) *answer = sph_grid_lists(1, &g, p, SPH_GATHER, R, R, 0, start, index, (int64_t)room, &pairs);
+    if (*answer == 0) *answer = sph_grid_lists(1, &g, sph_query_of(p, SPH_GATHER, R, 0), start, index, (int64_t)room, &pairs);
     for (i = 0; *answer == 0 && i < n; i++)
         for (q = start[i]; q < start[i + 1]; q++) *wrong += !(fabs((double)x[i] - (double)x[index[q]]) < 1.0) || index[q] == i;
     free(x);
@@ -94,7 +94,7 @@ static void test_too_many(void)
 #if SPH_OPENMP
             omp_set_num_threads(1 + k / 4 * 3);
 #endif
-            CHECK(sph_grid_lists(2, &g, p, SPH_GATHER, sph_scalars_same(&R), sph_scalars_same(&R), 0, start, rooms[k % 4] ? index : 0, rooms[k % 4], &pairs) ==
+            CHECK(sph_grid_lists(2, &g, sph_query_of(p, SPH_GATHER, sph_scalars_same(&R), 0), start, rooms[k % 4] ? index : 0, rooms[k % 4], &pairs) ==
                   SPH_ERROR_PAIRS);
             if (bound == 0) bound = pairs;
             CHECK(pairs == bound && pairs >= counted);
@@ -125,8 +125,8 @@ static void test_sweep(sph_index length)
     const sph_points p = sph_points_separate(N, x, 0, 0);
     const sph_cloud all = sph_cloud_of(p, list, sph_scalars_same(&h), sph_scalars_same(&V)),
                     one = sph_cloud_range(all, I, I + 1);
-    sph_derivative_out out = {0};
-    sph_row_out rows = {0};
+    sph_derivatives_out out = {0};
+    sph_rows_out rows = {0};
     double sum = 0;
     int i, q;
     for (i = 0; i < N; i++) {
@@ -139,10 +139,10 @@ static void test_sweep(sph_index length)
     out.hxx = hxx;
     rows.row = row;
     rows.diagonal = row_diagonal;
-    CHECK(sph_derivatives_wls(SPH_WENDLAND_C4, 1, one, sph_scalars_array(f), SPH_R(0), out) == 0);
+    CHECK(sph_derivatives_wls(SPH_WENDLAND_C4, 1, one, sph_scalars_array(f), (sph_derivatives_options){0}, out) == 0);
     CHECK_CLOSE((double)gx[I], 2.0, 1e4 * (double)SPH_EPSILON);
     CHECK_CLOSE((double)hxx[I], 6.0, 1e4 * (double)SPH_EPSILON);
-    CHECK(sph_derivative_rows_wls(SPH_WENDLAND_C4, 1, one, sph_jet_laplacian(1), rows) == 0);
+    CHECK(sph_derivatives_rows_wls(SPH_WENDLAND_C4, 1, one, sph_jet_laplacian(1), rows) == 0);
     for (q = start[I]; q < start[I + 1]; q++) sum += (double)row[q] * ((double)f[index[q]] - (double)f[I]);
     CHECK_CLOSE(sum, 6.0, 1e4 * (double)SPH_EPSILON);
     free(row);

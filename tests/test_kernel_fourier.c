@@ -81,7 +81,7 @@ static double transform[WAVES + 1];
 
 static void make_transform(sph_kernel kernel, int dim)
 {
-    const int used = (int)((double)sph_kernel_support(kernel) * PARTS + 0.5) * NODES;
+    const int used = (int)((double)sph_kernel_support_ratio(kernel) * PARTS + 0.5) * NODES;
     double w[POINTS];
     int j, i;
     for (i = 0; i < used; i++) w[i] = dq_of[i] * (double)sph_kernel_shape(kernel, dim, SPH_R(q_of[i]));

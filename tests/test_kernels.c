@@ -29,7 +29,7 @@ static double get_shape(sph_kernel k, int dim, double q) { return (double)sph_ke
 static double get_shape_f(sph_kernel k, int dim, double q) { return (double)sph_kernel_shape_f(k, dim, SPH_R(q)); }
 static double get_shape_d2(sph_kernel k, int dim, double q) { return (double)sph_kernel_shape_d2(k, dim, SPH_R(q)); }
 static double get_sigma(sph_kernel k, int dim) { return (double)sph_kernel_sigma(k, dim); }
-static double get_support(sph_kernel k) { return (double)sph_kernel_support(k); }
+static double get_support(sph_kernel k) { return (double)sph_kernel_support_ratio(k); }
 
 /* As SPH_R rounds it: what the kernel is really called with. */
 static double rounded(double x) { return (double)SPH_R(x); }
@@ -251,7 +251,7 @@ static void test_rounded_edge(sph_kernel k, int dim)
     const magnitude m = magnitude_of(k, dim);
     int i;
     for (i = 1; i <= 200; i++) {
-        const double h = rounded(0.37 + 0.013 * i), r = (double)sph_kernel_support_from_h(k, SPH_R(h)), unit = get_sigma(k, dim) / power(h, dim);
+        const double h = rounded(0.37 + 0.013 * i), r = (double)sph_kernel_support(k, SPH_R(h)), unit = get_sigma(k, dim) / power(h, dim);
         const double w = get_w(k, dim, r, h), f = get_f(k, dim, r, h);
         if (!is_truncated(k)) HOLDS("W = 0 on the edge, up to rounding", r / h, fabs(w) <= 8.0 * EPSILON * unit * m.w);
         if (!is_truncated(k) && k != SPH_SCHUESSLER_SCHMITT) HOLDS("F = 0 on the edge, up to rounding", r / h, fabs(f) <= 8.0 * EPSILON * unit / (h * h) * (m.d1 + m.d2));
@@ -443,9 +443,9 @@ static void test_table(sph_kernel k)
     const int dim = 0;
     HOLDS("support", 0.0, get_support(k) == support);
     HOLDS("h / dx", 0.0, (double)sph_kernel_h_over_dx(k) >= 1.0 && (double)sph_kernel_h_over_dx(k) <= 2.0);
-    NEAR("support from h", 0.0, (double)sph_kernel_support_from_h(k, SPH_R(h)), support * h, 2.0 * EPSILON);
+    NEAR("support from h", 0.0, (double)sph_kernel_support(k, SPH_R(h)), support * h, 2.0 * EPSILON);
     NEAR("h from support", 0.0, (double)sph_kernel_h_from_support(k, SPH_R(support * h)), h, 2.0 * EPSILON);
-    NEAR("h from support from h", 0.0, (double)sph_kernel_h_from_support(k, sph_kernel_support_from_h(k, SPH_R(h))), h, 2.0 * EPSILON);
+    NEAR("h from support from h", 0.0, (double)sph_kernel_h_from_support(k, sph_kernel_support(k, SPH_R(h))), h, 2.0 * EPSILON);
     HOLDS("dispatch of a kernel known at run time", 0.0, kernel_from_switch((int)k) == k);
 }
 

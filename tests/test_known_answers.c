@@ -138,7 +138,7 @@ int main(int argc, char **argv)
         const known_row *a = &row[i];
         const sph_kernel kernel = (sph_kernel)a->kernel;
         const sph_real r = SPH_R(a->r), h = SPH_R(a->h);
-        const int outside = a->r >= a->h * (double)sph_kernel_support(kernel);
+        const int outside = a->r >= a->h * (double)sph_kernel_support_ratio(kernel);
         double got[QUANTITIES];
 
         CHECK((double)r == a->r && (double)h == a->h); /* the file promises that both are exact in float, too */

@@ -221,8 +221,8 @@ static void lists_free(lists *l)
 /* a null index: counts */
 static sph_index call(const problem *p, const grid *g, int criterion, int flags, sph_index *start, sph_index *index, int64_t capacity, int64_t *pairs)
 {
-    if (!index) return sph_grid_count(p->dim, &g->g, p->targets, criterion, p->target_radius, p->source_radius, flags, start, pairs);
-    return sph_grid_lists(p->dim, &g->g, p->targets, criterion, p->target_radius, p->source_radius, flags, start, index, capacity, pairs);
+    if (!index) return sph_grid_count(p->dim, &g->g, (sph_query){p->targets, criterion, p->target_radius, p->source_radius, flags}, start, pairs);
+    return sph_grid_lists(p->dim, &g->g, (sph_query){p->targets, criterion, p->target_radius, p->source_radius, flags}, start, index, capacity, pairs);
 }
 
 static void check_rows(const problem *p, int criterion, int flags, const lists *l)
@@ -823,10 +823,10 @@ static void test_tight(void)
                     now.criterion = SPH_GATHER;
                     now.flags = some[turn];
                     g = grid_new(3, x, radius);
-                    EXPECT(sph_grid_count(3, &g.g, x, SPH_GATHER, R, R, some[turn], counted, &pairs) == 0);
+                    EXPECT(sph_grid_count(3, &g.g, sph_query_of(x, SPH_GATHER, R, some[turn]), counted, &pairs) == 0);
                     index = guarded_new((size_t)pairs * sizeof *list);
                     list = (sph_index *)guarded_memory(&index);
-                    if (EXPECT(sph_grid_lists(3, &g.g, x, SPH_GATHER, R, R, some[turn], start, list, pairs, &filled) == 0)) {
+                    if (EXPECT(sph_grid_lists(3, &g.g, sph_query_of(x, SPH_GATHER, R, some[turn]), start, list, pairs, &filled) == 0)) {
                         EXPECT(filled == pairs);
                         EXPECT(memcmp(start, counted, (N + 1) * sizeof *start) == 0);
                         for (i = 0; i < N; i++)
@@ -1020,7 +1020,7 @@ static void test_order(void)
                 cloud c = make(kind, dim, N, 0, &random);
                 const sph_real length = SPH_R(periodic);
                 grid g = grid_new(dim, sph_points_periodic(points(&c), length, length, length), SPH_R(0.11));
-                const sph_index *const order = sph_grid_order(&g.g);
+                const sph_index *const order = sph_grid_permutation(&g.g);
                 sph_index inverse[N], seen[N], s;
                 sph_real packed[N], wide_in[STRIDE * N], wide_out[STRIDE * N];
                 long lost = 0;
@@ -1081,9 +1081,9 @@ static void test_renumber(void)
                     for (s = 0; s < N; s++) from[a][s] += SPH_R(mask >> a & 1 ? (double)(s % 3 - 1) : 0.0); /* other images, too */
                 now.name = kind_name[kind];
                 g = grid_new(dim, sph_points_periodic(points(&c), box[0], box[1], box[2]), radius);
-                for (a = 0; a < dim; a++) CHECK(sph_permute(N, sph_grid_order(&g.g), from[a], 1, to[a]) == 0);
+                for (a = 0; a < dim; a++) CHECK(sph_permute(N, sph_grid_permutation(&g.g), from[a], 1, to[a]) == 0);
                 CHECK(sph_grid_renumber(&g.g) == 0);
-                for (s = 0; s < N; s++) moved += sph_grid_order(&g.g)[s] != s;
+                for (s = 0; s < N; s++) moved += sph_grid_permutation(&g.g)[s] != s;
                 CHECK(moved == 0);
                 x = sph_points_periodic(points(&sorted), box[0], box[1], box[2]);
                 p = problem_new(dim, x, x, sph_scalars_same(&radius), sph_scalars_same(&radius));
@@ -1108,7 +1108,7 @@ static void test_locality(void)
         enum { N = 4000 };
         cloud c = make(RANDOM, dim, N, 0, &random);
         grid g = grid_new(dim, points(&c), SPH_R(dim == 1 ? 0.005 : 0.1));
-        const sph_index *const order = sph_grid_order(&g.g);
+        const sph_index *const order = sph_grid_permutation(&g.g);
         double before = 0.0, after = 0.0;
         sph_index s;
         for (s = 1; s < N; s++) {
@@ -1247,7 +1247,7 @@ static void test_skin(void)
                 for (a = 0; a < dim; a++) /* back into the box */
                     for (i = 0; i < N; i++) then[a][i] = coordinate[a][i] = SPH_R((double)coordinate[a][i] - floor((double)coordinate[a][i]));
                 g = grid_new(dim, x, reach);
-                CHECK(sph_grid_lists(dim, &g.g, x, SPH_GATHER, R, R, 0, start, index, N * N, &pairs) == 0);
+                CHECK(sph_grid_lists(dim, &g.g, sph_query_of(x, SPH_GATHER, R, 0), start, index, N * N, &pairs) == 0);
                 grid_free(&g);
                 builds++;
             }
@@ -1300,8 +1300,7 @@ static void test_views(void)
             for (way = 0; way < 3; way++) {
                 const sph_points x = sph_points_periodic(way == 0 ? separate : way == 1 ? interleaved : strided, length, length, length);
                 grid grid_of = grid_new(dim, x, radius);
-                CHECK(sph_grid_lists(dim, &grid_of.g, x, SPH_LARGER, way == 2 ? strided_R : R, way == 2 ? strided_R : R, SPH_LIST_SORTED, start[way],
-                                     index[way], N * N, &pairs[way]) == 0);
+                CHECK(sph_grid_lists(dim, &grid_of.g, sph_query_of(x, SPH_LARGER, way == 2 ? strided_R : R, SPH_LIST_SORTED), start[way], index[way], N * N, &pairs[way]) == 0);
                 CHECK(pairs[way] == pairs[0] && pairs[0] > 0);
                 CHECK(memcmp(start[way], start[0], sizeof start[0]) == 0);
                 CHECK(memcmp(index[way], index[0], (size_t)pairs[0] * sizeof index[0][0]) == 0);
@@ -1346,10 +1345,10 @@ static void print_checksum(int dim, int kind, int periodic, sph_index n)
         sph_index *const start = (sph_index *)cloud_memory((size_t)n + 1, sizeof *start), *index, i, q;
         int64_t pairs = 0, clear = 0, capacity;
         uint64_t sum = 0, ordered = 0;
-        if (sph_grid_count(dim, &g.g, x, criterion, radii, radii, flags, start, &pairs) != 0) abort();
+        if (sph_grid_count(dim, &g.g, sph_query_of(x, criterion, radii, flags), start, &pairs) != 0) abort();
         capacity = pairs + pairs / 2; /* so that the parts of several threads are far apart */
         index = (sph_index *)cloud_memory((size_t)capacity, sizeof *index);
-        if (sph_grid_lists(dim, &g.g, x, criterion, radii, radii, flags, start, index, capacity, &pairs) != 0) abort();
+        if (sph_grid_lists(dim, &g.g, sph_query_of(x, criterion, radii, flags), start, index, capacity, &pairs) != 0) abort();
         for (i = 0; i < n; i++) {
             ordered = mix(ordered + (uint64_t)start[i + 1]);
             for (q = start[i]; q < start[i + 1]; q++) {

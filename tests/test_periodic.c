@@ -159,7 +159,6 @@ enum {
     DIFFERENCE,
     GRADIENT,
     BROOKSHAW,
-    KERNEL_LAPLACIAN,
     CSPM,
     ICSPM,
     WLS,
@@ -168,7 +167,6 @@ enum {
     PER_TARGET,
     GRADIENT_ROWS,
     BROOKSHAW_ROWS,
-    KERNEL_ROWS,
     CSPM_ROWS,
     ICSPM_ROWS,
     WLS_ROWS,
@@ -184,8 +182,8 @@ static sph_index apply(int which, const tile *t, sph_real *const *out)
     const sph_real reach = SPH_R(2) * t->h;
     const sph_density_options options = {sph_scalars_same(&reach), SPH_R(1.2),
                                          BY_PRECISION(SPH_R(1e-12), SPH_R(1e-5))};
-    sph_derivative_out d;
-    sph_row_out r;
+    sph_derivatives_out d;
+    sph_rows_out r = {0};
     sph_index i;
     memset(&d, 0, sizeof d);
     memset(&r, 0, sizeof r);
@@ -194,7 +192,7 @@ static sph_index apply(int which, const tile *t, sph_real *const *out)
     r.row = out[0];
     switch (which) {
     case SHEPARD:
-        return sph_shepard_sum(k, t->dim, targets, out[0]);
+        return sph_shepard_sum(k, t->dim, targets, sph_scalar_out_array(out[0], 0));
     case INTERPOLATE:
         return sph_interpolate_shepard(k, t->dim, targets, f, sph_scalar_out_array(out[0], 0));
     case DIFFERENCE:
@@ -202,17 +200,15 @@ static sph_index apply(int which, const tile *t, sph_real *const *out)
     case GRADIENT:
         return sph_gradient_cspm(k, t->dim, targets, f, d);
     case BROOKSHAW:
-        return sph_laplacian_brookshaw(k, t->dim, targets, f, out[0]);
-    case KERNEL_LAPLACIAN:
-        return sph_laplacian_kernel(k, t->dim, targets, f, out[0]);
+        return sph_laplacian_brookshaw(k, t->dim, targets, f, sph_scalar_out_array(out[0], 0));
     case CSPM:
-        return sph_derivatives_cspm(k, t->dim, targets, f, SPH_R(0), d);
+        return sph_derivatives_cspm(k, t->dim, targets, f, (sph_derivatives_options){0}, d);
     case ICSPM:
-        return sph_derivatives_icspm(k, t->dim, targets, f, SPH_R(0), 0, d);
+        return sph_derivatives_icspm(k, t->dim, targets, f, (sph_derivatives_options){0}, d);
     case WLS:
-        return sph_derivatives_wls(k, t->dim, targets, f, SPH_R(0), d);
+        return sph_derivatives_wls(k, t->dim, targets, f, (sph_derivatives_options){0}, d);
     case DENSITY:
-        return sph_density_summation(k, t->dim, targets, targets.volume, out[0]);
+        return sph_density_summation(k, t->dim, targets, targets.volume, sph_scalar_out_array(out[0], 0));
     case ADAPTIVE: /* eta a little less than the h of the cloud: most have a solution; what is suggested to the others depends on the box, and is not compared */
         for (i = 0; i < t->n; i++) out[1][i] = SPH_R(0.8) * t->h;
         (void)sph_density_adaptive(k, t->dim, targets, targets.volume, options,
@@ -222,17 +218,15 @@ static sph_index apply(int which, const tile *t, sph_real *const *out)
         return 0;
     case GRADIENT_ROWS:
         return sph_gradient_rows_cspm(k, t->dim, targets,
-                                      (sph_gradient_row_out){.x = out[0], .y = out[1], .z = out[2]});
+                                      (sph_gradient_rows_out){.x = out[0], .y = out[1], .z = out[2]});
     case BROOKSHAW_ROWS:
-        return sph_laplacian_rows_brookshaw(k, t->dim, targets, out[0]);
-    case KERNEL_ROWS:
-        return sph_laplacian_rows_kernel(k, t->dim, targets, out[0]);
+        return sph_laplacian_rows_brookshaw(k, t->dim, targets, (sph_rows_out){.row = out[0]});
     case CSPM_ROWS:
-        return sph_derivative_rows_cspm(k, t->dim, targets, sph_jet_laplacian(t->dim), r);
+        return sph_derivatives_rows_cspm(k, t->dim, targets, sph_jet_laplacian(t->dim), r);
     case ICSPM_ROWS:
-        return sph_derivative_rows_icspm(k, t->dim, targets, sph_jet_laplacian(t->dim), r);
+        return sph_derivatives_rows_icspm(k, t->dim, targets, sph_jet_laplacian(t->dim), r);
     default:
-        return sph_derivative_rows_wls(k, t->dim, targets, sph_jet_laplacian(t->dim), r);
+        return sph_derivatives_rows_wls(k, t->dim, targets, sph_jet_laplacian(t->dim), r);
     }
 }
 
@@ -375,7 +369,7 @@ static void test_fields(int dim)
         int a;
         for (i = 0; i < t.n; i++) t.f[i] = SPH_R(0.3) + SPH_R(1.7) * t.x[open][i];
         CHECK(sph_gradient_cspm(SPH_WENDLAND_C2, dim, tile_cloud(&t), sph_scalars_array(t.f),
-                                (sph_derivative_out){.gx = g[0], .gy = g[1], .gz = g[2]}) == 0);
+                                (sph_derivatives_out){.gx = g[0], .gy = g[1], .gz = g[2]}) == 0);
         for (i = 0; i < t.n; i++)
             for (a = 0; a < dim; a++) CHECK_CLOSE((double)g[a][i], a == open ? 1.7 : 0.0, BY_PRECISION(1e-12, 5e-5));
         for (a = 0; a < 3; a++) free(g[a]);
@@ -393,7 +387,7 @@ static void test_wave(int dim, int axis)
         tile t = tile_cells(dim, sides, 1.0 / side, (1 << dim) - 1, 0.0, 1.5, 1);
         sph_real *const out = (sph_real *)memory((size_t)t.n, sizeof(sph_real));
         const double a = 2.0 * PI / t.box[axis];
-        sph_derivative_out d;
+        sph_derivatives_out d;
         sph_index i;
         memset(&d, 0, sizeof d);
         d.laplacian = out;
@@ -402,8 +396,7 @@ static void test_wave(int dim, int axis)
             t.V[i] = SPH_R(1);
             t.f[i] = SPH_R(sin(a * (double)t.x[axis][i]));
         }
-        CHECK(sph_derivatives_icspm(SPH_WENDLAND_C2, dim, tile_cloud(&t), sph_scalars_array(t.f), SPH_R(0), 0,
-                                    d) == 0);
+        CHECK(sph_derivatives_icspm(SPH_WENDLAND_C2, dim, tile_cloud(&t), sph_scalars_array(t.f), (sph_derivatives_options){0}, d) == 0);
         for (i = 0; i < t.n; i++) error[finer] = fmax(error[finer], fabs((double)out[i] / (a * a) + sin(a * (double)t.x[axis][i])));
         free(out);
         tile_free(&t);
@@ -448,7 +441,7 @@ static void test_bim(void)
     const sph_scalar_out to = sph_scalar_out_array(out, 0);
     CHECK(t.start[t.n] <= 256);
     CHECK(sph_second_derivative_bim(SPH_WENDLAND_C4_1D, tile_cloud(&t), f, 0, 15, to) == SPH_ERROR_BOX);
-    CHECK(sph_second_derivative_rows_bim(SPH_WENDLAND_C4_1D, tile_cloud(&t), 0, 15, row, 0) == SPH_ERROR_BOX);
+    CHECK(sph_second_derivative_rows_bim(SPH_WENDLAND_C4_1D, tile_cloud(&t), 0, 15, (sph_rows_out){.row = row}) == SPH_ERROR_BOX);
     t.box[0] = 0.0;
     tile_lists(&t, 2.02 * (double)t.h);
     /* the ends themselves */

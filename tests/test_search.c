@@ -92,11 +92,10 @@ static int64_t lists_in_parts(int dim, sph_points x, sph_scalars radius, sph_rea
     int64_t pairs = -1, filled = -1;
     sph_grid grid;
     if (sph_grid_build(dim, x, reach, work, size, &grid) != 0) abort();
-    CHECK(sph_grid_count(dim, &grid, x, criterion, radius, radius, 0, start, &pairs) == 0);
+    CHECK(sph_grid_count(dim, &grid, sph_query_of(x, criterion, radius, 0), start, &pairs) == 0);
     CHECK(start[x.n] == pairs);
     *index = (sph_index *)cloud_memory((size_t)pairs, sizeof **index);
-    CHECK(sph_grid_lists(dim, &grid, x, criterion, radius, radius, SPH_LIST_SORTED, start, *index, pairs,
-                         &filled) == 0);
+    CHECK(sph_grid_lists(dim, &grid, sph_query_of(x, criterion, radius, SPH_LIST_SORTED), start, *index, pairs, &filled) == 0);
     CHECK(filled == pairs);
     free(work);
     return pairs;
@@ -249,7 +248,7 @@ static void test_block(void)
                 CHECK(sph_grid_build(dim, x, one, b.at, b.size - 1, &grid) == SPH_ERROR_CAPACITY);
                 CHECK(block_marked(b.at, b.at + b.size));
                 CHECK(sph_grid_build(dim, x, one, b.at, b.size, &grid) == 0);
-                CHECK(sph_grid_count(dim, &grid, x, SPH_GATHER, radius, radius, 0, again, &counted) == 0);
+                CHECK(sph_grid_count(dim, &grid, sph_query_of(x, SPH_GATHER, radius, 0), again, &counted) == 0);
                 CHECK(counted == pairs && memcmp(again, start, sizeof start) == 0 && block_intact(&b));
                 free(b.base);
             }
@@ -362,10 +361,9 @@ static void test_empty_vector(void)
                 int calls = 0;
                 sph_grid grid;
                 CHECK(sph_grid_build(dim, x, SPH_R(way ? 0.3 : 1e-9), work, size, &grid) == 0);
-                CHECK(sph_grid_count(dim, &grid, x, criterion, radius, radius, 0, counted, &exact) == 0);
+                CHECK(sph_grid_count(dim, &grid, sph_query_of(x, criterion, radius, 0), counted, &exact) == 0);
                 CHECK((exact > 0) == way);
-                while ((answer = sph_grid_lists(dim, &grid, x, criterion, radius, radius, 0, start, index,
-                                                room, &pairs)) == SPH_ERROR_CAPACITY) {
+                while ((answer = sph_grid_lists(dim, &grid, sph_query_of(x, criterion, radius, 0), start, index, room, &pairs)) == SPH_ERROR_CAPACITY) {
                     CHECK(pairs == exact && pairs > room);
                     room = pairs;
                     free(index);
@@ -375,23 +373,23 @@ static void test_empty_vector(void)
                 CHECK(answer == 0 && pairs == exact && calls == way); /* no pair at all needs no index */
                 CHECK(memcmp(start, counted, ((size_t)s.n + 1) * sizeof *start) == 0);
                 pairs = -1; /* room, but no index */
-                CHECK(sph_grid_lists(dim, &grid, x, criterion, radius, radius, 0, start, 0, 1, &pairs) ==
+                CHECK(sph_grid_lists(dim, &grid, sph_query_of(x, criterion, radius, 0), start, 0, 1, &pairs) ==
                       SPH_ERROR_NULL);
                 CHECK(pairs == 0);
                 pairs = -1;
-                CHECK(sph_grid_lists(dim, &grid, x, criterion, radius, radius, 0, start, index, -1, &pairs) ==
+                CHECK(sph_grid_lists(dim, &grid, sph_query_of(x, criterion, radius, 0), start, index, -1, &pairs) ==
                       SPH_ERROR_VALUE);
                 CHECK(pairs == 0);
                 pairs = -1;
-                CHECK(sph_grid_count(dim, &grid, x, 9, radius, radius, 0, start, &pairs) == SPH_ERROR_VALUE &&
+                CHECK(sph_grid_count(dim, &grid, sph_query_of(x, 9, radius, 0), start, &pairs) == SPH_ERROR_VALUE &&
                       pairs == 0);
                 pairs = -1;
-                CHECK(sph_grid_count(dim, 0, x, criterion, radius, radius, 0, start, &pairs) ==
+                CHECK(sph_grid_count(dim, 0, sph_query_of(x, criterion, radius, 0), start, &pairs) ==
                           SPH_ERROR_NULL &&
                       pairs == 0);
-                CHECK(sph_grid_count(dim, &grid, x, criterion, radius, radius, 0, start, 0) ==
+                CHECK(sph_grid_count(dim, &grid, sph_query_of(x, criterion, radius, 0), start, 0) ==
                       SPH_ERROR_NULL);
-                CHECK(sph_grid_lists(dim, &grid, x, criterion, radius, radius, 0, start, index, room, 0) ==
+                CHECK(sph_grid_lists(dim, &grid, sph_query_of(x, criterion, radius, 0), start, index, room, 0) ==
                       SPH_ERROR_NULL);
                 free(index);
                 free(work);
@@ -421,38 +419,38 @@ static void test_nothing(void)
             memset(&grid, MARK, sizeof grid);
             CHECK(sph_grid_workspace(dim, 0) > 0);
             CHECK(sph_grid_build(dim, none, SPH_R(0), 0, 0, &grid) == 0);
-            CHECK(sph_grid_order(&grid) == 0 && sph_grid_renumber(&grid) == 0);
+            CHECK(sph_grid_permutation(&grid) == 0 && sph_grid_renumber(&grid) == 0);
             for (flags = 0; flags < 16; flags++) {
                 if (flags & SPH_LIST_FOREIGN && flags & (SPH_LIST_SELF | SPH_LIST_HALF)) continue;
                 for (i = 0; i < 3; i++) start[i] = -7;
                 pairs = -1;
-                CHECK(sph_grid_lists(dim, &grid, none, criterion, no, no, flags, start, 0, 0, &pairs) == 0);
+                CHECK(sph_grid_lists(dim, &grid, sph_query_of(none, criterion, no, flags), start, 0, 0, &pairs) == 0);
                 CHECK(pairs == 0 && start[0] == 0 && start[1] == -7);
                 start[0] = -7;
                 pairs = -1;
-                CHECK(sph_grid_count(dim, &grid, none, criterion, no, no, flags, start, &pairs) == 0);
+                CHECK(sph_grid_count(dim, &grid, sph_query_of(none, criterion, no, flags), start, &pairs) == 0);
                 CHECK(pairs == 0 && start[0] == 0 && start[1] == -7);
             }
             /* targets that look for sources where there are none */
             for (i = 0; i <= s.n + 1; i++) start[i] = -7;
             pairs = -1;
-            CHECK(sph_grid_lists(dim, &grid, x, criterion, no, no, SPH_LIST_FOREIGN, start, 0, 0, &pairs) ==
+            CHECK(sph_grid_lists(dim, &grid, sph_query_of(x, criterion, no, SPH_LIST_FOREIGN), start, 0, 0, &pairs) ==
                       0 &&
                   pairs == 0);
             for (i = 0; i <= s.n; i++) CHECK(start[i] == 0);
             CHECK(start[s.n + 1] == -7);
-            CHECK(sph_grid_lists(dim, &grid, x, criterion, radius, radius, 0, start, 0, 0, &pairs) ==
+            CHECK(sph_grid_lists(dim, &grid, sph_query_of(x, criterion, radius, 0), start, 0, 0, &pairs) ==
                   SPH_ERROR_RANGE);
             /* no targets among sources */
             CHECK(sph_grid_build(dim, x, SPH_R(0.3), work, size, &grid) == 0);
             for (flags = 0; flags <= SPH_LIST_FOREIGN; flags += SPH_LIST_FOREIGN) {
                 start[0] = start[1] = -7;
                 pairs = -1;
-                CHECK(sph_grid_lists(dim, &grid, none, criterion, no, radius, flags, start, 0, 0, &pairs) ==
+                CHECK(sph_grid_lists(dim, &grid, (sph_query){none, criterion, no, radius, flags}, start, 0, 0, &pairs) ==
                       0);
                 CHECK(pairs == 0 && start[0] == 0 && start[1] == -7);
                 start[0] = -7;
-                CHECK(sph_grid_count(dim, &grid, none, criterion, no, no, flags, start, &pairs) == 0);
+                CHECK(sph_grid_count(dim, &grid, sph_query_of(none, criterion, no, flags), start, &pairs) == 0);
                 CHECK(pairs == 0 && start[0] == 0 && start[1] == -7);
             }
             /* the search in one call */
@@ -461,8 +459,7 @@ static void test_nothing(void)
             CHECK(found.pairs == 0 && !found.list.start && !found.list.index && found.grid.n == 0 &&
                   found.grid.dim == dim);
             start[0] = -7;
-            CHECK(sph_grid_count(dim, &found.grid, x, criterion, radius, radius, SPH_LIST_FOREIGN, start,
-                                 &pairs) == 0);
+            CHECK(sph_grid_count(dim, &found.grid, sph_query_of(x, criterion, radius, SPH_LIST_FOREIGN), start, &pairs) == 0);
             CHECK(start[0] == 0 && pairs == 0);
             /* the rest */
             CHECK(sph_permute(0, 0, 0, 1, 0) == 0 && sph_permute_inverse(0, 0, 0) == 0);
@@ -477,7 +474,7 @@ static void test_nothing(void)
                 CHECK(sph_grid_workspace(dim, -1) == 0);
                 CHECK(sph_grid_build(dim, less, SPH_R(1), work, size, &grid) == SPH_ERROR_COUNT);
                 pairs = -1;
-                CHECK(sph_grid_lists(dim, &grid, less, criterion, no, no, 0, start, 0, 0, &pairs) ==
+                CHECK(sph_grid_lists(dim, &grid, sph_query_of(less, criterion, no, 0), start, 0, 0, &pairs) ==
                           SPH_ERROR_COUNT &&
                       pairs == 0);
                 CHECK(sph_rebuild_due(dim, less, less, SPH_R(1)) == SPH_ERROR_COUNT);
@@ -501,10 +498,9 @@ static void test_grid_found(void)
         int64_t pairs, brute = 0;
         calls_of(dim, points_of(&s, 0), radius, SPH_GATHER, &memory, &size, &found);
         memset(seen, 0, sizeof seen);
-        for (i = 0; i < MOST; i++) seen[sph_grid_order(&found.grid)[i]]++;
+        for (i = 0; i < MOST; i++) seen[sph_grid_permutation(&found.grid)[i]]++;
         for (i = 0; i < MOST; i++) CHECK(seen[i] == 1);
-        CHECK(sph_grid_count(dim, &found.grid, points_of(&other, 0), SPH_GATHER, radius, radius,
-                             SPH_LIST_FOREIGN, start, &pairs) == 0);
+        CHECK(sph_grid_count(dim, &found.grid, sph_query_of(points_of(&other, 0), SPH_GATHER, radius, SPH_LIST_FOREIGN), start, &pairs) == 0);
         for (i = 0; i < other.n; i++)
             for (j = 0; j < MOST; j++) {
                 const double dx = (double)other.x[i] - (double)s.x[j];

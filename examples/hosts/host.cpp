@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// host.cpp - a C++ code with its own particles: sph.h works on the members of a std::vector<Particle>, which are not copied. No shim: C++ includes the headers.
+// host.cpp - a C++ code with its own particles: sph.h works on the members of a std::vector<Particle>, which
+// are not copied. No shim: C++ includes the headers.
 //
-//     g++ -std=c++11 -O2 -I. examples/hosts/host.cpp -o host && ./host              (from the repository's root)
+//     g++ -std=c++11 -O2 -I. examples/hosts/host.cpp -o host && ./host         (from the repository's root)
 //
-// A corrected gradient of a linear field and a row of the M-SPH Laplacian, both exact on a disordered cloud; and the kernels against the known answers. Exit status 0 if all is right.
+// A corrected gradient of a linear field and a row of the M-SPH Laplacian, both exact on a disordered cloud;
+// and the kernels against the known answers. Exit status 0 if all is right.
 
+#include <cstdio>
+
+#define SPH_REFUSED(argument, particle, error) \
+    std::printf("%s: %s, first at particle %d\n", argument, sph_status_text(error), int(particle))
 #include "sph.h"
 #include "known.h"
 
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 namespace
@@ -31,6 +36,21 @@ void expect(const char *what, double value, double exact, double tolerance)
     const bool right = std::fabs(value - exact) <= tolerance;
     std::printf("%-52s %18.12f  exact %g%s\n", what, value, exact, right ? "" : "  WRONG");
     failures += !right;
+}
+
+// the doctor: what is likely wrong with a new cloud; M-SPH sums over pairs, and asks for both of their
+// supports
+void examine(sph_cloud cloud)
+{
+    sph_findings found = {};
+    sph_cloud_examine(kernel, dim, cloud, 1, 0, &found); // what is an error is for the sweeps to tell
+    for (int i = 0; i < SPH_FINDING_COUNT; i++) {
+        const sph_offender &at = found.at[i];
+        if (!(found.set >> i & 1)) continue;
+        std::printf("particle %d, neighbour %d, ratio %g: %s\n", int(at.particle), int(at.neighbour),
+                    at.ratio, sph_finding_text(i));
+        failures++;
+    }
 }
 
 void known_answers(const char *path)
@@ -64,52 +84,60 @@ int main(int argc, char **argv)
     const sph_index n = sph_index(particle.size()), middle = n / 2;
 
     // views of the members: nothing is copied
-    const sph_points points = sph_points_strided(n, &particle[0].position[0], &particle[0].position[1], nullptr, stride);
+    double *const at = particle[0].position;
+    const sph_points points = sph_points_strided(n, at, at + 1, nullptr, stride);
     const sph_scalars temperature = sph_scalars_strided(&particle[0].temperature, stride);
-    const sph_scalars H = sph_scalars_same(&h), V = sph_scalars_same(&volume), m = sph_scalars_same(&mobility);
+    const sph_scalars H = sph_scalars_same(&h), V = sph_scalars_same(&volume),
+                      m = sph_scalars_same(&mobility);
 
-    const double radius = h * sph_kernel_support(kernel);
+    // the neighbours, in memory that grows until it is large enough; the lists live as long as it does
+    const double radius = sph_kernel_support(kernel, h);
     const sph_scalars R = sph_scalars_same(&radius);
-    std::vector<char> work(sph_grid_workspace(dim, n));
-    std::vector<sph_index> start(n + 1), index(40 * n);
-    sph_grid grid;
-    int64_t pairs = 0;
-    if (sph_grid_build(dim, points, radius, work.data(), work.size(), &grid) != 0 ||
-        sph_grid_lists(dim, &grid, points, SPH_GATHER, R, R, 0, start.data(), index.data(), int64_t(index.size()), &pairs) != 0)
-        return std::puts("no neighbour lists"), 1;
-    const sph_list list = {start.data(), index.data()};
+    std::vector<char> memory;
+    sph_neighbors found;
+    sph_index answer;
+    while ((answer = sph_search(dim, points, R, SPH_GATHER, memory.data(), memory.size(), &found)) ==
+           SPH_ERROR_CAPACITY)
+        memory.resize(sph_search_size(dim, n, found.pairs));
+    if (answer != 0) return std::puts(sph_status_text(answer)), 1;
 
-    const sph_cloud cloud = sph_cloud_of(points, list, H, V);
+    const sph_cloud cloud = sph_cloud_checked(dim, sph_cloud_of(points, found.list, H, V));
+    examine(cloud);
 
     std::vector<double> gx(n), gy(n);
-    sph_derivative_out gradient = {};
+    sph_derivatives_out gradient = {};
     gradient.gx = gx.data();
     gradient.gy = gy.data();
-    const sph_index not_ok = sph_gradient_cspm(kernel, dim, cloud, temperature, gradient);
-    if (not_ok != 0) return std::puts(sph_status_text(not_ok)), 1;
+    answer = sph_gradient_cspm(kernel, dim, cloud, temperature, gradient);
+    if (answer != 0) return std::puts(sph_status_text(answer)), 1;
     expect("gradient at a corner, x", gx[0], 1.3, 1e-12);
     expect("gradient at a corner, y", gy[0], -0.8, 1e-12);
     expect("gradient in the middle, x", gx[middle], 1.3, 1e-12);
     expect("gradient in the middle, y", gy[middle], -0.8, 1e-12);
 
     // one row of div(m grad u): with options.trace exact for a linear u and for |x|^2
-    std::vector<double> row(index.size()), diagonal(n);
-    sph_elliptic_options options = sph_elliptic_defaults();
+    std::vector<double> row(size_t(found.pairs)), diagonal(n);
+    sph_elliptic_options options = {};
     options.trace = 1;
-    sph_row_out out = {};
+    sph_rows_out out = {};
     out.row = row.data();
     out.diagonal = diagonal.data();
     const sph_cloud one = sph_cloud_range(cloud, middle, middle + 1);
-    if (sph_elliptic_rows_msph(kernel, dim, one, m, options, out) != 0) return std::puts("no row"), 1;
+    answer = sph_elliptic_rows_msph(kernel, dim, one, m, options, out);
+    if (answer != 0) return std::puts(sph_status_text(answer)), 1;
     double linear = 0, square = 0, sum = diagonal[middle];
-    const Particle &a = particle[middle];
-    for (sph_index p = start[middle]; p < start[middle + 1]; p++) {
-        const Particle &b = particle[index[p]];
+    const sph_index first = found.list.start[middle], last = found.list.start[middle + 1];
+    const auto r2 = [](const Particle &p) {
+        return p.position[0] * p.position[0] + p.position[1] * p.position[1];
+    };
+    for (sph_index p = first; p < last; p++) {
+        const Particle &a = particle[middle], &b = particle[found.list.index[p]];
         linear += row[p] * (b.temperature - a.temperature);
-        square += row[p] * (b.position[0] * b.position[0] + b.position[1] * b.position[1] - a.position[0] * a.position[0] - a.position[1] * a.position[1]);
+        square += row[p] * (r2(b) - r2(a));
         sum += row[p];
     }
-    std::printf("M-SPH row of particle %d: %d neighbours, diagonal %.6f\n", int(middle), int(start[middle + 1] - start[middle]), diagonal[middle]);
+    std::printf("M-SPH row of particle %d: %d neighbours, diagonal %.6f\n", int(middle), int(last - first),
+                diagonal[middle]);
     expect("M-SPH, sum of the row", sum, 0, 1e-9);
     expect("M-SPH, div(m grad u) of a linear u", linear, 0, 1e-9);
     expect("M-SPH, div(m grad u) of u = x^2 + y^2", square, 4 * mobility, 1e-9);

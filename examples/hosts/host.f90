@@ -1,11 +1,13 @@
 ! SPDX-License-Identifier: MIT
 !
-! host.f90 - a Fortran code with its own particles, an array of a derived type whose components are read in place.
+! host.f90 - a Fortran code with its own particles, an array of a derived type whose components are read in
+! place.
 !
 !     cc -O2 -c -I. examples/hosts/sph_shim.c
 !     gfortran -O2 examples/hosts/sph.f90 examples/hosts/host.f90 sph_shim.o -o host -lm && ./host           (from the repository's root)
 !
-! A corrected gradient of a linear field and a row of the M-SPH Laplacian, both exact on a disordered cloud; and the kernels against the known answers. Exit status 0 if all is right.
+! A corrected gradient of a linear field and a row of the M-SPH Laplacian, both exact on a disordered cloud;
+! and the kernels against the known answers. Exit status 0 if all is right.
 
 program host
     use sph
@@ -34,6 +36,7 @@ program host
     call cloud%init('wendland-c2', n, sph_field(h), sph_field(V), sph_field(particle(1)%x, particle(2)%x), &
                     sph_field(particle(1)%y, particle(2)%y), not_ok=not_ok)
     if (not_ok == 0) call cloud%find_lists(not_ok)
+    if (not_ok == 0) call cloud%check(not_ok)
     if (not_ok == 0) call cloud%gradient(temperature, gx, gy, not_ok=not_ok)
     call all_well(not_ok)
     call expect('gradient at a corner, x', gx(1), 1.3_sph_real, 1e-12_sph_real)
@@ -67,7 +70,7 @@ contains
 
     subroutine all_well(not_ok)
         integer, intent(in) :: not_ok
-        if (not_ok < 0) print '(a)', sph_status_text(not_ok)
+        if (not_ok < 0) print '(a)', sph_error_text(not_ok)
         if (not_ok /= 0) error stop 1
     end subroutine
 

@@ -1,30 +1,33 @@
 // SPDX-License-Identifier: MIT
 //
-// host_cuda.cu - density and the M-SPH Laplacian on a GPU, one thread a particle, from neighbour lists in CSR form, against the host; and the kernels against the known answers.
+// host_cuda.cu - density and the M-SPH Laplacian on a GPU, one thread a particle, from neighbour lists in CSR
+// form, against the host; and the kernels against the known answers.
 //
-//     nvcc -std=c++17 -O2 -I. examples/hosts/host_cuda.cu -o host_cuda && ./host_cuda           (from the repository's root; -DSPH_SINGLE=1: in float)
+//     nvcc -std=c++17 -O2 -I. examples/hosts/host_cuda.cu -o host_cuda && ./host_cuda
+//                                                 (from the repository's root; -DSPH_SINGLE=1: in float)
 //
 // Exit status 0 if all is right, 77 if there is no GPU here.
 
-#define SPH_CHECK 0 // a thread must not scan all particles; check once on the host, by a call compiled elsewhere with SPH_CHECK 1
+#define SPH_CHECK 0 // a thread must not scan all particles; scan them on the host, in a file with SPH_CHECK 1
 #include "gpu_case.h"
 
 #include <cstdio>
 #include <cstdlib>
 
 // A thread is the range [i, i + 1) of targets; the cloud goes to the device by value, with addresses there.
-__global__ void density(sph_cloud cloud, sph_scalars m, sph_real *rho)
+__global__ void density(sph_cloud cloud, sph_scalars m, sph_scalar_out rho)
 {
     const sph_index i = sph_index(blockIdx.x * blockDim.x + threadIdx.x);
     if (i < cloud.points.n)
         sph_density_summation(CASE_KERNEL, CASE_DIM, sph_cloud_range(cloud, i, i + 1), m, rho);
 }
-__global__ void msph(sph_cloud cloud, sph_scalars mobility, sph_scalars u, sph_real *laplacian)
+__global__ void msph(sph_cloud cloud, sph_scalars mobility, sph_scalars u, sph_scalar_out laplacian)
 {
     const sph_index i = sph_index(blockIdx.x * blockDim.x + threadIdx.x);
+    const sph_elliptic_options options = {};
     if (i < cloud.points.n)
-        sph_elliptic_msph(CASE_KERNEL, CASE_DIM, sph_cloud_range(cloud, i, i + 1), mobility,
-                          sph_elliptic_defaults(), u, sph_scalar_out_array(laplacian, nullptr));
+        sph_elliptic_msph(CASE_KERNEL, CASE_DIM, sph_cloud_range(cloud, i, i + 1), mobility, options, u,
+                          laplacian);
 }
 // W and F of kernels that are chosen at run time
 __global__ void known(int rows, const known_row *row, sph_real *w, sph_real *f)
@@ -52,8 +55,10 @@ int main()
     gpu_case *d; // the same case in the device's memory: its members are the addresses that the views need
     int devices = 0;
 
-    if (case_make(&c, "tests/known/kernels.csv") != 0) return std::puts("no cloud, or no tests/known/kernels.csv"), 1;
-    if (cudaGetDeviceCount(&devices) != cudaSuccess || devices == 0) return std::puts("no GPU here: compiled, not run"), 77;
+    if (case_make(&c, "tests/known/kernels.csv") != 0)
+        return std::puts("no cloud, or no tests/known/kernels.csv"), 1;
+    if (cudaGetDeviceCount(&devices) != cudaSuccess || devices == 0)
+        return std::puts("no GPU here: compiled, not run"), 77;
     stop_on(cudaGetDeviceProperties(&properties, 0), "cudaGetDeviceProperties");
     stop_on(cudaMalloc(&d, sizeof c), "cudaMalloc");
     stop_on(cudaMemcpy(d, &c, sizeof c, cudaMemcpyHostToDevice), "cudaMemcpy");
@@ -62,8 +67,9 @@ int main()
     const sph_list list = {d->start, d->index};
     const sph_cloud cloud = sph_cloud_of(x, list, sph_scalars_same(&d->h), sph_scalars_array(d->V));
     const sph_scalars mobility = sph_scalars_array(d->mobility), u = sph_scalars_array(d->u);
-    density<<<blocks, threads>>>(cloud, sph_scalars_array(d->m), d->rho_device);
-    msph<<<blocks, threads>>>(cloud, mobility, u, d->laplacian_device);
+    density<<<blocks, threads>>>(cloud, sph_scalars_array(d->m),
+                                 sph_scalar_out_array(d->rho_device, nullptr));
+    msph<<<blocks, threads>>>(cloud, mobility, u, sph_scalar_out_array(d->laplacian_device, nullptr));
     known<<<(c.rows + threads - 1) / threads, threads>>>(c.rows, d->known, d->w, d->f);
     stop_on(cudaGetLastError(), "launch");
     stop_on(cudaMemcpy(&c, d, sizeof c, cudaMemcpyDeviceToHost), "cudaMemcpy");

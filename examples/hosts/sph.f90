@@ -2,28 +2,34 @@
 !
 ! sph.f90 - the operators of sph.h for Fortran (2018), through the shim (sph_shim.h).
 !
-!     cc -O2 -c -I. examples/hosts/sph_shim.c && gfortran -O2 examples/hosts/sph.f90 your_code.f90 sph_shim.o -lm        (from the repository's root)
+!     cc -O2 -c -I. examples/hosts/sph_shim.c
+!     gfortran -O2 examples/hosts/sph.f90 your_code.f90 sph_shim.o -lm             (from the repository's root)
 !
 !     use sph
 !     type(sph_cloud) :: cloud
 !     call cloud%init('wendland-c2', n, sph_field(h), sph_field(V), sph_field(x), sph_field(y), not_ok=error)
-!     call cloud%find_lists(error)                                      neighbour lists: cloud%start, cloud%index
+!     call cloud%find_lists(error)                                neighbour lists: cloud%start, cloud%index
 !     call cloud%gradient(sph_field(f), gx, gy, not_ok=error)
+!     if (error < 0) print '(a)', sph_error_text(error)
 !
 ! An sph_field is where the numbers of the particles are; nothing is copied:
-!     sph_field(a)                              an array, or a section of it
-!     sph_field(p(1)%a, p(2)%a)                 a component of an array of a derived type, by its first two (p%a itself would be copied, and the copy gone after the call)
-!     sph_field(h)                              a scalar: one value for all
-! Give them the attribute target, and keep them as long as the cloud, which must not be copied (its copy would look at the lists of the first).
-! not_ok: the number of targets that are not ok (0: all well), or a negative error, whose meaning sph_status_text(error) tells.
-! Lists begin with 0, as in C: the neighbours of particle i are cloud%index(p) + 1 for p = cloud%start(i) + 1, cloud%start(i + 1).
-! What is computed, and what it is exact for: sph_ops.h, under the C names of the interfaces below. Double precision; for a shim that is compiled with -DSPH_SINGLE=1 change sph_real.
+!     sph_field(a)                  an array, or a section of it; it may be empty
+!     sph_field(p(1)%a, p(2)%a)     a component of an array of a derived type, by its first two (p%a itself would
+!                                   be copied, and the copy gone after the call)
+!     sph_field(h)                  a scalar: one value for all
+! Give them the attribute target, and keep them as long as the cloud, which must not be copied (its copy would
+! look at the lists of the first). not_ok: the number of targets that are not ok (0: all well), or a negative
+! error, which sph_error_text(error) puts in words, with the argument and the first particle at fault. A
+! status, or an error alone, is sph_status_text(status). Lists begin with 0, as in C: the neighbours of
+! particle i are cloud%index(p) + 1 for p = cloud%start(i) + 1, cloud%start(i + 1). What is computed, and what
+! it is exact for: sph_ops.h, under the C names of the interfaces below. Double precision; for a shim that is
+! compiled with -DSPH_SINGLE=1 change sph_real.
 
 module sph
     use, intrinsic :: iso_c_binding
     implicit none
     private
-    public :: sph_real, sph_index, sph_field, sph_cloud, sph_kernel_wf, sph_status_text
+    public :: sph_real, sph_index, sph_field, sph_cloud, sph_kernel_wf, sph_status_text, sph_error_text
 
     integer, parameter :: sph_real = c_double, sph_index = c_int32_t
 
@@ -43,7 +49,7 @@ module sph
         type(sph_field), private :: h
         integer(c_int64_t), allocatable, private :: c(:) ! what the shim keeps
     contains
-        procedure :: init, range, periodic, find_lists, use_lists
+        procedure :: init, range, periodic, find_lists, use_lists, check
         procedure :: density, gradient, laplacian_brookshaw, derivatives, rows_msph, apply
     end type
 
@@ -61,6 +67,17 @@ module sph
             import
             integer(c_int), value :: status
             type(c_ptr) :: text
+        end function
+        function c_refused(error, particle) bind(c, name='sph_shim_refused') result(argument)
+            import
+            integer(c_int), value :: error
+            integer(sph_index), intent(out) :: particle
+            type(c_ptr) :: argument
+        end function
+        function c_cloud_check(c) bind(c, name='sph_shim_cloud_check') result(error)
+            import
+            integer(c_int64_t), intent(inout) :: c(*)
+            integer(c_int) :: error
         end function
         function c_strlen(text) bind(c, name='strlen') result(length)
             import
@@ -203,13 +220,11 @@ contains
         error = c_kernel_wf(c_kernel_from_name(trim(kernel)//c_null_char), dim, size(r, kind=sph_index), r, h, w, f)
     end subroutine
 
-    function sph_status_text(status) result(text)
-        integer, intent(in) :: status
+    function text_of(address) result(text)
+        type(c_ptr), intent(in) :: address
         character(:), allocatable :: text
         character(kind=c_char), pointer :: letter(:)
-        type(c_ptr) :: address
         integer :: i
-        address = c_status_text(status)
         call c_f_pointer(address, letter, [c_strlen(address)])
         allocate (character(size(letter)) :: text)
         do i = 1, size(letter)
@@ -217,11 +232,30 @@ contains
         end do
     end function
 
+    function sph_status_text(status) result(text)
+        integer, intent(in) :: status
+        character(:), allocatable :: text
+        text = text_of(c_status_text(status))
+    end function
+
+    ! The error that was just answered: 'h: h must be finite and positive, first at particle 18', counted from 1.
+    function sph_error_text(error) result(text)
+        integer, intent(in) :: error
+        character(:), allocatable :: text
+        character(20) :: number
+        integer(sph_index) :: particle
+        text = text_of(c_refused(error, particle))
+        if (len(text) > 0) text = text//': '
+        text = text//sph_status_text(error)
+        write (number, '(i0)') particle + 1
+        if (particle >= 0) text = text//', first at particle '//trim(number)
+    end function
+
     function field_of_array(a) result(field)
         real(sph_real), intent(in), target :: a(:)
         type(sph_field) :: field
-        field = field_of_scalar(a(1))
         field%stride = 1
+        if (size(a) > 0) field%p = c_loc(a(1))
         if (size(a) > 1) field = field_of_component(a(1), a(2))
     end function
     function field_of_component(a, b) result(field)
@@ -290,17 +324,25 @@ contains
         real(sph_real), allocatable :: radius(:)
         integer(c_int64_t) :: pairs
         integer(c_size_t) :: step, work_size, radius_stride
+        if (allocated(self%start)) deallocate (self%start, self%index)
+        allocate (self%start(self%n + 1), source=0_sph_index)
+        if (self%n == 0) then
+            allocate (self%index(1))
+            call c_cloud_lists(self%c, c_loc(self%start), c_loc(self%index))
+            not_ok = 0
+            return
+        end if
         step = max(self%h%stride, 1_c_size_t)
         radius_stride = min(self%h%stride, 1_c_size_t)
         call c_f_pointer(self%h%p, h, [self%h%stride * (self%n - 1) + 1])
         allocate (radius, source=c_kernel_support(self%kernel) * h(::step))
         work_size = c_grid_workspace(self%dim, self%n)
         allocate (work((work_size + 7) / 8))
-        if (allocated(self%start)) deallocate (self%start, self%index)
-        allocate (self%start(self%n + 1))
-        not_ok = c_grid_lists(self%c, 0, radius, radius_stride, work, work_size, self%start, c_null_ptr, 0_c_size_t, pairs) ! counts
-        if (not_ok /= 0) return
+        not_ok = c_grid_lists(self%c, 0, radius, radius_stride, work, work_size, self%start, c_null_ptr, &
+                              0_c_size_t, pairs) ! counts
+        if (not_ok /= 0) pairs = 0
         allocate (self%index(max(pairs, 1_c_int64_t)))
+        if (not_ok /= 0) return
         not_ok = c_grid_lists(self%c, 0, radius, radius_stride, work, work_size, self%start, c_loc(self%index), &
                               size(self%index, kind=c_size_t), pairs)
         call c_cloud_lists(self%c, c_loc(self%start), c_loc(self%index))
@@ -311,6 +353,13 @@ contains
         class(sph_cloud), intent(inout) :: self
         integer(sph_index), intent(in), target, contiguous :: start(:), index(:)
         call c_cloud_lists(self%c, c_loc(start), c_loc(index))
+    end subroutine
+
+    ! Scans positions, lists, h and V once, and no more in each sweep until one of them is set anew.
+    subroutine check(self, not_ok)
+        class(sph_cloud), intent(inout) :: self
+        integer, intent(out) :: not_ok
+        not_ok = c_cloud_check(self%c)
     end subroutine
 
     ! The sweeps. Each comment names the C function.
@@ -340,7 +389,8 @@ contains
         not_ok = c_laplacian_brookshaw(self%c, f%p, f%stride, out)
     end subroutine
 
-    ! sph_derivatives_icspm; out(:, i): gx, xx in 1D; gx, gy, xx, xy, yy in 2D; gx, gy, gz, xx, xy, yy, xz, yz, zz in 3D
+    ! sph_derivatives_icspm; out(:, i): gx, xx in 1D; gx, gy, xx, xy, yy in 2D; gx, gy, gz, xx, xy, yy, xz, yz, zz
+    ! in 3D
     subroutine derivatives(self, f, conditioning_min, out, not_ok)
         class(sph_cloud), intent(in) :: self
         type(sph_field), intent(in) :: f

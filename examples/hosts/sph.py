@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""sph.py - the operators of sph.h on Python's arrays, through the shim (sph_shim.h). Needs nothing but the standard library; numpy's arrays if numpy is there.
+"""sph.py - the operators of sph.h on Python's arrays, through the shim (sph_shim.h). Needs nothing but the
+standard library; numpy's arrays if numpy is there.
 
-    cc -O2 -shared -fPIC -I. examples/hosts/sph_shim.c -o libsph_shim.so -lm          (from the repository's root)
+    cc -O2 -shared -fPIC -I. examples/hosts/sph_shim.c -o libsph_shim.so -lm        (from the repository's root)
 
     import sph
     sph.load("./libsph_shim.so")
@@ -9,10 +10,14 @@
     cloud.find_lists()
     gx, gy = cloud.gradient(f)
 
-Inputs are numbers (one value for all) or one-dimensional arrays of float64 - numpy arrays, columns and slices of them, fields of structured arrays, array.array('d') - which are
-read where they are, never copied; lists are int32. Another type, layout or length is a TypeError or ValueError that says which argument is wrong. Outputs are new arrays.
-What is computed, and what it is exact for: sph_ops.h, under the C names in the docstrings. A sweep that is refused raises sph.Error; cloud.not_ok is the number of targets that
-are not ok after the last sweep, and cloud.status says why (0: ok; 1 too few neighbours, 2 singular, 3 ill-conditioned, 4 fell back: enum sph_status)."""
+Inputs are numbers (one value for all) or one-dimensional arrays of float64 - numpy arrays, columns and slices
+of them, fields of structured arrays, array.array('d') - which are read where they are, never copied; lists
+are int32. Another type, layout or length is a TypeError or ValueError that says which argument is wrong.
+Arrays may be empty. Outputs are new arrays.
+What is computed, and what it is exact for: sph_ops.h, under the C names in the docstrings. A sweep that is
+refused raises sph.Error, which names the argument and the first particle at fault; cloud.not_ok is the number
+of targets that are not ok after the last sweep, and cloud.status says why (enum sph_status), in words:
+status_text(status)."""
 
 import array
 import ctypes
@@ -38,12 +43,14 @@ def load(path):
         raise Error(f"{path} was not compiled with double and int32_t")
     p, size, real, integer = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_double, ctypes.c_int32
     for name, arguments in {
+        "refused": [integer, p],
         "kernel_wf": [integer, integer, integer, p, real, p, p],
         "cloud_init": [p, integer, integer, integer, p, p, p, size],
         "cloud_volumes": [p, p, size, p, size],
         "cloud_lists": [p, p, p],
         "cloud_periodic": [p, real, real, real],
         "cloud_range": [p, integer, integer],
+        "cloud_check": [p],
         "grid_lists": [p, integer, p, size, p, size, p, p, size, p],
         "density_summation": [p, p, size, p],
         "gradient_cspm": [p, p, size, p, p, p, p],
@@ -51,10 +58,10 @@ def load(path):
         "derivatives_icspm": [p, p, size, real, integer, p, p],
         "elliptic_rows_msph": [p, p, size, integer, p, p, p],
         "rows_apply": [p, p, p, p, size, p],
-        "collide_sequential": [p, real, p, size, real, p, p, p, size],
+        "collision_sequential": [p, real, p, size, real, p, p, p, size],
     }.items():  # without argument types ctypes would cut addresses to 32 bits
         getattr(lib, "sph_shim_" + name).argtypes = arguments
-    lib.sph_shim_status_text.restype = ctypes.c_char_p
+    lib.sph_shim_status_text.restype = lib.sph_shim_refused.restype = ctypes.c_char_p
     lib.sph_shim_kernel_support.restype = real
     lib.sph_shim_cloud_size.restype = size
     lib.sph_shim_grid_workspace.restype = size
@@ -64,10 +71,14 @@ def load(path):
 
 def _new(kind, n):
     """a new array of n zeros: 'd', 'i' or 'B'"""
-    return numpy.zeros(n, dtype={"d": numpy.float64, "i": numpy.int32, "B": numpy.uint8}[kind]) if numpy else array.array(kind, bytes(n * array.array(kind).itemsize))
+    if numpy:
+        return numpy.zeros(n, dtype={"d": numpy.float64, "i": numpy.int32, "B": numpy.uint8}[kind])
+    return array.array(kind, bytes(n * array.array(kind).itemsize))
 
 
 def _address(a):
+    if len(a) == 0:
+        return None
     interface = getattr(a, "__array_interface__", None)
     return interface["data"][0] if interface else ctypes.addressof(ctypes.c_char.from_buffer(a))
 
@@ -82,14 +93,16 @@ def _look(name, a, n, kind="d", writable=False):
     except TypeError:
         raise TypeError(f"{name}: an array is wanted, not {type(a).__name__}") from None
     if view.format not in {"d": "d", "i": "il"}[kind] or view.itemsize != {"d": 8, "i": 4}[kind]:
-        raise TypeError(f"{name}: an array of {'float64' if kind == 'd' else 'int32'} is wanted, not one of '{view.format}'")
+        wanted = {"d": "float64", "i": "int32"}[kind]
+        raise TypeError(f"{name}: an array of {wanted} is wanted, not one of '{view.format}'")
     if view.ndim != 1:
         raise ValueError(f"{name}: one dimension is wanted, not {view.ndim}; a column a[:, 0] will do")
     if view.shape[0] != n:
         raise ValueError(f"{name}: {n} numbers are wanted, not {view.shape[0]}")
     stride, rest = divmod(view.strides[0], view.itemsize)
     if rest or stride < 1 or (kind == "i" and stride != 1):
-        raise ValueError(f"{name}: elements that are {view.strides[0]} bytes apart cannot be read in place: copy the array")
+        apart = f"elements that are {view.strides[0]} bytes apart"
+        raise ValueError(f"{name}: {apart} cannot be read in place: copy the array")
     if writable and view.readonly:
         raise ValueError(f"{name}: is read-only")
     return _address(a), stride, a
@@ -104,8 +117,16 @@ def _kernel(kernel):
 
 def _answer(value):
     if value < 0:
-        raise Error(_lib.sph_shim_status_text(value).decode())
+        particle = ctypes.c_int32()
+        argument = _lib.sph_shim_refused(value, ctypes.byref(particle)).decode()
+        where = f", first at particle {particle.value}" if particle.value >= 0 else ""
+        raise Error((argument + ": " if argument else "") + status_text(value) + where)
     return value
+
+
+def status_text(status):
+    """an entry of cloud.status in words"""
+    return _lib.sph_shim_status_text(int(status)).decode()
 
 
 def kernel_support(kernel):
@@ -124,7 +145,8 @@ def kernel_wf(kernel, dim, r, h):
 
 
 class Cloud:
-    """Particles: a kernel's name, one array of positions for each dimension, smoothing length and volumes; box: periodic lengths, 0 for an open axis."""
+    """Particles: a kernel's name, one array of positions for each dimension, smoothing length and volumes;
+    box: periodic lengths, 0 for an open axis."""
 
     def __init__(self, kernel, positions, h, V, box=None):
         self.dim, self.n, self.kernel = len(positions), len(positions[0]), kernel
@@ -151,24 +173,41 @@ class Cloud:
         """the targets of the sweeps to come"""
         _lib.sph_shim_cloud_range(self._c, first, last)
 
+    def check(self):
+        """scans positions, lists, h and V once, and no more in each sweep until one of them is set anew"""
+        _answer(_lib.sph_shim_cloud_check(self._c))
+
     def use_lists(self, start, index):
-        """the host's own: neighbours of i are index[start[i]] ... index[start[i + 1] - 1], without i itself"""
-        rows, entries = self._look("start", start, "i", self.n + 1), self._look("index", index, "i", len(index))
+        """the host's own: neighbours of i are index[start[i]] ... index[start[i + 1] - 1], without i"""
+        rows = self._look("start", start, "i", self.n + 1)
+        entries = self._look("index", index, "i", len(index))
         if len(index) < start[self.n]:
             raise ValueError(f"index: {start[self.n]} entries are wanted, not {len(index)}")
         _lib.sph_shim_cloud_lists(self._c, rows[0], entries[0])
         self.start, self.index = start, index
 
     def find_lists(self, radius=None, criterion=GATHER):
-        """sph_grid_lists; the support radius unless one is given (the mean of both supports, which M-SPH needs where h varies: criterion=MEAN)"""
-        if radius is None:
+        """sph_grid_lists; the support radius unless one is given (the mean of both supports, which M-SPH
+        needs where h varies: criterion=MEAN)"""
+        if radius is None and isinstance(self.h, (int, float)):
             radius = self.h * kernel_support(self.kernel)
-        R, work, start, pairs = self._look("radius", radius), ctypes.create_string_buffer(_lib.sph_shim_grid_workspace(self.dim, self.n)), _new("i", self.n + 1), ctypes.c_int64()
-        grid_lists = lambda index, capacity: _answer(_lib.sph_shim_grid_lists(self._c, criterion, *R, work, len(work), _address(start), index, capacity, ctypes.byref(pairs)))
-        grid_lists(None, 0)  # counts
+        elif radius is None and numpy:
+            radius = numpy.asarray(self.h) * kernel_support(self.kernel)
+        elif radius is None:
+            radius = _new("d", self.n)
+            for i in range(self.n):
+                radius[i] = self.h[i] * kernel_support(self.kernel)
+        work = ctypes.create_string_buffer(_lib.sph_shim_grid_workspace(self.dim, self.n))
+        R, start, pairs = self._look("radius", radius), _new("i", self.n + 1), ctypes.c_int64()
+
+        def fill(index, room):
+            memory = work, len(work), _address(start), index, room, ctypes.byref(pairs)
+            _answer(_lib.sph_shim_grid_lists(self._c, criterion, *R, *memory))
+
+        fill(None, 0)  # counts
         index = _new("i", pairs.value)
         if pairs.value:
-            grid_lists(_address(index), pairs.value)
+            fill(_address(index), pairs.value)
         self.use_lists(start, index)
 
     def _sweep(self, name, *arguments):
@@ -183,7 +222,8 @@ class Cloud:
     def gradient(self, f):
         """sph_gradient_cspm: one array for each dimension"""
         g = [_new("d", self.n) for _ in range(self.dim)]
-        self._sweep("gradient_cspm", *self._look("f", f), *([_address(a) for a in g] + [None] * (3 - self.dim)), _address(self.status))
+        to = [_address(a) for a in g] + [None] * (3 - self.dim)
+        self._sweep("gradient_cspm", *self._look("f", f), *to, _address(self.status))
         return g
 
     def laplacian_brookshaw(self, f):
@@ -193,26 +233,32 @@ class Cloud:
         return out
 
     def derivatives(self, f, conditioning_min=0.0, fallback=True):
-        """sph_derivatives_icspm: for each particle gx, xx; gx, gy, xx, xy, yy; or gx, gy, gz, xx, xy, yy, xz, yz, zz, one after the other"""
+        """sph_derivatives_icspm: for each particle gx, xx; gx, gy, xx, xy, yy; or gx, gy, gz, xx, xy, yy, xz,
+        yz, zz, one after the other"""
         out = _new("d", self.n * (0, 2, 5, 9)[self.dim])
-        self._sweep("derivatives_icspm", *self._look("f", f), conditioning_min, fallback, _address(out), _address(self.status))
+        to = _address(out), _address(self.status)
+        self._sweep("derivatives_icspm", *self._look("f", f), conditioning_min, fallback, *to)
         return out
 
     def rows_msph(self, m, trace=False):
-        """sph_elliptic_rows_msph: row (as long as index) and diagonal; div(m grad u)_i = diagonal[i] u_i + sum_p row[p] u[index[p]]"""
+        """sph_elliptic_rows_msph: row (as long as index) and diagonal;
+        div(m grad u)_i = diagonal[i] u_i + sum_p row[p] u[index[p]]"""
         row, diagonal = _new("d", len(self.index)), _new("d", self.n)
-        self._sweep("elliptic_rows_msph", *self._look("m", m), trace, _address(row), _address(diagonal), _address(self.status))
+        to = _address(row), _address(diagonal), _address(self.status)
+        self._sweep("elliptic_rows_msph", *self._look("m", m), trace, *to)
         return row, diagonal
 
     def apply(self, row, diagonal, u):
         """sph_rows_apply"""
         out = _new("d", self.n)
-        self._sweep("rows_apply", self._look("row", row, n=len(self.index))[0], self._look("diagonal", diagonal)[0], *self._look("u", u), _address(out))
+        rows = self._look("row", row, n=len(self.index))[0], self._look("diagonal", diagonal)[0]
+        self._sweep("rows_apply", *rows, *self._look("u", u), _address(out))
         return out
 
     def collide(self, distance, inverse_mass, restitution, velocity):
-        """sph_collide_sequential: changes the velocities, one array for each dimension"""
+        """sph_collision_sequential: changes the velocities, one array for each dimension"""
         v = [_look("velocity", a, self.n, writable=True) for a in velocity]
         if any(stride != v[0][1] for _, stride, _ in v):
             raise ValueError("velocity: all must have the same stride")
-        self._sweep("collide_sequential", distance, *self._look("inverse_mass", inverse_mass), restitution, *([p for p, _, _ in v] + [None] * (3 - self.dim)), v[0][1])
+        inverse, to = self._look("inverse_mass", inverse_mass), [p for p, _, _ in v] + [None] * (3 - self.dim)
+        self._sweep("collision_sequential", distance, *inverse, restitution, *to, v[0][1])

@@ -98,12 +98,12 @@ static inline void cleaning_neighbours(cleaning_lists *l, int dim, sph_points x,
         l->work_size = size;
     }
     cleaning_expect(sph_grid_build(dim, x, reach, l->work, l->work_size, &grid));
-    answer = sph_grid_lists(dim, &grid, x, SPH_LARGER, radius, radius, 0, l->start, l->index, l->index ? l->capacity : 0, &pairs);
+    answer = sph_grid_lists(dim, &grid, sph_query_of(x, SPH_LARGER, radius, 0), l->start, l->index, l->index ? l->capacity : 0, &pairs);
     if (!l->index || answer == SPH_ERROR_CAPACITY) {
         free(l->index);
         l->capacity = pairs + pairs / 8; /* room to spare: counting costs as much as filling */
         l->index = (sph_index *)cleaning_memory((size_t)l->capacity, sizeof *l->index);
-        answer = sph_grid_lists(dim, &grid, x, SPH_LARGER, radius, radius, 0, l->start, l->index, l->capacity, &pairs);
+        answer = sph_grid_lists(dim, &grid, sph_query_of(x, SPH_LARGER, radius, 0), l->start, l->index, l->capacity, &pairs);
     }
     cleaning_expect(answer);
 }

@@ -9,6 +9,7 @@
  * sum m (B^2 + psi^2/ch^2) / (2 rho); its unit here is that of the perturbation at the start.
  */
 #include "cleaning.h"
+#include "cleaning_forms.h"
 
 enum {
     X,
@@ -82,9 +83,9 @@ static sph_vector_out vectors_out(const state *s, int first)
 {
     return sph_vector_out_separate(s->a[first], s->a[first + 1], s->a[first + 2]);
 }
-static sph_gas gas(const state *s)
+static sph_medium gas(const state *s)
 {
-    sph_gas g;
+    sph_medium g;
     g.m = field(s, M);
     g.rho = field(s, RHO);
     g.omega = field(s, OMEGA);
@@ -102,7 +103,7 @@ static void neighbours(state *s)
     double *const R = s->a[MEAN], reach = 0;
     int i;
     for (i = 0; i < s->n; i++) {
-        R[i] = sph_kernel_support(s->k) * s->a[H][i];
+        R[i] = sph_kernel_support_ratio(s->k) * s->a[H][i];
         reach = fmax(reach, R[i]);
     }
     cleaning_neighbours(&s->lists, s->dim, points(s), sph_scalars_array(R), reach);
@@ -122,9 +123,9 @@ static void settle(state *s, double dx, double rho)
 /* (4), (5): density by summation, an h of each particle's own, and Omega. The particles of an edge have half of their neighbours, and a longer h. */
 static void settle_adaptive(state *s, double widest)
 {
-    const double reach = 2 * CLEANING_ETA * widest * sph_kernel_support(s->k);
+    const double reach = 2 * CLEANING_ETA * widest * sph_kernel_support_ratio(s->k);
     const sph_density_options options = {sph_scalars_same(&reach), CLEANING_ETA, 1e-12};
-    const sph_density_out out = {s->a[H], s->a[RHO], s->a[OMEGA], NULL};
+    const sph_density_out out = {.h = s->a[H], .rho = s->a[RHO], .omega = s->a[OMEGA]};
     int i;
     cleaning_neighbours(&s->lists, s->dim, points(s), sph_scalars_same(&reach), reach);
     for (i = 0; i < s->n; i++) s->a[H][i] = CLEANING_ETA * widest;
@@ -195,15 +196,15 @@ static state jump(double dx, int ratio)
 
 SPH_FN sph_index rates_in(sph_kernel k, int dim, state *s)
 {
-    const sph_cleaning of = {.gas = gas(s),
+    const sph_cleaning of = {.medium = gas(s),
                              .field = vectors(s, BX),
                              .psi = field(s, PSI),
                              .div_v = s->moving ? field(s, DIVV) : sph_scalars_none(),
                              .ch = s->ch,
                              .sigma = s->sigma};
-    const sph_cleaning_out to = {vectors_out(s, RBX), s->a[RPSI], s->a[DIVB]};
-    if (s->form == DIFFERENCES) return sph_cleaning_rates_nonconservative(k, dim, cloud(s), of, to);
-    if (s->form == OTHER) return sph_cleaning_rates_symmetric(k, dim, cloud(s), of, to);
+    const sph_cleaning_out to = {.rate_B = vectors_out(s, RBX), .rate_psi = s->a[RPSI], .div_B = s->a[DIVB]};
+    if (s->form == DIFFERENCES) return cleaning_rates_nonconservative(k, dim, cloud(s), of, to);
+    if (s->form == OTHER) return cleaning_rates_symmetric(k, dim, cloud(s), of, to);
     return sph_cleaning_rates(k, dim, cloud(s), of, to);
 }
 /* The sweeps fold for a constant kernel and dimension, so there is one copy for each. They find a state that is no number. */
@@ -492,7 +493,7 @@ static void identities(report *r)
     for (i = 0; i < s.n; i++)
         for (k = 0; k < 2; k++) s.a[SAVED + k][i] = -s.a[X + k][i];
     cleaning_expect(
-        sph_divergence_difference(SPH_CUBIC_SPLINE, 2, cloud(&s), gas(&s), vectors(&s, SAVED), s.a[DIVV]));
+        sph_divergence_difference(SPH_CUBIC_SPLINE, 2, cloud(&s), gas(&s), vectors(&s, SAVED), sph_scalar_out_array(s.a[DIVV], 0)));
     for (s.moving = 0; s.moving < 2; s.moving++) {
         double rate = 0, size = 0;
         rates(&s);
@@ -788,7 +789,7 @@ static void resistivity(report *r)
         const sph_cloud same_h =
             sph_cloud_of(points(&s), cleaning_list(&s.lists), sph_scalars_same(s.a[H]), sph_scalars_none());
         const sph_mhd_out out = {.acceleration = vectors_out(&s, SAVED), .rate_B = vectors_out(&s, RBX)};
-        m.gas = gas(&s);
+        m.medium = gas(&s);
         m.p = m.u = m.cs = sph_scalars_same(&one);
         m.alpha = m.v.x = m.v.y = sph_scalars_same(&nought);
         m.field = vectors(&s, BX);

@@ -44,7 +44,7 @@ static void well(const drop *d, sph_index answer)
 /* New lists where particles have moved by half of the skin */
 static void neighbours(drop *d)
 {
-    const double radius = sph_kernel_support(SPH_CUBIC_SPLINE) * h + skin;
+    const double radius = sph_kernel_support_ratio(SPH_CUBIC_SPLINE) * h + skin;
     int i;
     int due = 1;
     if (d->lists.start)
@@ -78,8 +78,7 @@ SPH_FN sph_index accelerate_by(int viscosity, drop *d)
                  ? 2 * d->alpha
                  : 2; /* of 1992: beside alpha; of 1997: within alpha v_sig */
     f.eta = 0.1;
-    return sph_fluid_rates_monaghan(SPH_CUBIC_SPLINE, 2, cloud(d), f,
-                                    sph_vector_out_separate(d->a[AX], d->a[AY], NULL), NULL, NULL);
+    return sph_fluid_rates_monaghan(SPH_CUBIC_SPLINE, 2, cloud(d), f, (sph_fluid_out){.acceleration = sph_vector_out_separate(d->a[AX], d->a[AY], NULL)});
 }
 /* The sweep folds for a constant viscosity, too. */
 static void accelerate(drop *d, int viscosity)
@@ -104,12 +103,12 @@ static void forces(drop *d)
 static void divergence(drop *d)
 {
     static const double one = 1;
-    sph_gas g;
+    sph_medium g;
     g.m = sph_scalars_same(&d->m);
     g.rho = field(d, RHO);
     g.omega = sph_scalars_same(&one);
     neighbours(d);
-    well(d, sph_divergence_difference(SPH_CUBIC_SPLINE, 2, cloud(d), g, velocities(d), d->a[DIVV]));
+    well(d, sph_divergence_difference(SPH_CUBIC_SPLINE, 2, cloud(d), g, velocities(d), sph_scalar_out_array(d->a[DIVV], 0)));
 }
 
 static drop drop_new(double alpha, int viscosity, int cleans)

@@ -109,7 +109,7 @@ static sph_vector_out vectors_out(const cylinder *c, int first)
 /* Places and velocities where the layers have turned by turn * sin 2 pi z, and the lists */
 static void turn_to(cylinder *c, double turn)
 {
-    const double reach = sph_kernel_support(SPH_CUBIC_SPLINE) * c->h;
+    const double reach = sph_kernel_support_ratio(SPH_CUBIC_SPLINE) * c->h;
     int i;
     for (i = 0; i < c->n; i++) {
         const double rate = sin(2 * MATH_PI * c->a[Z][i]), theta = turn * rate;
@@ -126,8 +126,8 @@ static void induction(cylinder *c)
     static const double one = 1, nought = 0;
     sph_mhd s = {0};
     sph_mhd_out out = {0};
-    s.gas.m = sph_scalars_same(&c->V);
-    s.gas.rho = s.gas.omega = s.cs = sph_scalars_same(&one);
+    s.medium.m = sph_scalars_same(&c->V);
+    s.medium.rho = s.medium.omega = s.cs = sph_scalars_same(&one);
     s.p = s.u = s.alpha = s.alpha_B = sph_scalars_same(&nought);
     s.v = vectors(c, VX);
     s.field = vectors(c, BX);
@@ -160,7 +160,7 @@ static const char *const way_name[WAYS] = {"Euler potentials", "induction equati
 
 static match compare(cylinder *c, int way, double turn)
 {
-    const sph_derivative_out of_alpha = {.gx = c->a[GX], .gy = c->a[GY], .gz = c->a[GZ]},
+    const sph_derivatives_out of_alpha = {.gx = c->a[GX], .gy = c->a[GY], .gz = c->a[GZ]},
                              of_beta = {.gx = c->a[QX], .gy = c->a[QY], .gz = c->a[QZ]};
     double product = 0, square = 0, apart = 0;
     match m;
@@ -176,7 +176,7 @@ static match compare(cylinder *c, int way, double turn)
                      bend = 2 * MATH_PI * turn * cos(2 * MATH_PI * c->a[Z][i]), exact = r * bend;
         sph_vec B;
         double own;
-        if (r > radius - sph_kernel_support(SPH_CUBIC_SPLINE) * c->h) continue;
+        if (r > radius - sph_kernel_support_ratio(SPH_CUBIC_SPLINE) * c->h) continue;
         if (way == POTENTIALS) {
             const sph_vec p = {c->a[GX][i], c->a[GY][i], c->a[GZ][i]},
                           q = {c->a[QX][i], c->a[QY][i], c->a[QZ][i]};

@@ -10,6 +10,7 @@
 #define SPH_CHECK 0 /* every step looks for what is not finite, and says where */
 #endif
 #include "cleaning.h"
+#include "cleaning_forms.h"
 
 #include <string.h>
 
@@ -105,9 +106,9 @@ static inline sph_vector_out gas_out(double *const *first)
 {
     return sph_vector_out_separate(first[0], first[1], first[2]);
 }
-static inline sph_gas gas_densities(const gas *g)
+static inline sph_medium gas_densities(const gas *g)
 {
-    sph_gas s;
+    sph_medium s;
     s.m = gas_field(g, M);
     s.rho = gas_field(g, RHO);
     s.omega = gas_field(g, OMEGA);
@@ -141,7 +142,7 @@ static inline void gas_lists(gas *g)
     double widest = 0;
     sph_index i;
     for (i = 0; i < g->n; i++) {
-        g->a[REACH][i] = 1.04 * sph_kernel_support(SPH_CUBIC_SPLINE) * g->a[H][i];
+        g->a[REACH][i] = 1.04 * sph_kernel_support_ratio(SPH_CUBIC_SPLINE) * g->a[H][i];
         widest = fmax(widest, g->a[REACH][i]);
     }
     cleaning_neighbours(&g->lists, g->dim, gas_points(g), gas_field(g, REACH), widest);
@@ -149,7 +150,7 @@ static inline void gas_lists(gas *g)
 SPH_FN sph_index gas_density_in(int dim, gas *g, sph_index last)
 {
     const sph_density_options options = {gas_field(g, REACH), CLEANING_ETA, 1e-4};
-    const sph_density_out out = {g->a[H], g->a[RHO], g->a[OMEGA], g->status};
+    const sph_density_out out = {.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status};
     return sph_density_adaptive(SPH_CUBIC_SPLINE, dim, gas_cloud(g, last), gas_field(g, M), options, out);
 }
 /* (4), (5) for the particles before `last` */
@@ -175,10 +176,10 @@ SPH_FN sph_index gas_rates_in(int dim, gas *g)
     const sph_cloud cloud = gas_cloud(g, g->free);
     const int other = g->cleans && g->form == DIFFERENCES;
     sph_mhd s;
-    sph_mhd_out out;
+    sph_mhd_out out = {0};
     sph_index failed;
     memset(&out, 0, sizeof out);
-    s.gas = gas_densities(g);
+    s.medium = gas_densities(g);
     s.p = gas_field(g, P);
     s.u = gas_field(g, U);
     s.cs = gas_field(g, CS);
@@ -201,16 +202,16 @@ SPH_FN sph_index gas_rates_in(int dim, gas *g)
     out.v_sig = g->a[SPEED];
     failed = sph_mhd_rates(SPH_CUBIC_SPLINE, dim, cloud, s, out);
     if (failed == 0 && other) { /* its rates of B in the place of those of x, which come last */
-        const sph_cleaning of = {.gas = s.gas,
+        const sph_cleaning of = {.medium = s.medium,
                                  .field = gas_vectors(g, BX, dim),
                                  .psi = gas_field(g, PSI),
                                  .div_v = gas_field(g, DIV_V),
                                  .ch = g->ch,
                                  .sigma = g->sigma};
-        const sph_cleaning_out to = {gas_out(g->rate + X), g->rate[PSI], NULL};
+        const sph_cleaning_out to = {.rate_B = gas_out(g->rate + X), .rate_psi = g->rate[PSI], .div_B = NULL};
         sph_index i;
         int k;
-        failed = sph_cleaning_rates_nonconservative(SPH_CUBIC_SPLINE, dim, cloud, of, to);
+        failed = cleaning_rates_nonconservative(SPH_CUBIC_SPLINE, dim, cloud, of, to);
         for (k = 0; k < dim; k++)
             for (i = 0; i < g->free; i++) g->rate[BX + k][i] += g->rate[X + k][i];
     }

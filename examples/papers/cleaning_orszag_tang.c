@@ -21,6 +21,7 @@
 #include "../common/random.h"
 #include "../common/report.h"
 #include "../common/vtk.h"
+#include "cleaning_forms.h"
 
 #include <math.h>
 #include <signal.h>
@@ -163,9 +164,9 @@ static sph_cloud cloud_of(const gas *g)
 {
     return sph_cloud_of(points(g), list(g), field(g, H), field(g, VOLUME));
 }
-static sph_gas densities(const gas *g)
+static sph_medium densities(const gas *g)
 {
-    sph_gas s;
+    sph_medium s;
     s.m = sph_scalars_same(&g->m);
     s.rho = field(g, RHO);
     s.omega = field(g, OMEGA);
@@ -175,7 +176,7 @@ static sph_mhd magnetised(const gas *g, const plan *c, int cleans)
 {
     static const double none = 0;
     sph_mhd s;
-    s.gas = densities(g);
+    s.medium = densities(g);
     s.p = field(g, P);
     s.u = field(g, U);
     s.cs = field(g, CS);
@@ -216,7 +217,7 @@ static sph_index everywhere(sweep work, gas *g, const plan *c)
 static const double GROWTH = 1.04;
 static void gas_lists(gas *g)
 {
-    const double support = sph_kernel_support(KERNEL);
+    const double support = sph_kernel_support_ratio(KERNEL);
     double widest = 0;
     sph_grid grid;
     sph_index i, answer;
@@ -230,8 +231,7 @@ static void gas_lists(gas *g)
         widest = fmax(widest, g->a[RADIUS][i]);
     }
     expect(sph_grid_build(2, points(g), widest, g->work, g->work_size, &grid), "sph_grid_build");
-    while ((answer = sph_grid_lists(2, &grid, points(g), SPH_LARGER, field(g, RADIUS), field(g, RADIUS), 0,
-                                    g->start, g->index, g->capacity, &g->pairs)) == SPH_ERROR_CAPACITY ||
+    while ((answer = sph_grid_lists(2, &grid, sph_query_of(points(g), SPH_LARGER, field(g, RADIUS), 0), g->start, g->index, g->capacity, &g->pairs)) == SPH_ERROR_CAPACITY ||
            !g->index) {
         g->capacity = g->pairs + g->pairs / 8;
         g->index = (sph_index *)memory(g->index, (size_t)g->capacity * sizeof *g->index);
@@ -242,7 +242,7 @@ static void gas_lists(gas *g)
 static sph_index density_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
     const sph_density_options options = {field(g, REACH), 1.2, TOLERANCE};
-    const sph_density_out out = {g->a[H], g->a[RHO], g->a[OMEGA], g->status};
+    const sph_density_out out = {.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status};
     (void)c;
     return sph_density_adaptive(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last), sph_scalars_same(&g->m),
                                 options, out);
@@ -269,7 +269,7 @@ static void gas_density(gas *g, double t)
 
 static sph_index gradient_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
-    const sph_derivative_out out = {.gx = g->a[SCRATCH_X], .gy = g->a[SCRATCH_Y]};
+    const sph_derivatives_out out = {.gx = g->a[SCRATCH_X], .gy = g->a[SCRATCH_Y]};
     (void)c;
     return sph_gradient_cspm(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last), field(g, POTENTIAL), out);
 }
@@ -307,7 +307,7 @@ static sph_index diffusion_sweep(gas *g, const plan *c, sph_index first, sph_ind
                                                      (B_i.x * dx + B_i.y * dy) / r),
                          fast_j = sph_mhd_fast_speed(g->a[CS][j], B_j, g->a[RHO][j],
                                                      (B_j.x * dx + B_j.y * dy) / r),
-                         v_sig = sph_mhd_signal_speed(fast_i, fast_j, 2 * fabs(w));
+                         v_sig = sph_signal_speed(fast_i, fast_j, 2 * fabs(w));
             sum += v_sig / (0.5 * (g->a[RHO][i] + g->a[RHO][j])) * (g->a[POTENTIAL][i] - g->a[POTENTIAL][j]) *
                    G * r;
         }
@@ -317,7 +317,7 @@ static sph_index diffusion_sweep(gas *g, const plan *c, sph_index first, sph_ind
 }
 static sph_index rates_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
-    sph_mhd_out out;
+    sph_mhd_out out = {0};
     out.acceleration = sph_vector_out_separate(g->rate[VX], g->rate[VY], NULL);
     out.rate_B = sph_vector_out_separate(g->rate[BX], g->rate[BY], NULL);
     out.rate_u = g->rate[U];
@@ -332,7 +332,7 @@ static sph_index rates_sweep(gas *g, const plan *c, sph_index first, sph_index l
 static sph_cleaning cleaned(const gas *g, double sigma)
 {
     const sph_cleaning s = {
-        .gas = densities(g), .field = vectors(g, BX), .psi = field(g, PSI), .ch = g->ch, .sigma = sigma};
+        .medium = densities(g), .field = vectors(g, BX), .psi = field(g, PSI), .ch = g->ch, .sigma = sigma};
     return s;
 }
 static sph_index nonconservative_sweep(gas *g, const plan *c, sph_index first, sph_index last)
@@ -341,7 +341,7 @@ static sph_index nonconservative_sweep(gas *g, const plan *c, sph_index first, s
                                   .rate_psi = g->rate[PSI]};
     sph_cleaning s = cleaned(g, c->sigma);
     s.div_v = field(g, DIV_V);
-    return sph_cleaning_rates_nonconservative(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last), s, out);
+    return cleaning_rates_nonconservative(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last), s, out);
 }
 
 /* what follows from u, rho and B */
@@ -369,7 +369,7 @@ static void gas_rates(gas *g, const plan *c, double t)
     expect(everywhere(rates_sweep, g, c), "sph_mhd_rates");
     if (c->euler && c->alpha_B > 0) everywhere(diffusion_sweep, g, c);
     if (c->cleans == NONCONSERVATIVE) {
-        expect(everywhere(nonconservative_sweep, g, c), "sph_cleaning_rates_nonconservative");
+        expect(everywhere(nonconservative_sweep, g, c), "cleaning_rates_nonconservative");
         for (i = 0; i < g->n; i++) {
             g->rate[BX][i] += g->a[SCRATCH_X][i];
             g->rate[BY][i] += g->a[SCRATCH_Y][i];
@@ -481,7 +481,7 @@ static void measure_gas(const gas *g, const plan *c, measure *m)
     sph_index i;
     int k;
     memset(m, 0, sizeof *m);
-    expect(sph_divergence_difference(KERNEL, 2, cloud_of(g), densities(g), vectors(g, BX), g->a[SCRATCH]),
+    expect(sph_divergence_difference(KERNEL, 2, cloud_of(g), densities(g), vectors(g, BX), sph_scalar_out_array(g->a[SCRATCH], 0)),
            "sph_divergence_difference");
     for (i = 0; i < g->n; i++) {
         const double vx = g->a[VX][i], vy = g->a[VY][i], rho = g->a[RHO][i],
@@ -539,7 +539,7 @@ static balance gas_balance(gas *g, const plan *c, double t)
 {
     const sph_cleaning_out to = {.rate_B = sph_vector_out_separate(g->rate[BX], g->rate[BY], NULL),
                                  .rate_psi = g->rate[PSI]};
-    sph_mhd_out out;
+    sph_mhd_out out = {0};
     balance b;
     const double ch = g->ch;
     double *const kept = (double *)memory(NULL, gas_size(g->n));

@@ -46,6 +46,7 @@
 #include "../common/random.h"
 #include "../common/report.h"
 #include "../common/vtk.h"
+#include "collision_literal.h"
 
 /* ================================================================ the command line */
 
@@ -97,7 +98,7 @@ enum { CLUSTERING_KERNELS = sizeof clustering_kernels / sizeof *clustering_kerne
 /* The hexagonal lattice: S = sum_j V W_ij, the particle itself included, and the factor G of the gradient of a linear field, -sum_j V r W' / 2. Both are 1 in the continuum. */
 static inline void clustering_lattice(sph_kernel k, double h_over_dref, double *S, double *G)
 {
-    const int reach = (int)(sph_kernel_support(k) * h_over_dref / hexagonal) + 2;
+    const int reach = (int)(sph_kernel_support_ratio(k) * h_over_dref / hexagonal) + 2;
     int a, b;
     *S = hexagonal * sph_kernel_w(k, 2, 0, h_over_dref);
     *G = 0;
@@ -174,14 +175,12 @@ static inline void neighbours_find(int dim, neighbours *l, const sph_grid *grid,
     sph_index answer = SPH_ERROR_CAPACITY;
     l->start = (sph_index *)clustering_memory(l->start, ((size_t)targets.n + 1) * sizeof *l->start);
     if (l->capacity)
-        answer = sph_grid_lists(dim, grid, targets, SPH_GATHER, R, R, flags, l->start, l->index, l->capacity,
-                                &pairs);
+        answer = sph_grid_lists(dim, grid, sph_query_of(targets, SPH_GATHER, R, flags), l->start, l->index, l->capacity, &pairs);
     else pairs = 64 * (int64_t)targets.n;
     while (answer == (sph_index)SPH_ERROR_CAPACITY) {
         l->capacity = pairs + pairs / 8;
         l->index = (sph_index *)clustering_memory(l->index, (size_t)l->capacity * sizeof *l->index);
-        answer = sph_grid_lists(dim, grid, targets, SPH_GATHER, R, R, flags, l->start, l->index, l->capacity,
-                                &pairs);
+        answer = sph_grid_lists(dim, grid, sph_query_of(targets, SPH_GATHER, R, flags), l->start, l->index, l->capacity, &pairs);
     }
     clustering_expect(answer);
 }
@@ -375,7 +374,7 @@ static inline void flow_grid(flow *f, sph_points x, double reach, sph_grid *grid
 /* Lists with a skin, kept until a particle has moved by half of it. */
 static inline void flow_neighbours(flow *f)
 {
-    const double skin = f->skin * f->dref, reach = sph_kernel_support(f->kernel) * f->h;
+    const double skin = f->skin * f->dref, reach = sph_kernel_support_ratio(f->kernel) * f->h;
     sph_points then = flow_points(f);
     sph_grid grid;
     then.x = f->old_x;
@@ -423,24 +422,24 @@ static inline sph_cloud flow_moving(const flow *f)
 SPH_FN sph_index flow_density_by(sph_kernel k, const flow *f)
 {
     const sph_scalars m = sph_scalars_array(f->m);
-    return f->form == FLOW_SUMMATION ? sph_density_summation(k, 2, flow_fluid(f), m, f->rho)
-                                     : sph_density_number(k, 2, flow_fluid(f), m, f->rho);
+    return f->form == FLOW_SUMMATION ? sph_density_summation(k, 2, flow_fluid(f), m, sph_scalar_out_array(f->rho, 0))
+                                     : sph_density_number(k, 2, flow_fluid(f), m, sph_scalar_out_array(f->rho, 0));
 }
 SPH_FN sph_index flow_rates_by(sph_kernel k, const flow *f, sph_fluid s)
 {
     const sph_vector_out a = flow_accelerations(f);
     double *const rate = f->rate_after_kick ? NULL : f->rate;
-    if (f->form == FLOW_SUMMATION) return sph_fluid_rates_monaghan(k, 2, flow_fluid(f), s, a, NULL, NULL);
-    if (f->form == FLOW_CONTINUITY) return sph_fluid_rates_colagrossi(k, 2, flow_moving(f), s, a, rate, NULL);
-    return sph_fluid_rates_hu_adams(k, 2, flow_fluid(f), s, a, NULL, NULL);
+    if (f->form == FLOW_SUMMATION) return sph_fluid_rates_monaghan(k, 2, flow_fluid(f), s, (sph_fluid_out){.acceleration = a});
+    if (f->form == FLOW_CONTINUITY) return sph_fluid_rates_colagrossi(k, 2, flow_moving(f), s, (sph_fluid_out){.acceleration = a, .rate = rate});
+    return sph_fluid_rates_hu_adams(k, 2, flow_fluid(f), s, (sph_fluid_out){.acceleration = a});
 }
 SPH_FN sph_index flow_divergence_by(sph_kernel k, const flow *f)
 {
     const double one = 1;
-    sph_gas g;
+    sph_medium g;
     g.m = sph_scalars_array(f->volume);
     g.rho = g.omega = sph_scalars_same(&one);
-    return sph_divergence_difference(k, 2, flow_moving(f), g, flow_velocities(f), f->rate);
+    return sph_divergence_difference(k, 2, flow_moving(f), g, flow_velocities(f), sph_scalar_out_array(f->rate, 0));
 }
 
 static inline sph_index flow_density(flow *f)
@@ -511,9 +510,9 @@ static inline void flow_collide(flow *f)
     int i;
     if (f->remedy == FLOW_NO_COLLISIONS) return;
     if (f->remedy == FLOW_SEQUENTIAL) {
-        sph_collision_report r;
+        sph_collision_report r = {0, 0, 0};
         clustering_expect(
-            sph_collide_sequential(2, fluid, c, sph_vector_out_separate(f->vx, f->vy, NULL), &r));
+            sph_collision_sequential(2, fluid, c, sph_vector_out_separate(f->vx, f->vy, NULL), &r));
         f->collisions += r.collisions;
         f->coincident += r.coincident;
         f->collision_energy += r.energy;
@@ -522,7 +521,7 @@ static inline void flow_collide(flow *f)
     if (f->remedy == FLOW_WEIGHTED) {
         clustering_expect(sph_collision_count(2, fluid, c, v, f->count));
         clustering_expect(sph_collision_change_weighted(2, fluid, c, v, f->count, flow_accelerations(f)));
-    } else clustering_expect(sph_collision_change_literal(2, fluid, c, v, flow_accelerations(f)));
+    } else collision_change_literal(2, fluid, c, v, flow_accelerations(f));
     before = flow_kinetic_energy(f);
     for (i = 0; i < f->n_fluid; i++) {
         f->vx[i] += f->ax[i];

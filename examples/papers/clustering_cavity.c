@@ -39,7 +39,7 @@ typedef struct cavity {
 /* Fluid in the square, walls around it as far as the support reaches. */
 static void fill(flow *f, int n)
 {
-    const int layers = (int)(sph_kernel_support(f->kernel) * f->h / f->dref) + 1;
+    const int layers = (int)(sph_kernel_support_ratio(f->kernel) * f->h / f->dref) + 1;
     int ghosts, row, column;
     for (ghosts = 0; ghosts < 2; ghosts++)
         for (row = -layers; row < n + layers; row++)

@@ -72,7 +72,7 @@ static void watch_front(flow *f)
 static void fill(flow *f, const tank *b, int phases)
 {
     const double dy = hexagonal * f->dref, V = f->dref * dy,
-                 reach = sph_kernel_support(f->kernel) * f->h * (1 - 1e-9);
+                 reach = sph_kernel_support_ratio(f->kernel) * f->h * (1 - 1e-9);
     const int layers = (int)(reach / dy) + 1, rows = (int)(b->height / dy) + layers + 1,
               columns = (int)(b->width / f->dref) + layers + 1;
     int ghosts, row, column;

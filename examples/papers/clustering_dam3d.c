@@ -105,7 +105,7 @@ static void dam_close(dam *d)
 
 SPH_FN void find_neighbours(int dim, dam *d)
 {
-    const double reach = sph_kernel_support(wendland) * d->h + skin * d->dref;
+    const double reach = sph_kernel_support_ratio(wendland) * d->h + skin * d->dref;
     sph_points targets = points(d, d->x);
     sph_grid grid;
     int k;
@@ -131,7 +131,7 @@ SPH_FN void step(int dim, dam *d, double dt)
     const sph_tait state = water_of(d);
     sph_cloud fluid, colliding;
     sph_fluid s;
-    sph_gas g;
+    sph_medium g;
     int i, k;
     find_neighbours(dim, d);
     fluid = sph_cloud_range(
@@ -149,16 +149,16 @@ SPH_FN void step(int dim, dam *d, double dt)
     s.alpha = 0.01;
     s.beta = 0;
     s.eta = 0.1;
-    clustering_expect(sph_fluid_rates_colagrossi(wendland, dim, fluid, s, a, NULL, NULL));
+    clustering_expect(sph_fluid_rates_colagrossi(wendland, dim, fluid, s, (sph_fluid_out){.acceleration = a}));
     for (i = 0; i < d->n_fluid; i++) {
         d->a[1][i] -= column_gravity;
         for (k = 0; k < dim; k++) d->v[k][i] += dt * d->a[k][i];
     }
-    clustering_expect(sph_collide_sequential(dim, colliding, collision, v, NULL));
+    clustering_expect(sph_collision_sequential(dim, colliding, collision, v, NULL));
     for (i = 0; i < d->n; i++) d->volume[i] = d->m[i] / d->rho[i];
     g.m = sph_scalars_array(d->volume);
     g.rho = g.omega = sph_scalars_same(&one);
-    clustering_expect(sph_divergence_difference(wendland, dim, fluid, g, velocities(d), d->divergence));
+    clustering_expect(sph_divergence_difference(wendland, dim, fluid, g, velocities(d), sph_scalar_out_array(d->divergence, 0)));
     for (i = 0; i < d->n_fluid; i++) {
         d->rho[i] -= dt * d->rho[i] * d->divergence[i];
         for (k = 0; k < dim; k++) d->x[k][i] += dt * d->v[k][i];

@@ -60,7 +60,7 @@ static flow_answer plates(const clustering_options *c, int couette, const method
                           FILE *profile, double *microseconds)
 {
     const double dy = 1.0 / rows, dref = dy / hexagonal, h = 1.5 * dref, speed_of_sound = 10;
-    const int columns = 8, layers = (int)(sph_kernel_support(m->kernel) * h / dy) + 1;
+    const int columns = 8, layers = (int)(sph_kernel_support_ratio(m->kernel) * h / dy) + 1;
     viscous w;
     flow_answer answer = FLOW_DONE;
     flow f;
@@ -163,7 +163,7 @@ static double lattice_viscosity(sph_kernel k, double h, double dx, double dy)
 {
     const double wave = 2 * clustering_pi, eta = 0.1;
     const sph_fluid_side one = {.rho = 1, .mu = 1};
-    const int reach = (int)(sph_kernel_support(k) * h / dy) + 1;
+    const int reach = (int)(sph_kernel_support_ratio(k) * h / dy) + 1;
     double sum = 0;
     int row, column;
     for (row = -reach; row <= reach; row++)

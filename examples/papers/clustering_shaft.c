@@ -77,7 +77,7 @@ static void turn_shaft(flow *f)
 /* Fluid strictly between the walls, ghosts as far behind them as the support reaches. Returns the start positions of the ghosts, which the caller frees. */
 static double *fill(flow *f)
 {
-    const double reach = sph_kernel_support(f->kernel) * f->h, dy = hexagonal * f->dref, m = f->state[0].rho0 * f->dref * dy;
+    const double reach = sph_kernel_support_ratio(f->kernel) * f->h, dy = hexagonal * f->dref, m = f->state[0].rho0 * f->dref * dy;
     const int side = (int)((wall_radius + reach) / dy) + 2;
     double *start;
     int ghosts, row, column, i;

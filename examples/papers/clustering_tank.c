@@ -95,7 +95,7 @@ static tank_result simulate(sph_kernel kernel, double smoothing, double p0, int 
                             const char *name, FILE *curve, const char *label)
 {
     const int rows = dref > 0.00999 && dref < 0.01001 ? ROWS : (int)(1 / (hexagonal * dref)),
-              reach = (int)ceil(sph_kernel_support(kernel) * smoothing / hexagonal);
+              reach = (int)ceil(sph_kernel_support_ratio(kernel) * smoothing / hexagonal);
     int columns = 8; /* more where a support and its skin would reach beyond half the box */
     const double step = hexagonal * dref;
     tank_result r;
@@ -105,7 +105,7 @@ static tank_result simulate(sph_kernel kernel, double smoothing, double p0, int 
     memset(&t, 0, sizeof t);
     memset(&r, 0, sizeof r);
     flow_open(&f, name, kernel, dref, smoothing * dref);
-    while (columns < 2 * (sph_kernel_support(kernel) * smoothing + f.skin)) columns++;
+    while (columns < 2 * (sph_kernel_support_ratio(kernel) * smoothing + f.skin)) columns++;
     f.box_x = columns * dref;
     f.dt = dt;
     f.form = FLOW_CONTINUITY;

@@ -59,7 +59,7 @@ SPH_FN sph_index viscous_accelerations_by(sph_kernel k, const flow *f, const vis
                              .rho = sph_scalars_array(f->rho),
                              .v = sph_vectors_separate(w->vx, w->vy, NULL),
                              .eta = 0.1};
-    return sph_viscous_mu_morris(k, 2, flow_fluid(f), fluid, sph_scalars_same(&w->mu),
+    return sph_viscosity_mu_morris(k, 2, flow_fluid(f), fluid, sph_scalars_same(&w->mu),
                                  sph_vector_out_separate(w->ax, w->ay, NULL));
 }
 static inline void viscous_forces(flow *f)

@@ -147,9 +147,9 @@ static inline sph_cloud collapse_isolated(const collapse *g, sph_index first, sp
     cloud.points = collapse_open(g);
     return cloud;
 }
-static inline sph_gas collapse_gas(const collapse *g)
+static inline sph_medium collapse_gas(const collapse *g)
 {
-    sph_gas s;
+    sph_medium s;
     s.m = sph_scalars_same(&g->model.m);
     s.rho = collapse_field(g, RHO);
     s.omega = collapse_field(g, OMEGA);
@@ -160,7 +160,7 @@ static inline sph_mhd collapse_mhd(const collapse *g)
     static const double none =
         0; /* the pressure is a function of the density: no thermal energy evolves, and none is conducted */
     sph_mhd s;
-    s.gas = collapse_gas(g);
+    s.medium = collapse_gas(g);
     s.p = collapse_field(g, P);
     s.u = sph_scalars_same(&none);
     s.cs = collapse_field(g, CS);
@@ -248,13 +248,13 @@ static inline int collapse_sort(collapse *g)
 static inline sph_index collapse_density_sweep(collapse *g, sph_index first, sph_index last)
 {
     const sph_density_options options = {collapse_field(g, REACH), COLLAPSE_ETA, COLLAPSE_TOLERANCE};
-    const sph_density_out out = {g->a[H], g->a[RHO], g->a[OMEGA], g->status};
+    const sph_density_out out = {.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status};
     return sph_density_adaptive(COLLAPSE_KERNEL, 3, collapse_cloud(g, first, last),
                                 sph_scalars_same(&g->model.m), options, out);
 }
 static inline int collapse_density(collapse *g)
 {
-    const double support = sph_kernel_support(COLLAPSE_KERNEL),
+    const double support = sph_kernel_support_ratio(COLLAPSE_KERNEL),
                  longest = g->model.box > 0 ? 0.4999 * g->model.box : HUGE_VAL;
     int again = 1;
     while (again) {
@@ -320,14 +320,12 @@ static inline sph_index collapse_tree_sweep(collapse *g, sph_index first, sph_in
 }
 static inline sph_index collapse_direct_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_gravity_direct(COLLAPSE_KERNEL, collapse_isolated(g, first, last),
-                              sph_scalars_same(&g->model.m), 1, collapse_into(&g->a[GX]), NULL);
+    return sph_gravity_direct(COLLAPSE_KERNEL, collapse_isolated(g, first, last), sph_scalars_same(&g->model.m), 1, collapse_into(&g->a[GX]), sph_scalar_out_array(NULL, 0));
 }
 /* Neighbours across the edge of the box count in the density, and so in the correction; they are no neighbours for gravity, which is isolated: zeta takes the open distances. */
 static inline sph_index collapse_zeta_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_gravity_zeta(COLLAPSE_KERNEL, collapse_isolated(g, first, last), sph_scalars_same(&g->model.m),
-                            collapse_field(g, RHO), g->a[ZETA]);
+    return sph_gravity_zeta(COLLAPSE_KERNEL, collapse_isolated(g, first, last), sph_scalars_same(&g->model.m), collapse_field(g, RHO), sph_scalar_out_array(g->a[ZETA], 0));
 }
 static inline sph_index collapse_correction_sweep(collapse *g, sph_index first, sph_index last)
 {
@@ -349,7 +347,7 @@ static inline sph_index collapse_resistivity_sweep(collapse *g, sph_index first,
 }
 static inline sph_index collapse_rates_sweep(collapse *g, sph_index first, sph_index last)
 {
-    sph_mhd_out out;
+    sph_mhd_out out = {0};
     out.acceleration = collapse_into(&g->rate[VX]);
     out.rate_B = collapse_into(&g->rate[BX]);
     out.rate_u = NULL;
@@ -361,7 +359,7 @@ static inline sph_index collapse_rates_sweep(collapse *g, sph_index first, sph_i
 }
 static inline int collapse_gravity(collapse *g)
 {
-    const double support = sph_kernel_support(COLLAPSE_KERNEL);
+    const double support = sph_kernel_support_ratio(COLLAPSE_KERNEL);
     sph_index i;
     if (g->model.theta > 0) {
         for (i = 0; i < g->s.n; i++) {
@@ -387,7 +385,7 @@ static inline int collapse_gravity(collapse *g)
 static inline void collapse_sink_gravity(collapse *g)
 {
     sink *const core = &g->s.core;
-    const double h = core->radius / sph_kernel_support(COLLAPSE_KERNEL);
+    const double h = core->radius / sph_kernel_support_ratio(COLLAPSE_KERNEL);
     sph_index i;
     int c;
     for (c = 0; c < 3; c++) core->a[c] = 0;
@@ -507,7 +505,7 @@ static inline void collapse_mark(collapse *g, sph_index i) { g->a[ID][i] = -1 - 
 static inline sink_clump collapse_clump(const collapse *g, sph_index densest, sph_index *member,
                                         sph_index *members)
 {
-    const double reach = sph_kernel_support(COLLAPSE_KERNEL) * g->a[H][densest],
+    const double reach = sph_kernel_support_ratio(COLLAPSE_KERNEL) * g->a[H][densest],
                  radius = fmax(reach, g->model.radius);
     double x[3] = {0, 0, 0}, v[3] = {0, 0, 0}, spin[3] = {0, 0, 0}, axis;
     sink_clump clump;

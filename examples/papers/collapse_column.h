@@ -20,7 +20,7 @@ static inline column_table column_table_of(sph_kernel kernel)
 {
     column_table t;
     int k, p;
-    t.support = sph_kernel_support(kernel);
+    t.support = sph_kernel_support_ratio(kernel);
     for (k = 0; k <= COLUMN_TABLE; k++) {
         const double q = t.support * k / COLUMN_TABLE, half_chord = sqrt(fmax(0, t.support * t.support - q * q)), step = acos(-1) / 2 / COLUMN_PANELS;
         double sum = 0;

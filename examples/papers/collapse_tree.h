@@ -325,7 +325,7 @@ static inline void tree_gravity(sph_kernel kernel, const tree *t, int first, int
                                 const double *m, const double *h, double G, sph_list list, double *ax, double *ay, double *az)
 {
     const double *const p[5] = {m, x, y, z, h};
-    const double support = sph_kernel_support(kernel);
+    const double support = sph_kernel_support_ratio(kernel);
     const size_t n = (size_t)(t->n > t->nodes ? t->n : t->nodes);
     double *const room = (double *)tree_memory(NULL, 15 * n, sizeof *room);
     tree_seen s;

@@ -7,8 +7,8 @@
  *     cloud_lattice(&c, 2, 21, 2.0, 0.05);          particles, volumes, m = 1
  *     cloud_neighbours(&c, 1.2 * c.dx);             h and lists; again after the particles were moved
  *     ... fill c.u (and c.m)
- *     cloud_apply(&c, SCHEME_M, sph_elliptic_defaults());   div(m grad u) in c.value, or
- *     cloud_rows(&c, SCHEME_M, sph_elliptic_defaults());    its rows in c.row, c.diagonal
+ *     cloud_apply(&c, SCHEME_M, (sph_elliptic_options){0});   div(m grad u) in c.value, or
+ *     cloud_rows(&c, SCHEME_M, (sph_elliptic_options){0});    its rows in c.row, c.diagonal
  *     cloud_close(&c);
  */
 #ifndef ELLIPTIC_H
@@ -40,7 +40,7 @@ static const char *const elliptic_gradient_name[GRADIENTS] = {"(15)", "(16)", "(
 
 static inline sph_elliptic_options elliptic_with_gradient(int gradient)
 {
-    sph_elliptic_options o = sph_elliptic_defaults();
+    sph_elliptic_options o = {0};
     o.gradient = gradient;
     return o;
 }
@@ -204,28 +204,27 @@ static inline void cloud_perturb(cloud *c, double amplitude, pcg32 *g)
 /* Is the support of particle i full? One more layer of a lattice would lie beyond its reach. */
 static inline int cloud_inside(const cloud *c, int i)
 {
-    const double reach = c->h * sph_kernel_support(ELLIPTIC_KERNEL);
+    const double reach = c->h * sph_kernel_support_ratio(ELLIPTIC_KERNEL);
     return c->depth[i] + c->dx - c->jitter >= reach * (1 - 1e-9);
 }
 
 /* Neighbours for the smoothing length h. */
 static inline void cloud_neighbours(cloud *c, double h)
 {
-    const double radius = h * sph_kernel_support(ELLIPTIC_KERNEL);
+    const double radius = h * sph_kernel_support_ratio(ELLIPTIC_KERNEL);
     const sph_scalars R = sph_scalars_same(&radius);
     sph_grid grid;
     int64_t pairs;
     c->h = h;
     elliptic_expect(sph_grid_build(c->dim, cloud_points(c), radius, c->work, c->work_size, &grid));
     elliptic_expect(
-        sph_grid_count(c->dim, &grid, cloud_points(c), SPH_GATHER, R, R, SPH_LIST_SORTED, c->start, &pairs));
+        sph_grid_count(c->dim, &grid, sph_query_of(cloud_points(c), SPH_GATHER, R, SPH_LIST_SORTED), c->start, &pairs));
     if ((size_t)pairs > c->pair_capacity) {
         c->pair_capacity = (size_t)pairs;
         c->index = (sph_index *)elliptic_memory(c->index, c->pair_capacity * sizeof *c->index);
         c->row = (double *)elliptic_memory(c->row, c->pair_capacity * sizeof *c->row);
     }
-    elliptic_expect(sph_grid_lists(c->dim, &grid, cloud_points(c), SPH_GATHER, R, R, SPH_LIST_SORTED,
-                                   c->start, c->index, pairs, &pairs));
+    elliptic_expect(sph_grid_lists(c->dim, &grid, sph_query_of(cloud_points(c), SPH_GATHER, R, SPH_LIST_SORTED), c->start, c->index, pairs, &pairs));
 }
 
 /* The sweeps fold for a constant dimension, so there is one copy for each. */
@@ -233,7 +232,7 @@ SPH_FN sph_index cloud_rows_in(int dim, cloud *c, int scheme, sph_elliptic_optio
 {
     const sph_cloud all = cloud_all(c);
     const sph_scalars m = sph_scalars_array(c->m);
-    sph_row_out out = {0};
+    sph_rows_out out = {0};
     out.row = c->row;
     out.diagonal = c->diagonal;
     out.status = c->status;

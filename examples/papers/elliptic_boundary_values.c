@@ -40,7 +40,7 @@ static void system_of(cloud *c, int N, int scheme, int mixed, sparse *A, double 
         b[i] = face < 0 ? 0 : psi[face];
         dirichlet[i] = !mixed || face == 0;
     }
-    cloud_rows(c, scheme, sph_elliptic_defaults());
+    cloud_rows(c, scheme, (sph_elliptic_options){0});
     cloud_box_conditions(c, inner, dirichlet);
     cloud_matrix(c, A, b);
     free(dirichlet);
@@ -280,12 +280,12 @@ static void disordered(report *r, const random_table *t, cloud *c, int full, pro
             msph[n] = solve_problem(c, N, SCHEME_M, t->mixed, exact);
             if (n < 3) { /* Schwaiger's rows are M-SPH's */
                 double *const row = elliptic_vector(c->start[c->n]), size = 0;
-                cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
+                cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
                 for (p = 0; p < c->start[c->n]; p++) {
                     row[p] = c->row[p];
                     size = fmax(size, fabs(row[p]));
                 }
-                cloud_rows(c, SCHEME_S, sph_elliptic_defaults());
+                cloud_rows(c, SCHEME_S, (sph_elliptic_options){0});
                 for (p = 0; p < c->start[c->n]; p++) apart[1] = fmax(apart[1], fabs(row[p] - c->row[p]) / size);
                 free(row);
             }

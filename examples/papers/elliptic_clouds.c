@@ -167,12 +167,12 @@ static int rows_lost(const scatter *s, int *deep)
 {
     unsigned char *const monotone = (unsigned char *)elliptic_memory(NULL, (size_t)s->c.n);
     const sph_cloud inner = sph_cloud_range(scatter_cloud(s), 0, s->inner);
-    const int lost = (int)sph_rows_monotone(inner, s->c.row, s->c.diagonal, monotone);
+    const int lost = (int)sph_rows_monotone(inner, s->c.row, sph_scalars_array(s->c.diagonal), monotone);
     int i;
     elliptic_expect(lost);
     *deep = 0;
     for (i = 0; i < s->inner; i++)
-        *deep += !monotone[i] && s->c.depth[i] > s->h[i] * sph_kernel_support(ELLIPTIC_KERNEL);
+        *deep += !monotone[i] && s->c.depth[i] > s->h[i] * sph_kernel_support_ratio(ELLIPTIC_KERNEL);
     free(monotone);
     return lost;
 }

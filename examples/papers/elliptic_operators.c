@@ -12,6 +12,7 @@
 #include "../common/report.h"
 #include "../common/statistics.h"
 #include "elliptic.h"
+#include "elliptic_msph_diagonal.h"
 
 /* Beside the four schemes of elliptic.h: M-SPH with Gamma* (71) as printed, wherever it can be inverted at all, which is what (70) asks for; and the library's, which takes Gamma where Gamma*
    is not definite. */
@@ -300,7 +301,7 @@ static void figures12(report *r, cloud *c, const char *figures)
             apply(c, a == F12_B ? SCHEME_B : a == F12_CB ? SCHEME_CB : SCHEME_S, SPH_GRADIENT_DIFFUSE);
             for (i = 0; i < c->n; i++) value[a][i] = c->value[i];
         } else {
-            cloud_rows(c, SCHEME_B, sph_elliptic_defaults());
+            cloud_rows(c, SCHEME_B, (sph_elliptic_options){0});
             for (i = 0; i < c->n; i++) value[a][i] = corrected_first_sum(c, i, a);
         }
     }
@@ -336,7 +337,7 @@ static void figures12(report *r, cloud *c, const char *figures)
     report_absolute(r, "(70)", "f = 1, M Gamma* or Gamma", "value at x = -0.5 is that with Gamma",
                     value[F12_S][55], c->value[55], 1e-10);
     report_info(r, "(70)", "f = 1, M Gamma* or Gamma", "particles of 121 that fell back to Gamma", fell);
-    cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
+    cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
     for (i = 0; i < c->n; i++) {
         const sph_sym s = row_moment(c, i);
         if (s.xx + s.yy > 0.1 && sph_sym_eigenvalues(2, s).x < 1e-10) singular++;
@@ -489,7 +490,7 @@ static void gamma_star_deviation(report *r, cloud *c)
 {
     int layer;
     patch(c, 2, 21, 1.2);
-    cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
+    cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
     for (layer = 0; layer < 3; layer++) {
         double scale;
         const tensors t = gamma_star_of(c, 21 * 10 + layer, SPH_GRADIENT_DIFFUSE, &scale);
@@ -566,9 +567,9 @@ static void two_point_form(report *r, cloud *c)
         c->u[i] = pcg32_uniform(&g);
     }
     report_section(r, "Section 3: Schwaiger's scheme and the two-point form; random cloud, V, m, u");
-    cloud_rows(c, SCHEME_B, sph_elliptic_defaults());
+    cloud_rows(c, SCHEME_B, (sph_elliptic_options){0});
     for (i = 0; i < c->n; i++) other[i] = schwaiger_as_printed(c, i);
-    cloud_apply(c, SCHEME_S, sph_elliptic_defaults());
+    cloud_apply(c, SCHEME_S, (sph_elliptic_options){0});
     off = difference(c, other);
     snprintf(text, sizeof text, "three gradients apart and two-point sum differ by %.1g of the largest", off);
     report_claim_fails(r, "Section 3", "S (15)", "(52) in the two-point form (66)", "cannot be written so",
@@ -606,7 +607,7 @@ static void transmissibility(report *r, cloud *c)
     char text[96];
     sph_index p;
     patch(c, 2, 21, 1.2);
-    cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
+    cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
     for (p = c->start[middle]; p < c->start[middle + 1]; p++) {
         const sph_index j = c->index[p];
         const double e = hypot(c->x[j] - c->x[middle], c->y[j] - c->y[middle]),
@@ -641,7 +642,7 @@ static void continuity(report *r, cloud *c)
         o.continuity = c->u;
         o.n = c->value;
         o.n_bound = c->diagonal;
-        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, cloud_all(c), sph_elliptic_defaults(), o));
+        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, cloud_all(c), (sph_elliptic_options){0}, o));
         for (i = 0; i < c->n; i++) {
             largest = fmax(largest, c->u[i]);
             if (c->diagonal[i] > 0) ratio = fmax(ratio, c->value[i] / c->diagonal[i]);
@@ -663,7 +664,7 @@ static moments_1d moments_at(cloud *c, int i)
 {
     moments_1d m = {0, 0, 0};
     sph_index p;
-    cloud_rows(c, SCHEME_B, sph_elliptic_defaults());
+    cloud_rows(c, SCHEME_B, (sph_elliptic_options){0});
     for (p = c->start[i]; p < c->start[i + 1]; p++) {
         const double e = c->x[c->index[p]] - c->x[i], g = 0.5 * c->row[p] * e; /* m = 1: row = 2 V t */
         m.n += g;
@@ -1016,7 +1017,7 @@ static void anisotropic(report *r, cloud *c)
                                       {1.50082028, 0.499179717}};
     static const double one = 1, zero = 0;
     const sph_diagonal M = {sph_scalars_same(&one), sph_scalars_same(&zero), sph_scalars_same(&zero)};
-    sph_row_out out = {0};
+    sph_rows_out out = {0};
     char text[96];
     int k, axis, form, i;
     report_section(r, "Section 3.1: (69) with a matrix M = diag(1, 0); exact: 2 for x^2, 0 for y^2");
@@ -1029,13 +1030,10 @@ static void anisotropic(report *r, cloud *c)
             const sph_cloud all = cloud_all(c);
             const int middle = 220;
             if (form) elliptic_expect(sph_elliptic_rows_anisotropic(ELLIPTIC_KERNEL, 2, all, M, out));
-            else
-                elliptic_expect(sph_elliptic_rows_msph_diagonal(ELLIPTIC_KERNEL, 2, all, M,
-                                                                sph_elliptic_defaults(), out));
+            else elliptic_expect(elliptic_rows_msph_diagonal(ELLIPTIC_KERNEL, 2, all, M, c->row));
             for (axis = 0; axis < 2; axis++) {
                 for (i = 0; i < c->n; i++) c->u[i] = cloud_axis(c, axis)[i] * cloud_axis(c, axis)[i];
-                elliptic_expect(sph_rows_apply(sph_cloud_range(all, middle, middle + 1), c->row, NULL,
-                                               sph_scalars_array(c->u), c->value));
+                elliptic_expect(sph_rows_apply(sph_cloud_range(all, middle, middle + 1), c->row, sph_scalars_none(), sph_scalars_array(c->u), sph_scalar_out_array(c->value, 0)));
                 value[form][axis] = c->value[middle];
             }
         }

@@ -213,19 +213,18 @@ static inline void scatter_neighbours(scatter *s, double factor)
     int i;
     for (i = 0; i < c->n; i++) {
         s->h[i] = factor * s->spacing[i];
-        radius[i] = s->h[i] * sph_kernel_support(ELLIPTIC_KERNEL);
+        radius[i] = s->h[i] * sph_kernel_support_ratio(ELLIPTIC_KERNEL);
         largest = fmax(largest, radius[i]);
     }
     R = sph_scalars_array(radius);
     elliptic_expect(sph_grid_build(c->dim, x, largest, c->work, c->work_size, &grid));
-    elliptic_expect(sph_grid_count(c->dim, &grid, x, SPH_LARGER, R, R, SPH_LIST_SORTED, c->start, &pairs));
+    elliptic_expect(sph_grid_count(c->dim, &grid, sph_query_of(x, SPH_LARGER, R, SPH_LIST_SORTED), c->start, &pairs));
     if ((size_t)pairs > c->pair_capacity) {
         c->pair_capacity = (size_t)pairs;
         c->index = (sph_index *)elliptic_memory(c->index, c->pair_capacity * sizeof *c->index);
         c->row = (double *)elliptic_memory(c->row, c->pair_capacity * sizeof *c->row);
     }
-    elliptic_expect(sph_grid_lists(c->dim, &grid, x, SPH_LARGER, R, R, SPH_LIST_SORTED, c->start, c->index,
-                                   pairs, &pairs));
+    elliptic_expect(sph_grid_lists(c->dim, &grid, sph_query_of(x, SPH_LARGER, R, SPH_LIST_SORTED), c->start, c->index, pairs, &pairs));
     free(radius);
 }
 
@@ -236,8 +235,8 @@ static inline void scatter_volumes(scatter *s)
     const sph_scalars m = sph_scalars_same(&one);
     int i;
     if (s->c.dim == 2)
-        elliptic_expect(sph_density_summation(ELLIPTIC_KERNEL, 2, scatter_cloud(s), m, s->c.V));
-    else elliptic_expect(sph_density_summation(ELLIPTIC_KERNEL, 3, scatter_cloud(s), m, s->c.V));
+        elliptic_expect(sph_density_summation(ELLIPTIC_KERNEL, 2, scatter_cloud(s), m, sph_scalar_out_array(s->c.V, 0)));
+    else elliptic_expect(sph_density_summation(ELLIPTIC_KERNEL, 3, scatter_cloud(s), m, sph_scalar_out_array(s->c.V, 0)));
     for (i = 0; i < s->c.n; i++) s->c.V[i] = 1 / s->c.V[i];
 }
 
@@ -248,8 +247,8 @@ SPH_FN sph_index scatter_rows_in(int dim, int variant, int harmonic, scatter *s,
 {
     const sph_cloud all = scatter_cloud(s);
     const sph_scalars m = sph_scalars_array(s->c.m);
-    sph_elliptic_options o = sph_elliptic_defaults();
-    sph_row_out out = {0};
+    sph_elliptic_options o = {0};
+    sph_rows_out out = {0};
     if (variant == SCATTER_FULL) o.gradient = SPH_GRADIENT_FULL;
     o.trace = variant == SCATTER_TRACE;
     if (harmonic) o.mean = SPH_MOBILITY_HARMONIC;
@@ -315,9 +314,9 @@ SPH_FN sph_index scatter_conditions_in(int dim, scatter *s, int first, double *c
 {
     const sph_boundary boundary = {sph_vectors_separate(normal[0], normal[1], normal[2]),
                                    sph_scalars_array(alpha), sph_scalars_array(beta)};
-    const sph_row_out out = {.row = s->c.row, .diagonal = s->c.diagonal};
+    const sph_rows_out out = {.row = s->c.row, .diagonal = s->c.diagonal};
     return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, sph_cloud_range(scatter_cloud(s), first, s->c.n),
-                                      sph_scalars_array(s->c.m), sph_elliptic_defaults(), boundary, out);
+                                      sph_scalars_array(s->c.m), (sph_elliptic_options){0}, boundary, out);
 }
 /* alpha u + beta m du/dn for the particles from `first` on that have one of them */
 static inline void scatter_conditions(scatter *s, int first, double *const normal[3], const double *alpha,

@@ -57,12 +57,12 @@ static run integrate(cloud *c, int side, double f, double dt, double forcing, FI
     cloud_lattice(c, 2, side, 0, 2.0 / (side - 1));
     for (i = 0; i < c->n; i++) c->y[i] -= 1;
     cloud_neighbours(c, f * c->dx);
-    cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
+    cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
     for (step = 0; step <= steps; step++) {
         const double t = step * dt;
         double worst = 0, series[64];
         if (step > 0)
-            elliptic_expect(sph_rows_apply(cloud_all(c), c->row, NULL, sph_scalars_array(c->u), c->value));
+            elliptic_expect(sph_rows_apply(cloud_all(c), c->row, sph_scalars_none(), sph_scalars_array(c->u), sph_scalar_out_array(c->value, 0)));
         for (k = 0; k < side; k++) series[k] = exact_velocity(c->y[k * side], t);
         for (i = 0; i < c->n; i++) {
             const int column = i % side, line = i / side;
@@ -106,7 +106,7 @@ static void stencil(report *r, cloud *c)
     int i;
     cloud_lattice(c, 2, 11, 0, 0.2);
     cloud_neighbours(c, 0.5005 * c->dx);
-    cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
+    cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
     for (i = 0; i < c->n; i++)
         if (c->depth[i] > 0.5 * c->dx)
             for (p = c->start[i]; p < c->start[i + 1]; p++)

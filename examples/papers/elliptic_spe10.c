@@ -71,7 +71,7 @@ static void particles(problem *p)
 SPH_FN void anisotropic_in(int dim, problem *p)
 {
     sph_diagonal M;
-    sph_row_out out = {0};
+    sph_rows_out out = {0};
     M.x = sph_scalars_array(p->k[0]);
     M.y = sph_scalars_array(p->k[1]);
     M.z = sph_scalars_array(p->k[2]);
@@ -88,7 +88,7 @@ static double matrix(problem *p, int scheme, int mean, sparse *A, double *b)
     cloud *const c = &p->c;
     const clock_t begin = clock();
     unsigned char *const dirichlet = (unsigned char *)elliptic_memory(NULL, (size_t)c->n);
-    sph_elliptic_options o = sph_elliptic_defaults();
+    sph_elliptic_options o = {0};
     double seconds;
     int i;
     o.mean = mean;

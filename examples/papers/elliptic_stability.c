@@ -176,7 +176,7 @@ static xi_statistics xi_of(cloud *c, double h, int n, int draws, uint64_t stream
             c->V[i] = 1; /* cancels */
         }
         c->V[0] = 1;
-        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, middle, sph_elliptic_defaults(), out));
+        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, middle, (sph_elliptic_options){0}, out));
         s.mean += xi / draws;
         square += xi * xi / draws;
         s.violated_93 += least > 0 ? 0 : 1.0 / draws;
@@ -277,10 +277,10 @@ static signs signs_of(cloud *c, int N, double f, double jitter, int draws)
         out.sign_least = least;
         out.sign_most = most;
         elliptic_expect(
-            sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, cloud_all(c), sph_elliptic_defaults(), out));
-        cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
+            sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, cloud_all(c), (sph_elliptic_options){0}, out));
+        cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
         inner = sph_cloud_range(cloud_all(c), 0, dof);
-        count = sph_rows_monotone(inner, c->row, c->diagonal, monotone);
+        count = sph_rows_monotone(inner, c->row, sph_scalars_array(c->diagonal), monotone);
         elliptic_expect(count);
         s.not_monotone += share * count;
         for (i = 0; i < dof; i++) {
@@ -297,8 +297,8 @@ static signs signs_of(cloud *c, int N, double f, double jitter, int draws)
             s.disagree += least[i] > 0 && !monotone[i] ? share : 0;
         }
         for (i = 0; i < c->n; i++) c->m[i] = exp(4 * (2 * pcg32_uniform(&g) - 1)); /* a contrast of 3000 */
-        cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
-        count = sph_rows_monotone(inner, c->row, c->diagonal, NULL);
+        cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
+        count = sph_rows_monotone(inner, c->row, sph_scalars_array(c->diagonal), NULL);
         elliptic_expect(count);
         s.heterogeneous += share * count;
     }
@@ -392,8 +392,8 @@ static double inverse_least(cloud *c, int N, double f, double jitter, pcg32 *g, 
     cloud_cells(c, N);
     if (jitter > 0) cloud_perturb(c, jitter, g);
     cloud_neighbours(c, f * c->dx);
-    cloud_rows(c, SCHEME_M, sph_elliptic_defaults());
-    count = sph_rows_monotone(sph_cloud_range(cloud_all(c), 0, N * N), c->row, c->diagonal, NULL);
+    cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
+    count = sph_rows_monotone(sph_cloud_range(cloud_all(c), 0, N * N), c->row, sph_scalars_array(c->diagonal), NULL);
     elliptic_expect(count);
     *others = (int)count;
     n = c->n;

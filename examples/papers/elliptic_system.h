@@ -2,7 +2,7 @@
  *
  * elliptic_system.h - from rows to solutions: boundary conditions on the faces of a box, the matrix, a solve that ends the program if it fails.
  *
- *     cloud_rows(&c, SCHEME_M, sph_elliptic_defaults());
+ *     cloud_rows(&c, SCHEME_M, (sph_elliptic_options){0});
  *     cloud_box_conditions(&c, first, dirichlet);       rows of the particles from `first` on, which lie on the faces of the box c.low ... c.high
  *     cloud_matrix(&c, &A, b);                          rows scaled to a diagonal of 1, b with them
  *     elliptic_solve(&A, b, u);
@@ -34,9 +34,9 @@ SPH_FN sph_index cloud_conditions_in(int dim, cloud *c, int first, double *const
 {
     const sph_boundary boundary = {sph_vectors_separate(normal[0], normal[1], normal[2]),
                                    sph_scalars_array(alpha), sph_scalars_array(beta)};
-    const sph_row_out out = {.row = c->row, .diagonal = c->diagonal};
+    const sph_rows_out out = {.row = c->row, .diagonal = c->diagonal};
     return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, sph_cloud_range(cloud_all(c), first, c->n),
-                                      sph_scalars_array(c->m), sph_elliptic_defaults(), boundary, out);
+                                      sph_scalars_array(c->m), (sph_elliptic_options){0}, boundary, out);
 }
 /* alpha u + beta m du/dn for the particles from `first` on that have one of them */
 static inline void cloud_conditions(cloud *c, int first, double *const normal[3], const double *alpha,
@@ -73,8 +73,7 @@ static inline void cloud_matrix(const cloud *c, sparse *A, double *b)
     A->start = (int64_t *)elliptic_memory(NULL, ((size_t)c->n + 1) * sizeof *A->start);
     A->index = (int *)elliptic_memory(NULL, (size_t)room * sizeof *A->index);
     A->value = (double *)elliptic_memory(NULL, (size_t)room * sizeof *A->value);
-    elliptic_expect(sph_csr_assemble(cloud_all(c), c->row, c->diagonal, 1,
-                                     (sph_csr){start, A->index, A->value, room}, NULL));
+    elliptic_expect(sph_csr_assemble(cloud_all(c), c->row, sph_scalars_array(c->diagonal), 1, (sph_csr){start, A->index, A->value, room}, NULL));
     for (i = 0; i <= c->n; i++) A->start[i] = start[i];
     free(start);
     if (sparse_scale_rows(A, b) != 0) {

@@ -77,7 +77,7 @@ typedef struct projection {
 
 static void gradient_of(const scatter *s, const double *f, double *gx, double *gy)
 {
-    const sph_derivative_out out = {.gx = gx, .gy = gy};
+    const sph_derivatives_out out = {.gx = gx, .gy = gy};
     elliptic_expect(sph_gradient_cspm(ELLIPTIC_KERNEL, 2, scatter_cloud(s), sph_scalars_array(f), out));
 }
 static void divergence_of(const projection *q, const double *ux, const double *uy, double *out)
@@ -163,7 +163,7 @@ static double projection_symbol(const scatter *s)
                   symbol = 0, re = 0, im = 0;
     int p;
     elliptic_expect(
-        sph_gradient_rows_cspm(ELLIPTIC_KERNEL, 2, all, (sph_gradient_row_out){.x = wx, .y = wy}));
+        sph_gradient_rows_cspm(ELLIPTIC_KERNEL, 2, all, (sph_gradient_rows_out){.x = wx, .y = wy}));
     for (p = s->c.start[0]; p < s->c.start[1]; p++) {
         const sph_vec e = scatter_separation(s, 0, s->c.index[p]);
         symbol += wx[p] * sin(wave.x * e.x) * cos(wave.y * e.y);
@@ -323,11 +323,11 @@ static void disc_rows(scatter *s, int method, double *b)
         free(one);
     } else {
         const sph_cloud all = scatter_cloud(s);
-        sph_row_out out = {0};
+        sph_rows_out out = {0};
         out.row = c->row;
         out.diagonal = c->diagonal;
         out.factor = elliptic_vector(c->n);
-        elliptic_expect(sph_derivative_rows_wls(ELLIPTIC_KERNEL, 2, sph_cloud_range(all, 0, s->inner),
+        elliptic_expect(sph_derivatives_rows_wls(ELLIPTIC_KERNEL, 2, sph_cloud_range(all, 0, s->inner),
                                                 sph_jet_laplacian(2), out));
         for (i = s->inner; i < c->n; i++) { /* every rim particle has a derivative of its own */
             sph_jet d = sph_jet_laplacian(2);
@@ -335,7 +335,7 @@ static void disc_rows(scatter *s, int method, double *b)
             d.gradient.x = c->x[i];
             d.gradient.y = c->y[i];
             elliptic_expect(
-                sph_derivative_rows_wls(ELLIPTIC_KERNEL, 2, sph_cloud_range(all, i, i + 1), d, out));
+                sph_derivatives_rows_wls(ELLIPTIC_KERNEL, 2, sph_cloud_range(all, i, i + 1), d, out));
             c->diagonal[i] += out.factor[i];
         }
         for (i = 0; i < c->n; i++) b[i] *= out.factor[i];

@@ -106,15 +106,15 @@ static inline int64_t line_lists(int dim, const sph_grid *grid, sph_points point
 {
     const sph_scalars R = sph_scalars_same(&radius);
     int64_t pairs;
-    line_expect(index ? sph_grid_lists(dim, grid, points, SPH_GATHER, R, R, 0, start, index, capacity, &pairs)
-                      : sph_grid_count(dim, grid, points, SPH_GATHER, R, R, 0, start, &pairs));
+    line_expect(index ? sph_grid_lists(dim, grid, sph_query_of(points, SPH_GATHER, R, 0), start, index, capacity, &pairs)
+                      : sph_grid_count(dim, grid, sph_query_of(points, SPH_GATHER, R, 0), start, &pairs));
     return pairs;
 }
 
 /* Neighbours for the smoothing length h, once x and n are set. */
 static inline void line_neighbours(line *s, double h)
 {
-    const double radius = h * sph_kernel_support(ICSPM_KERNEL);
+    const double radius = h * sph_kernel_support_ratio(ICSPM_KERNEL);
     sph_grid grid;
     int64_t pairs;
     s->h = h;
@@ -164,13 +164,13 @@ static inline int line_second_derivative(line *s, int method)
 {
     const sph_cloud cloud = line_cloud(s);
     const sph_scalars f = sph_scalars_array(s->f);
-    sph_derivative_out out = {0};
+    sph_derivatives_out out = {0};
     sph_index bad;
     out.hxx = s->value;
     out.conditioning = s->conditioning;
     out.status = s->status;
-    if (method == CSPM) bad = sph_derivatives_cspm(ICSPM_KERNEL, 1, cloud, f, 0, out);
-    else if (method == ICSPM) bad = sph_derivatives_icspm(ICSPM_KERNEL, 1, cloud, f, 0, 0, out);
+    if (method == CSPM) bad = sph_derivatives_cspm(ICSPM_KERNEL, 1, cloud, f, (sph_derivatives_options){0}, out);
+    else if (method == ICSPM) bad = sph_derivatives_icspm(ICSPM_KERNEL, 1, cloud, f, (sph_derivatives_options){0}, out);
     else
         bad = sph_second_derivative_bim(ICSPM_KERNEL, cloud, f, 0, s->n - 1,
                                         sph_scalar_out_array(s->value, s->status));
@@ -200,17 +200,17 @@ static inline double line_direct_error(line *s, int method)
 static inline void line_rows(line *s, int method)
 {
     const sph_cloud cloud = line_cloud(s);
-    sph_row_out out = {0};
+    sph_rows_out out = {0};
     int i, p;
     out.row = s->row;
     out.diagonal = s->diagonal;
     out.factor = s->factor;
     if (method == CSPM)
-        line_expect(sph_derivative_rows_cspm(ICSPM_KERNEL, 1, cloud, sph_jet_laplacian(1), out));
+        line_expect(sph_derivatives_rows_cspm(ICSPM_KERNEL, 1, cloud, sph_jet_laplacian(1), out));
     else if (method == ICSPM)
-        line_expect(sph_derivative_rows_icspm(ICSPM_KERNEL, 1, cloud, sph_jet_laplacian(1), out));
+        line_expect(sph_derivatives_rows_icspm(ICSPM_KERNEL, 1, cloud, sph_jet_laplacian(1), out));
     else {
-        line_expect(sph_second_derivative_rows_bim(ICSPM_KERNEL, cloud, 0, s->n - 1, s->row, NULL));
+        line_expect(sph_second_derivative_rows_bim(ICSPM_KERNEL, cloud, 0, s->n - 1, (sph_rows_out){.row = s->row}));
         for (i = 0; i < s->n; i++) {
             s->factor[i] = 1;
             s->diagonal[i] = 0;

@@ -50,7 +50,7 @@ static errors measure(int method, int dim, int side, double jitter, uint64_t see
 {
     const int nz = dim > 2 ? side : 1, count = side * side * nz;
     const size_t n = (size_t)count, reals = n * sizeof(double);
-    const double dx = 1.0 / (side - 1), h = 2 * dx, radius = h * sph_kernel_support(ICSPM_KERNEL);
+    const double dx = 1.0 / (side - 1), h = 2 * dx, radius = h * sph_kernel_support_ratio(ICSPM_KERNEL);
     double *const memory = (double *)line_memory(NULL, 16 * reals);
     double *const x = memory, *const y = x + n, *const z = y + n, *const V = z + n, *const f = V + n, *const d = f + n;
     unsigned char *const status = (unsigned char *)line_memory(NULL, n);
@@ -58,7 +58,7 @@ static errors measure(int method, int dim, int side, double jitter, uint64_t see
     const size_t work_size = sph_grid_workspace(dim, count);
     void *const work = line_memory(NULL, work_size);
     sph_grid grid;
-    sph_derivative_out out = {0};
+    sph_derivatives_out out = {0};
     sph_points points;
     sph_list list;
     errors e = {0, 0, 0, HUGE_VAL, 0};
@@ -107,16 +107,16 @@ static errors measure(int method, int dim, int side, double jitter, uint64_t see
         const sph_scalars fs = sph_scalars_array(f);
         sph_index bad;
         if (method == CSPM_ND)
-            bad = dim == 2 ? sph_derivatives_cspm(ICSPM_KERNEL, 2, cloud, fs, 0, out)
-                           : sph_derivatives_cspm(ICSPM_KERNEL, 3, cloud, fs, 0, out);
+            bad = dim == 2 ? sph_derivatives_cspm(ICSPM_KERNEL, 2, cloud, fs, (sph_derivatives_options){0}, out)
+                           : sph_derivatives_cspm(ICSPM_KERNEL, 3, cloud, fs, (sph_derivatives_options){0}, out);
         else if (method == WLS_ND)
-            bad = dim == 2 ? sph_derivatives_wls(ICSPM_KERNEL, 2, cloud, fs, 0, out)
-                           : sph_derivatives_wls(ICSPM_KERNEL, 3, cloud, fs, 0, out);
+            bad = dim == 2 ? sph_derivatives_wls(ICSPM_KERNEL, 2, cloud, fs, (sph_derivatives_options){0}, out)
+                           : sph_derivatives_wls(ICSPM_KERNEL, 3, cloud, fs, (sph_derivatives_options){0}, out);
         else {
             const int fallback = method == ICSPM_FALLBACK_ND;
             const double least = fallback ? conditioning_min : 0;
-            bad = dim == 2 ? sph_derivatives_icspm(ICSPM_KERNEL, 2, cloud, fs, least, fallback, out)
-                           : sph_derivatives_icspm(ICSPM_KERNEL, 3, cloud, fs, least, fallback, out);
+            bad = dim == 2 ? sph_derivatives_icspm(ICSPM_KERNEL, 2, cloud, fs, (sph_derivatives_options){.conditioning_min = least, .fallback_wls = fallback}, out)
+                           : sph_derivatives_icspm(ICSPM_KERNEL, 3, cloud, fs, (sph_derivatives_options){.conditioning_min = least, .fallback_wls = fallback}, out);
         }
         line_expect(bad);
         e.not_ok = (int)bad;

@@ -109,7 +109,7 @@ static sph_index build(const cloud *c, void *work, size_t work_size, int threads
 
 static sph_index sort(const cloud *c, cloud *sorted)
 {
-    const sph_index *const order = sph_grid_order(&grid);
+    const sph_index *const order = sph_grid_permutation(&grid);
     const sph_index failed = sph_permute(c->n, order, c->x, 1, sorted->x) | sph_permute(c->n, order, c->y, 1, sorted->y) |
                              (c->dim > 2 ? sph_permute(c->n, order, c->z, 1, sorted->z) : 0);
     return failed ? failed : sph_grid_renumber(&grid);
@@ -120,8 +120,8 @@ static sph_index lists(cloud *c, int count_only, int threads)
 {
     use_threads(threads);
 #define LISTS(dim, criterion) \
-    (count_only ? sph_grid_count(dim, &grid, points(c), criterion, R, R, 0, c->start, &c->pairs) \
-                : sph_grid_lists(dim, &grid, points(c), criterion, R, R, 0, c->start, c->index, c->capacity, &c->pairs))
+    (count_only ? sph_grid_count(dim, &grid, sph_query_of(points(c), criterion, R, 0), c->start, &c->pairs) \
+                : sph_grid_lists(dim, &grid, sph_query_of(points(c), criterion, R, 0), c->start, c->index, c->capacity, &c->pairs))
     if (c->own_radius) {
 #if BENCH_VARIABLE
         const sph_scalars R = sph_scalars_array(c->own_radius);
@@ -193,22 +193,22 @@ SPH_FN sph_index apply_range(int which, int dim, sph_index first, sph_index last
     const sph_cloud targets = sph_cloud_range(sph_cloud_of(x, list, h, V), first, last);
     switch (which) {
     case DENSITY:
-        return sph_density_summation(KERNEL, dim, targets, V, o->g[0]);
+        return sph_density_summation(KERNEL, dim, targets, V, sph_scalar_out_array(o->g[0], 0));
     case GRADIENT: {
-        const sph_derivative_out g = {.gx = o->g[0], .gy = o->g[1], .gz = o->g[2]};
+        const sph_derivatives_out g = {.gx = o->g[0], .gy = o->g[1], .gz = o->g[2]};
         return sph_gradient_cspm(KERNEL, dim, targets, f, g);
     }
     case BROOKSHAW:
-        return sph_laplacian_brookshaw(KERNEL, dim, targets, f, o->g[0]);
+        return sph_laplacian_brookshaw(KERNEL, dim, targets, f, sph_scalar_out_array(o->g[0], 0));
     case ROWS:
-        return sph_laplacian_rows_brookshaw(KERNEL, dim, targets, o->row);
+        return sph_laplacian_rows_brookshaw(KERNEL, dim, targets, (sph_rows_out){.row = o->row});
     case APPLY:
         return apply_rows(first, last, c, o->row, o->g[0]);
 #if !SPH_CHECK && !defined(_OPENMP)
     case ICSPM: {
-        const sph_derivative_out d = {o->g[0], o->g[1], o->g[2], o->g[3], o->g[4], o->g[5], o->g[6],
+        const sph_derivatives_out d = {o->g[0], o->g[1], o->g[2], o->g[3], o->g[4], o->g[5], o->g[6],
                                       o->g[7], o->g[8], o->g[9], 0,       1,       0};
-        return sph_derivatives_icspm(KERNEL, dim, targets, f, SPH_R(0), 0, d);
+        return sph_derivatives_icspm(KERNEL, dim, targets, f, (sph_derivatives_options){0}, d);
     }
     case ACCELERATION: /* pressure alone */
     case FLUID: {      /* with artificial viscosity, density rate and heating */
@@ -219,19 +219,19 @@ SPH_FN sph_index apply_range(int which, int dim, sph_index first, sph_index last
         fluid.alpha = fluid.eta = SPH_R(0.1);
         fluid.beta = SPH_R(0);
         fluid.viscosity = SPH_VISCOSITY_NONE;
-        if (which == ACCELERATION) return sph_fluid_rates_monaghan(KERNEL, dim, targets, fluid, a, 0, 0);
+        if (which == ACCELERATION) return sph_fluid_rates_monaghan(KERNEL, dim, targets, fluid, (sph_fluid_out){.acceleration = a});
         fluid.viscosity = SPH_VISCOSITY_MONAGHAN;
-        return sph_fluid_rates_monaghan(KERNEL, dim, targets, fluid, a, o->g[3], o->g[4]);
+        return sph_fluid_rates_monaghan(KERNEL, dim, targets, fluid, (sph_fluid_out){.acceleration = a, .rate = o->g[3], .heating = o->g[4]});
     }
     case MSPH_ROWS: {
-        const sph_row_out r = {.row = o->row, .diagonal = o->g[0]};
-        return sph_elliptic_rows_msph(KERNEL, dim, targets, V, sph_elliptic_defaults(), r);
+        const sph_rows_out r = {.row = o->row, .diagonal = o->g[0]};
+        return sph_elliptic_rows_msph(KERNEL, dim, targets, V, (sph_elliptic_options){0}, r);
     }
     case MHD: /* as many components as dimensions */
     case MHD_CLEANED: {
         sph_mhd s;
-        sph_mhd_out r;
-        s.gas.m = s.gas.rho = s.gas.omega = s.p = s.u = s.cs = s.alpha = s.alpha_B = V;
+        sph_mhd_out r = {0};
+        s.medium.m = s.medium.rho = s.medium.omega = s.p = s.u = s.cs = s.alpha = s.alpha_B = V;
         s.v = s.field = sph_vectors_separate(c->f, c->f, dim > 2 ? c->f : 0);
         s.psi = sph_scalars_none();
         s.ch = s.alpha_u = s.tensile = SPH_R(1);

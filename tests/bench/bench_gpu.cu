@@ -46,23 +46,23 @@ SPH_FN sph_index range(int what, const cloud &c, sph_index first, sph_index last
     const sph_cloud all = sph_cloud_of(x, list, sph_scalars_same(c.h), sph_scalars_array(c.a[V]));
     const sph_cloud targets = sph_cloud_range(all, first, last);
     switch (what) {
-    case DENSITY: return sph_density_summation(KERNEL, DIM, targets, m, c.a[OUT]);
+    case DENSITY: return sph_density_summation(KERNEL, DIM, targets, m, sph_scalar_out_array(c.a[OUT], 0));
     case GRADIENT: {
-        sph_derivative_out g{};
+        sph_derivatives_out g{};
         g.gx = c.a[OUT];
         g.gy = c.a[OUT + 1];
         g.gz = c.a[OUT + 2];
         return sph_gradient_cspm(KERNEL, DIM, targets, u, g);
     }
     case MSPH:
-        return sph_elliptic_msph(KERNEL, DIM, targets, sph_scalars_array(c.a[RHO]), sph_elliptic_defaults(),
+        return sph_elliptic_msph(KERNEL, DIM, targets, sph_scalars_array(c.a[RHO]), (sph_elliptic_options){0},
                                  u, sph_scalar_out_array(c.a[OUT], nullptr));
     default: {
         sph_mhd s;
         sph_mhd_out o;
-        s.gas.m = m;
-        s.gas.rho = sph_scalars_array(c.a[RHO]);
-        s.gas.omega = sph_scalars_array(c.a[OMEGA]);
+        s.medium.m = m;
+        s.medium.rho = sph_scalars_array(c.a[RHO]);
+        s.medium.omega = sph_scalars_array(c.a[OMEGA]);
         s.p = sph_scalars_array(c.a[P]);
         s.u = u;
         s.cs = sph_scalars_array(c.a[CS]);
@@ -148,7 +148,7 @@ int main(int argc, char **argv)
 
     const sph_index n = side * side * side;
     const double dx = 1.0 / side;
-    sph_real h = SPH_R(1.2 * dx), radius = h * sph_kernel_support(KERNEL);
+    sph_real h = SPH_R(1.2 * dx), radius = h * sph_kernel_support_ratio(KERNEL);
     std::vector<sph_real> data((size_t)FIELDS * (size_t)n);
     std::vector<sph_index> start((size_t)n + 1), index(80 * (size_t)n);
     std::vector<char> work(sph_grid_workspace(DIM, n));
@@ -170,7 +170,7 @@ int main(int argc, char **argv)
     const sph_scalars R = sph_scalars_same(&radius);
     const sph_points x = sph_points_separate(n, host.a[X], host.a[Y], host.a[Z]);
     if (sph_grid_build(DIM, x, radius, work.data(), work.size(), &grid) != 0 ||
-        sph_grid_lists(DIM, &grid, x, SPH_GATHER, R, R, 0, host.start, host.index, (int64_t)index.size(), &pairs) != 0)
+        sph_grid_lists(DIM, &grid, sph_query_of(x, SPH_GATHER, R, 0), host.start, host.index, (int64_t)index.size(), &pairs) != 0)
         return std::puts("no lists"), 1;
     device = host;
     device.h = to_device(&h, 1);

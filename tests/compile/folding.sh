@@ -26,7 +26,7 @@ calls_exp='SPH_GAUSSIAN SPH_SUPER_GAUSSIAN'
 [ $# -gt 0 ] || set -- gcc clang
 
 kernels=
-for id in $(sed -n 's/^ *X(A, \(SPH_[A-Z0-9_]*\), *".*/\1/p' sph_kernels.h); do
+for id in $(sed -n 's/^ *each(context, \(SPH_[A-Z0-9_]*\), *".*/\1/p' sph_kernels.h); do
     case " $calls_exp " in
     *" $id "*) ;;
     *) kernels="$kernels $id" ;;

@@ -18,7 +18,7 @@ sph_index use(sph_points x, sph_list list, sph_real h, sph_scalars V, sph_scalar
 sph_index use(sph_points x, sph_list list, sph_real h, sph_scalars V, sph_scalars f, sph_real *gx, sph_real *gy, sph_real *gz)
 {
     const sph_cloud all = sph_cloud_of(x, list, sph_scalars_same(&h), V);
-    return sph_gradient_cspm(SPH_WENDLAND_C2, 3, all, f, (sph_derivative_out){.gx = gx, .gy = gy, .gz = gz});
+    return sph_gradient_cspm(SPH_WENDLAND_C2, 3, all, f, (sph_derivatives_out){.gx = gx, .gy = gy, .gz = gz});
 }
 END
 size_of() { size "$1" | awk 'NR == 2 { print $1 + $2 + $3 }'; }

@@ -10,37 +10,36 @@
     cat << 'END'
 SPH_FN sph_elliptic_options sourced(sph_scalars source)
 {
-    sph_elliptic_options o = sph_elliptic_defaults();
+    sph_elliptic_options o = {0};
     o.source = source;
     return o;
 }
 SPH_FN sph_fluid fluid(sph_scalars V, sph_scalars f)
 {
     sph_fluid s = {.m = V, .rho = V, .p = f, .c = f, .v = {f, f, f}, .viscosity = SPH_VISCOSITY_MONAGHAN};
-    s.alpha = s.eta = sph_kernel_support(SPH_CUBIC_SPLINE);
+    s.alpha = s.eta = sph_kernel_support_ratio(SPH_CUBIC_SPLINE);
     return s;
 }
 END
     for dim in 1 2 3; do
-        for sweep in 'shepard|sph_shepard_sum(SPH_WENDLAND_C2, D, x, a)' \
+        for sweep in 'shepard|sph_shepard_sum(SPH_WENDLAND_C2, D, x, sph_scalar_out_array(a, 0))' \
             'interpolate|sph_interpolate_shepard(SPH_WENDLAND_C2, D, x, f, sph_scalar_out_array(a, s))' \
             'difference|sph_gradient_difference(SPH_WENDLAND_C2, D, x, f, sph_vector_out_separate(a, b, c))' \
             'gradient|sph_gradient_cspm(SPH_WENDLAND_C2, D, x, f,
-                (sph_derivative_out){.gx = a, .gy = b, .gz = c, .stride = 1, .status = s})' \
-            'brookshaw|sph_laplacian_brookshaw(SPH_WENDLAND_C2, D, x, f, a)' \
-            'brookshawrows|sph_laplacian_rows_brookshaw(SPH_WENDLAND_C2, D, x, a)' \
-            'tilecspm|sph_derivatives_cspm(SPH_WENDLAND_C2, D, x, f, 0, out)' \
-            'tileicspm|sph_derivatives_icspm(SPH_WENDLAND_C2, D, x, f, 0, 0, out)' \
-            'tilewls|sph_derivatives_wls(SPH_WENDLAND_C2, D, x, f, 0, out)' \
+                (sph_derivatives_out){.gx = a, .gy = b, .gz = c, .stride = 1, .status = s})' \
+            'brookshaw|sph_laplacian_brookshaw(SPH_WENDLAND_C2, D, x, f, sph_scalar_out_array(a, 0))' \
+            'brookshawrows|sph_laplacian_rows_brookshaw(SPH_WENDLAND_C2, D, x, (sph_rows_out){.row = a})' \
+            'tilecspm|sph_derivatives_cspm(SPH_WENDLAND_C2, D, x, f, (sph_derivatives_options){0}, out)' \
+            'tileicspm|sph_derivatives_icspm(SPH_WENDLAND_C2, D, x, f, (sph_derivatives_options){0}, out)' \
+            'tilewls|sph_derivatives_wls(SPH_WENDLAND_C2, D, x, f, (sph_derivatives_options){0}, out)' \
             'msph|sph_elliptic_msph(SPH_CUBIC_SPLINE, D, x, f, sourced(x.volume), f,
                 sph_scalar_out_array(a, s))' \
-            'msphrows|sph_elliptic_rows_msph(SPH_CUBIC_SPLINE, D, x, f, sph_elliptic_defaults(),
-                (sph_row_out){.row = b})' \
-            'fluid|sph_fluid_rates_colagrossi(SPH_WENDLAND_C2, D, x, fluid(x.volume, f),
-                sph_vector_out_separate(a, b, c), out.gx, out.gy)'; do
+            'msphrows|sph_elliptic_rows_msph(SPH_CUBIC_SPLINE, D, x, f, (sph_elliptic_options){0},
+                (sph_rows_out){.row = b})' \
+            'fluid|sph_fluid_rates_colagrossi(SPH_WENDLAND_C2, D, x, fluid(x.volume, f), (sph_fluid_out){.acceleration = sph_vector_out_separate(a, b, c), .rate = out.gx, .heating = out.gy})'; do
             name=sweep_${sweep%%|*}_$dim
             arguments='sph_cloud x, sph_scalars f, sph_real *a, sph_real *b, sph_real *c, unsigned char *s,
-                sph_derivative_out out'
+                sph_derivatives_out out'
             case $name in sweep_tile*) echo '#if 1' ;; *) echo '#ifndef TILES_ALONE' ;; esac
             echo "sph_index $name($arguments);"
             echo "sph_index $name($arguments) { (void)f, (void)a, (void)b, (void)c, (void)s, (void)out;"

@@ -97,7 +97,7 @@ static void check_kernels(void)
         const sph_kernel k = (sph_kernel)a->kernel;
         const int dim = a->dim;
         const sph_real r = a->r, h = a->h, power = dim == 1 ? h : dim == 2 ? h * h : h * h * h;
-        const int outside = r >= h * sph_kernel_support(k);
+        const int outside = r >= h * sph_kernel_support_ratio(k);
         const char *const name = sph_kernel_name(k);
         sph_real got[QUANTITIES];
         got[W] = sph_kernel_w(k, dim, r, h);
@@ -146,12 +146,12 @@ static const sph_real length = SPH_R(1.3) * SPACING; /* smoothing length */
 /* lists of all particles nearer than the support */
 static int search(sph_points points)
 {
-    const sph_real radius = sph_kernel_support(KERNEL) * length;
+    const sph_real radius = sph_kernel_support_ratio(KERNEL) * length;
     const sph_scalars R = sph_scalars_same(&radius);
     sph_grid grid;
     int64_t pairs = 0;
     return sph_grid_workspace(2, n) <= sizeof work && sph_grid_build(2, points, radius, work, sizeof work, &grid) == 0 &&
-           sph_grid_lists(2, &grid, points, SPH_GATHER, R, R, SPH_LIST_SORTED, start, list_index, ENTRIES, &pairs) == 0;
+           sph_grid_lists(2, &grid, sph_query_of(points, SPH_GATHER, R, SPH_LIST_SORTED), start, list_index, ENTRIES, &pairs) == 0;
 }
 
 /* a number in [0, 1), for positions off the lattice: Knuth's multiplicative hash */
@@ -160,10 +160,10 @@ static sph_real scatter(int i) { return (sph_real)(((uint32_t)i * 2654435761u) >
 static void check_cloud(void)
 {
     const sph_points points = sph_points_separate((sph_index)MOST, x, y, 0);
-    const sph_real radius = sph_kernel_support(KERNEL) * length, volume = SPACING * SPACING;
+    const sph_real radius = sph_kernel_support_ratio(KERNEL) * length, volume = SPACING * SPACING;
     const sph_list list = {start, list_index};
     const sph_cloud all = sph_cloud_of(points, list, sph_scalars_same(&length), sph_scalars_same(&volume));
-    const sph_derivative_out gradient = {ax, ay, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0};
+    const sph_derivatives_out gradient = {ax, ay, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0};
     sph_real worst = SPH_R(0);
     int i, j;
     n = MOST;
@@ -236,7 +236,7 @@ static int tank_rates(sph_points points, sph_real dt)
     const sph_cloud targets = sph_cloud_range(all, 0, (sph_index)WATER);
     const sph_vector_out a = sph_vector_out_separate(ax, ay, 0);
     sph_fluid fluid;
-    sph_gas gas;
+    sph_medium gas;
     int i;
     fluid.m = gas.m = sph_scalars_same(&mass);
     fluid.rho = gas.rho = sph_scalars_array(rho);
@@ -248,13 +248,13 @@ static int tank_rates(sph_points points, sph_real dt)
     fluid.alpha = SPH_R(0.1);
     fluid.beta = SPH_R(0);
     fluid.eta = SPH_R(0.1);
-    if (!search(points) || sph_divergence_difference(KERNEL, 2, all, gas, fluid.v, divergence) != 0) return 0;
+    if (!search(points) || sph_divergence_difference(KERNEL, 2, all, gas, fluid.v, sph_scalar_out_array(divergence, 0)) != 0) return 0;
     for (i = 0; i < n; i++) {
         rho[i] -= dt * rho[i] * divergence[i];
         p[i] = sph_pressure_tait(rho[i], water);
         if (i >= WATER && p[i] < SPH_R(0)) p[i] = SPH_R(0); /* a wall pushes, it does not pull */
     }
-    return sph_fluid_rates_monaghan(KERNEL, 2, targets, fluid, a, 0, 0) == 0;
+    return sph_fluid_rates_monaghan(KERNEL, 2, targets, fluid, (sph_fluid_out){.acceleration = a}) == 0;
 }
 
 /* kinetic and potential, per mass of a particle */

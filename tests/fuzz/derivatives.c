@@ -55,7 +55,7 @@ static void make(cloud *c, fuzz_input *in)
         for (j = 0; j < c->n; j++) {
             double r2 = 0;
             for (t = 0; t < c->dim; t++) r2 += pow((double)c->x[t][i] - (double)c->x[t][j], 2);
-            if (j != i && (all || sqrt(r2) < 1.01 * (double)sph_kernel_support(c->k) * (double)c->h[i])) c->index[at++] = j;
+            if (j != i && (all || sqrt(r2) < 1.01 * (double)sph_kernel_support_ratio(c->k) * (double)c->h[i])) c->index[at++] = j;
         }
         c->start[i + 1] = at;
     }
@@ -126,7 +126,7 @@ static sph_test_weights doubts(const cloud *c, int method, long double q, sph_re
 {
     const long double step = SPH_SINGLE ? 1e-4L : 1e-7L;
     const sph_test_weights w = weights(c, method, q, V), a = weights(c, method, q * (1.0L - step), V), b = weights(c, method, q * (1.0L + step), V),
-                           middle = weights(c, method, 0.5L * (long double)sph_kernel_support(c->k), V);
+                           middle = weights(c, method, 0.5L * (long double)sph_kernel_support_ratio(c->k), V);
     sph_test_weights d;
     d.g = SPH_R(fabs((double)w.g) + fabs((double)b.g - (double)a.g) / (double)step + 0.1 * fabs((double)middle.g));
     d.w = SPH_R(fabs((double)w.w) + fabs((double)b.w - (double)a.w) / (double)step + 0.1 * fabs((double)middle.w));
@@ -194,9 +194,9 @@ typedef struct outputs {
     unsigned char status[MOST];
 } outputs;
 
-static sph_derivative_out out_of(outputs *o, int dim)
+static sph_derivatives_out out_of(outputs *o, int dim)
 {
-    sph_derivative_out out;
+    sph_derivatives_out out;
     memset(&out, 0, sizeof out);
     out.gx = o->value[0];
     out.gy = dim > 1 ? o->value[1] : NULL;
@@ -297,7 +297,7 @@ static void check_rows(const cloud *c, int method, const outputs *o)
 {
     sph_real row[MOST * MOST], diagonal[MOST], factor[MOST];
     unsigned char status[MOST];
-    sph_row_out out;
+    sph_rows_out out = {0};
     sph_index i, p, answer;
     const sph_jet d = sph_jet_laplacian(c->dim);
     memset(&out, 0, sizeof out);
@@ -305,9 +305,9 @@ static void check_rows(const cloud *c, int method, const outputs *o)
     out.diagonal = diagonal;
     out.factor = factor;
     out.status = status;
-    if (method == CSPM) answer = sph_derivative_rows_cspm(c->k, c->dim, all(c), d, out);
-    else if (method == ICSPM) answer = sph_derivative_rows_icspm(c->k, c->dim, all(c), d, out);
-    else answer = sph_derivative_rows_wls(c->k, c->dim, all(c), d, out);
+    if (method == CSPM) answer = sph_derivatives_rows_cspm(c->k, c->dim, all(c), d, out);
+    else if (method == ICSPM) answer = sph_derivatives_rows_icspm(c->k, c->dim, all(c), d, out);
+    else answer = sph_derivatives_rows_wls(c->k, c->dim, all(c), d, out);
     FUZZ_REQUIRE(answer >= 0);
     for (i = 0; i < c->n; i++) {
         long double want[UNKNOWNS], off[UNKNOWNS], sum = 0.0L, weights = 0.0L, largest = 0.0L, apart = 0.0L, allowed;
@@ -335,8 +335,8 @@ static void check_gradient(const cloud *c)
 {
     sph_real g[3][MOST], w[3][MOST * MOST], conditioning[MOST];
     unsigned char status[MOST], row_status[MOST];
-    sph_derivative_out out;
-    sph_gradient_row_out rows;
+    sph_derivatives_out out;
+    sph_gradient_rows_out rows = {0};
     sph_index i, p;
     int a;
     memset(&out, 0, sizeof out);
@@ -380,15 +380,15 @@ static void check_elliptic(const cloud *c, fuzz_input *in)
 {
     typedef sph_index operator_of(sph_kernel, int, sph_cloud, sph_scalars, sph_elliptic_options, sph_scalars,
                                   sph_scalar_out);
-    typedef sph_index rows_of(sph_kernel, int, sph_cloud, sph_scalars, sph_elliptic_options, sph_row_out);
+    typedef sph_index rows_of(sph_kernel, int, sph_cloud, sph_scalars, sph_elliptic_options, sph_rows_out);
     static operator_of *const operators[] = {sph_elliptic_brookshaw, sph_elliptic_brookshaw_corrected, sph_elliptic_schwaiger, sph_elliptic_msph};
     static rows_of *const rows[] = {sph_elliptic_rows_brookshaw, sph_elliptic_rows_brookshaw_corrected, sph_elliptic_rows_schwaiger, sph_elliptic_rows_msph};
     const int which = fuzz_below(in, 4);
-    sph_elliptic_options o = sph_elliptic_defaults();
+    sph_elliptic_options o = {0};
     sph_real out[MOST], applied[MOST], row[MOST * MOST], diagonal[MOST], u[MOST], conditioning[MOST];
     unsigned char status[MOST], row_status[MOST];
     const sph_scalars m = sph_scalars_array(c->m);
-    sph_row_out r;
+    sph_rows_out r = {0};
     sph_index answer, i, p;
     memset(&r, 0, sizeof r);
     r.row = row;
@@ -407,7 +407,7 @@ static void check_elliptic(const cloud *c, fuzz_input *in)
     FUZZ_REQUIRE(rows[which](c->k, c->dim, all(c), m, o, r) == answer || answer >= 0);
     if (answer < 0) return;
     for (p = 0; p < c->start[c->n]; p++) FUZZ_REQUIRE(isfinite(row[p]));
-    FUZZ_REQUIRE(sph_rows_apply(all(c), row, NULL, sph_scalars_array(u), applied) >= 0);
+    FUZZ_REQUIRE(sph_rows_apply(all(c), row, sph_scalars_none(), sph_scalars_array(u), sph_scalar_out_array(applied, 0)) >= 0);
     for (i = 0; i < c->n; i++) {
         double size = 0;
         FUZZ_REQUIRE(isfinite(out[i]) && isfinite(diagonal[i]) && isfinite(conditioning[i]));
@@ -427,17 +427,17 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (what == 3) check_gradient(&c);
     else if (what == 4) check_elliptic(&c, &in);
     else {
-        const sph_derivative_out none = {0};
+        const sph_derivatives_out none = {0};
         outputs o;
-        sph_derivative_out out = none;
+        sph_derivatives_out out = none;
         sph_index failed;
         memset(&o, 0, sizeof o);
         out = out_of(&o, c.dim);
         if (what == CSPM)
-            failed = sph_derivatives_cspm(c.k, c.dim, all(&c), sph_scalars_array(c.f), SPH_R(0), out);
+            failed = sph_derivatives_cspm(c.k, c.dim, all(&c), sph_scalars_array(c.f), (sph_derivatives_options){0}, out);
         else if (what == ICSPM)
-            failed = sph_derivatives_icspm(c.k, c.dim, all(&c), sph_scalars_array(c.f), SPH_R(0), 0, out);
-        else failed = sph_derivatives_wls(c.k, c.dim, all(&c), sph_scalars_array(c.f), SPH_R(0), out);
+            failed = sph_derivatives_icspm(c.k, c.dim, all(&c), sph_scalars_array(c.f), (sph_derivatives_options){0}, out);
+        else failed = sph_derivatives_wls(c.k, c.dim, all(&c), sph_scalars_array(c.f), (sph_derivatives_options){0}, out);
         FUZZ_REQUIRE(failed >= 0);
         check_derivatives(&c, what, &o, failed);
         check_rows(&c, what, &o);

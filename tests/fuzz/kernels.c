@@ -16,7 +16,7 @@ static int between(double difference, double a, double b, double c, double slack
 
 static void check_differences(sph_kernel k, int dim, sph_real q)
 {
-    const double support = (double)sph_kernel_support(k), d = SPH_SINGLE ? 1e-2 : 1e-4, x = (double)q, noise = (SPH_SINGLE ? 1e-2 : 1e-4);
+    const double support = (double)sph_kernel_support_ratio(k), d = SPH_SINGLE ? 1e-2 : 1e-4, x = (double)q, noise = (SPH_SINGLE ? 1e-2 : 1e-4);
     const sph_real h = SPH_R(1), a = SPH_R(x - d), b = SPH_R(x + d);
     const double width = (double)b - (double)a, W0 = fabs((double)sph_kernel_w(k, dim, SPH_R(0), h));
     double slope;
@@ -31,7 +31,7 @@ static void check_differences(sph_kernel k, int dim, sph_real q)
 
 static void check_pair(sph_kernel k, int dim, sph_real r, sph_real h)
 {
-    const double support = (double)sph_kernel_support(k) * (double)h;
+    const double support = (double)sph_kernel_support_ratio(k) * (double)h;
     const sph_real w = sph_kernel_w(k, dim, r, h), f = sph_kernel_f(k, dim, r, h);
     const sph_wf both = sph_kernel_wf(k, dim, r, h);
     FUZZ_REQUIRE(isfinite(w) && isfinite(f));
@@ -59,7 +59,7 @@ static void check_anything(int k, int dim, sph_real r, sph_real h)
     sink = (double)sph_kernel_w(kernel, dim, r, h) + (double)sph_kernel_dwdr(kernel, dim, r, h) + (double)sph_kernel_d2wdr2(kernel, dim, r, h) + (double)sph_kernel_dwdh(kernel, dim, r, h);
     sink = (double)sph_kernel_shape(kernel, dim, r) + (double)sph_kernel_shape_f(kernel, dim, r) + (double)sph_kernel_shape_d2(kernel, dim, r) + (double)sph_kernel_sigma(kernel, dim);
     sink = (double)sph_gravity_potential(kernel, r, h) + (double)sph_gravity_force(kernel, r, h) + (double)sph_gravity_dphidh(kernel, r, h);
-    sink = (double)sph_kernel_h_from_support(kernel, r) + (double)sph_kernel_support_from_h(kernel, h) + (double)sph_kernel_h_over_dx(kernel);
+    sink = (double)sph_kernel_h_from_support(kernel, r) + (double)sph_kernel_support(kernel, h) + (double)sph_kernel_h_over_dx(kernel);
 }
 
 static void check_names(fuzz_input *in)
@@ -88,7 +88,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         const sph_kernel kernel = (sph_kernel)(k % SPH_KERNEL_COUNT);
         const double h = fuzz_scale(&in, SPH_SINGLE ? 3.0 : 50.0), far = how == 2 ? 4.0 : 1e9 * fuzz_unit(&in), q = far * (double)fuzz_bits(&in, 7) / 72057594037927936.0;
         check_pair(kernel, dim, SPH_R(q * h), SPH_R(h));
-        check_pair(kernel, dim, SPH_R((double)sph_kernel_support(kernel) * h), SPH_R(h)); /* the edge itself */
+        check_pair(kernel, dim, SPH_R((double)sph_kernel_support_ratio(kernel) * h), SPH_R(h)); /* the edge itself */
         if (how == 2) check_differences(kernel, dim, SPH_R(q));
     }
     return 0;

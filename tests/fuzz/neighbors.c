@@ -96,8 +96,7 @@ static void threads(int count)
 static sph_index lists(const problem *p, const sph_grid *g, sph_index *start, sph_index *index, int64_t room,
                        int64_t *pairs)
 {
-    return sph_grid_lists(p->dim, g, p->targets, p->criterion, p->target_radius, p->source_radius, p->flags,
-                          start, index, room, pairs);
+    return sph_grid_lists(p->dim, g, (sph_query){p->targets, p->criterion, p->target_radius, p->source_radius, p->flags}, start, index, room, pairs);
 }
 
 /* with just this room and so many threads */
@@ -126,8 +125,7 @@ static void check_lists(const problem *p, const sph_grid *g, int count, int64_t 
     int64_t pairs = -1, again = -1;
     sph_index answer;
     threads(1);
-    answer = sph_grid_count(p->dim, g, p->targets, p->criterion, p->target_radius, p->source_radius, p->flags,
-                            start, &pairs);
+    answer = sph_grid_count(p->dim, g, (sph_query){p->targets, p->criterion, p->target_radius, p->source_radius, p->flags}, start, &pairs);
     if (answer < 0) FUZZ_REQUIRE(pairs == 0);
     else {
         FUZZ_REQUIRE(answer == 0 && pairs >= 0 && pairs <= (int64_t)p->targets.n * p->sources.n);
@@ -147,7 +145,7 @@ static void check_lists(const problem *p, const sph_grid *g, int count, int64_t 
 /* the order is a permutation, and permuting by it and renumbering gives the same lists of the same particles */
 static void check_order(const problem *p, sph_grid *g)
 {
-    const sph_index *const order = sph_grid_order(g);
+    const sph_index *const order = sph_grid_permutation(g);
     sph_real *const sorted = (sph_real *)fuzz_memory((size_t)p->sources.n, sizeof *sorted), *const plain = (sph_real *)fuzz_memory((size_t)p->sources.n, sizeof *plain);
     sph_index *const inverse = (sph_index *)fuzz_memory((size_t)p->sources.n, sizeof *inverse);
     sph_index s;
@@ -156,7 +154,7 @@ static void check_order(const problem *p, sph_grid *g)
     FUZZ_REQUIRE(sph_permute(p->sources.n, order, plain, 1, sorted) == 0);
     for (s = 0; s < p->sources.n; s++) FUZZ_REQUIRE(order[inverse[s]] == s && inverse[order[s]] == s && memcmp(&sorted[inverse[s]], &plain[s], sizeof *sorted) == 0);
     FUZZ_REQUIRE(sph_grid_renumber(g) == 0);
-    for (s = 0; s < p->sources.n; s++) FUZZ_REQUIRE(sph_grid_order(g)[s] == s);
+    for (s = 0; s < p->sources.n; s++) FUZZ_REQUIRE(sph_grid_permutation(g)[s] == s);
     free(sorted);
     free(plain);
     free(inverse);
@@ -252,7 +250,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         sph_grid h;
         threads(count);
         FUZZ_REQUIRE(sph_grid_build(p.dim, p.sources, reach, other, bytes, &h) == 0);
-        for (i = 0; i < n; i++) FUZZ_REQUIRE(sph_grid_order(&g)[i] == sph_grid_order(&h)[i]);
+        for (i = 0; i < n; i++) FUZZ_REQUIRE(sph_grid_permutation(&g)[i] == sph_grid_permutation(&h)[i]);
         check_lists(&p, &h, count, few, share);
         check_order(&p, &g);
         free(other);

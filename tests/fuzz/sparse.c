@@ -58,7 +58,7 @@ static void check_assembly(fuzz_input *in)
     matrix.column = column;
     matrix.value = value;
     matrix.capacity = capacity;
-    answer = sph_csr_assemble(cloud, row, diagonal, drop, matrix, &entries);
+    answer = sph_csr_assemble(cloud, row, sph_scalars_array(diagonal), drop, matrix, &entries);
     FUZZ_REQUIRE(answer <= 0 && answer >= SPH_ERROR_PAIRS);
     if (good && n > 1) FUZZ_REQUIRE(answer == (capacity < size ? SPH_ERROR_CAPACITY : 0));
     if (answer == 0) {

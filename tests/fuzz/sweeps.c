@@ -43,17 +43,17 @@ static sph_diagonal diagonal(const arguments *a, int from)
     d.z = a->s[from + 2];
     return d;
 }
-static sph_gas gas(const arguments *a)
+static sph_medium gas(const arguments *a)
 {
-    sph_gas g;
+    sph_medium g;
     g.m = a->s[0];
     g.rho = a->s[1];
     g.omega = a->s[2];
     return g;
 }
-static sph_derivative_out derivative_out(const arguments *a)
+static sph_derivatives_out derivative_out(const arguments *a)
 {
-    sph_derivative_out o;
+    sph_derivatives_out o;
     o.gx = OUT(0), o.gy = OUT(1), o.gz = OUT(2);
     o.hxx = OUT(3), o.hxy = OUT(4), o.hyy = OUT(5), o.hxz = OUT(6), o.hyz = OUT(7), o.hzz = OUT(8);
     o.laplacian = OUT(9);
@@ -63,29 +63,29 @@ static sph_derivative_out derivative_out(const arguments *a)
     return o;
 }
 static sph_scalar_out scalar_out(const arguments *a) { return sph_scalar_out_array(OUT(0), a->status); }
-static sph_derivative_out gradient_out(const arguments *a)
+static sph_derivatives_out gradient_out(const arguments *a)
 {
-    sph_derivative_out o = derivative_out(a);
+    sph_derivatives_out o = derivative_out(a);
     o.conditioning = OUT(3);
     return o;
 }
-static sph_gradient_row_out gradient_row_out(const arguments *a)
+static sph_gradient_rows_out gradient_row_out(const arguments *a)
 {
-    sph_gradient_row_out o;
+    sph_gradient_rows_out o = {0};
     o.x = OUT(0), o.y = OUT(1), o.z = OUT(2), o.conditioning = OUT(3);
     o.status = a->status;
     return o;
 }
-static sph_row_out row_out(const arguments *a)
+static sph_rows_out row_out(const arguments *a)
 {
-    sph_row_out o;
+    sph_rows_out o = {0};
     o.row = OUT(0), o.diagonal = OUT(1), o.factor = OUT(2), o.conditioning = OUT(3);
     o.status = a->status;
     return o;
 }
 static sph_elliptic_options elliptic(const arguments *a)
 {
-    sph_elliptic_options o = sph_elliptic_defaults();
+    sph_elliptic_options o = {0};
     o.gradient = a->what % 5;
     o.mean = a->what / 5 % 4;
     o.gamma_star = a->what / 20 % 2;
@@ -133,7 +133,7 @@ static sph_collision collision(const arguments *a)
 static sph_cleaning cleaning(const arguments *a)
 {
     sph_cleaning c;
-    c.gas = gas(a);
+    c.medium = gas(a);
     c.field = vectors(a, 8);
     c.psi = a->s[11], c.div_v = a->s[4];
     c.ch = a->number[0], c.sigma = a->number[1];
@@ -141,7 +141,7 @@ static sph_cleaning cleaning(const arguments *a)
 }
 static sph_cleaning_out cleaning_out(const arguments *a)
 {
-    sph_cleaning_out o;
+    sph_cleaning_out o = {0};
     o.rate_B = vector_out(a, 0);
     o.rate_psi = OUT(3), o.div_B = OUT(4);
     return o;
@@ -149,7 +149,7 @@ static sph_cleaning_out cleaning_out(const arguments *a)
 static sph_mhd mhd(const arguments *a)
 {
     sph_mhd s;
-    s.gas = gas(a);
+    s.medium = gas(a);
     s.p = a->s[3], s.u = a->s[4], s.cs = a->s[1], s.alpha = a->s[0], s.alpha_B = a->s[1];
     s.v = vectors(a, 5);
     s.field = vectors(a, 8);
@@ -159,7 +159,7 @@ static sph_mhd mhd(const arguments *a)
 }
 static sph_mhd_out mhd_out(const arguments *a)
 {
-    sph_mhd_out o;
+    sph_mhd_out o = {0};
     o.acceleration = vector_out(a, 0);
     o.rate_B = vector_out(a, 3);
     o.rate_u = OUT(6), o.rate_psi = OUT(7), o.div_B = OUT(8), o.div_v = OUT(9), o.v_sig = OUT(10);
@@ -167,8 +167,8 @@ static sph_mhd_out mhd_out(const arguments *a)
 }
 static sph_elliptic_report report(const arguments *a)
 {
-    sph_elliptic_report o;
-    o.sign_least = OUT(0), o.sign_most = OUT(1), o.xi = OUT(2), o.continuity = OUT(3), o.n = OUT(4), o.n_bound = OUT(5), o.eigenvalue_least = OUT(6), o.condition = OUT(7);
+    sph_elliptic_report o = {0};
+    o.sign_least = OUT(0), o.sign_most = OUT(1), o.xi = OUT(2), o.continuity = OUT(3), o.n = OUT(4), o.n_bound = OUT(5), o.eigenvalue_least = OUT(6), o.eigenvalue_ratio = OUT(7);
     o.status = a->status;
     return o;
 }
@@ -189,7 +189,7 @@ static sph_wall wall(const arguments *a)
 }
 static sph_wall_out wall_out(const arguments *a)
 {
-    sph_wall_out o;
+    sph_wall_out o = {0};
     o.p = OUT(3), o.v = vector_out(a, 0);
     o.status = a->status;
     return o;
@@ -201,25 +201,23 @@ static sph_wall_out wall_out(const arguments *a)
 enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16, THREE = 32, NO_COUNT = 64, ONE = 128, SOME = 256 };
 /* clang-format off */
 #define SWEEPS(X) \
-    X(sph_shepard_sum(SWEEP, OUT(0)), 1, 0, PLAIN) \
+    X(sph_shepard_sum(SWEEP, sph_scalar_out_array(OUT(0), 0)), 1, 0, PLAIN) \
     X(sph_interpolate_shepard(SWEEP, a->s[3], scalar_out(a)), 1, 0, STATUS) \
-    X(sph_density_summation(SWEEP, a->s[0], OUT(0)), 1, 0, PLAIN) \
-    X(sph_density_number(SWEEP, a->s[0], OUT(0)), 1, 0, PLAIN) \
+    X(sph_density_summation(SWEEP, a->s[0], sph_scalar_out_array(OUT(0), 0)), 1, 0, PLAIN) \
+    X(sph_density_number(SWEEP, a->s[0], sph_scalar_out_array(OUT(0), 0)), 1, 0, PLAIN) \
     X(sph_gradient_difference(SWEEP, a->s[3], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_gradient_cspm(SWEEP, a->s[3], gradient_out(a)), 4, 0, VECTOR | STATUS) \
     X(sph_gradient_rows_cspm(SWEEP, gradient_row_out(a)), 4, 3, VECTOR | STATUS) \
-    X(sph_laplacian_brookshaw(SWEEP, a->s[3], OUT(0)), 1, 0, PLAIN) \
-    X(sph_laplacian_kernel(SWEEP, a->s[3], OUT(0)), 1, 0, PLAIN) \
-    X(sph_laplacian_rows_brookshaw(SWEEP, OUT(0)), 1, 1, PLAIN) \
-    X(sph_laplacian_rows_kernel(SWEEP, OUT(0)), 1, 1, PLAIN) \
-    X(sph_derivatives_cspm(SWEEP, a->s[3], a->number[0], derivative_out(a)), 11, 0, HESSIAN | STATUS) \
-    X(sph_derivatives_icspm(SWEEP, a->s[3], a->number[0], a->what & 1, derivative_out(a)), 11, 0, HESSIAN | STATUS) \
-    X(sph_derivatives_wls(SWEEP, a->s[3], a->number[0], derivative_out(a)), 11, 0, HESSIAN | STATUS) \
-    X(sph_derivative_rows_cspm(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
-    X(sph_derivative_rows_icspm(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
-    X(sph_derivative_rows_wls(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_laplacian_brookshaw(SWEEP, a->s[3], sph_scalar_out_array(OUT(0), 0)), 1, 0, PLAIN) \
+    X(sph_laplacian_rows_brookshaw(SWEEP, (sph_rows_out){.row = OUT(0)}), 1, 1, PLAIN) \
+    X(sph_derivatives_cspm(SWEEP, a->s[3], (sph_derivatives_options){.conditioning_min = a->number[0]}, derivative_out(a)), 11, 0, HESSIAN | STATUS) \
+    X(sph_derivatives_icspm(SWEEP, a->s[3], (sph_derivatives_options){.conditioning_min = a->number[0], .fallback_wls = a->what & 1}, derivative_out(a)), 11, 0, HESSIAN | STATUS) \
+    X(sph_derivatives_wls(SWEEP, a->s[3], (sph_derivatives_options){.conditioning_min = a->number[0]}, derivative_out(a)), 11, 0, HESSIAN | STATUS) \
+    X(sph_derivatives_rows_cspm(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_derivatives_rows_icspm(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_derivatives_rows_wls(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
     X(sph_second_derivative_bim(SWEEP_ONE, a->s[3], 0, right(a), scalar_out(a)), 1, 0, STATUS) \
-    X(sph_second_derivative_rows_bim(SWEEP_ONE, 0, right(a), OUT(0), a->status), 1, 1, STATUS) \
+    X(sph_second_derivative_rows_bim(SWEEP_ONE, 0, right(a), (sph_rows_out){.row = OUT(0), .status = a->status}), 1, 1, STATUS) \
     X(sph_elliptic_brookshaw(SWEEP, a->s[1], sourced(a), a->s[3], scalar_out(a)), 1, 0, STATUS) \
     X(sph_elliptic_brookshaw_corrected(SWEEP, a->s[1], sourced(a), a->s[3], scalar_out(a)), 1, 0, STATUS) \
     X(sph_elliptic_schwaiger(SWEEP, a->s[1], sourced(a), a->s[3], scalar_out(a)), 1, 0, STATUS) \
@@ -228,37 +226,31 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_elliptic_rows_brookshaw_corrected(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
     X(sph_elliptic_rows_schwaiger(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
     X(sph_elliptic_rows_msph(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
-    X(sph_elliptic_rows_msph_diagonal(SWEEP, diagonal(a, 1), elliptic(a), row_out(a)), 4, 1, STATUS) \
     X(sph_elliptic_rows_anisotropic(SWEEP, diagonal(a, 1), row_out(a)), 4, 1, STATUS) \
     X(sph_elliptic_rows_boundary(SWEEP, a->s[1], elliptic(a), boundary(a), row_out(a)), 4, 1, STATUS | SOME) \
     X(sph_elliptic_diagnose(SWEEP, elliptic(a), report(a)), 8, 0, STATUS) \
-    X(sph_rows_apply(a->cloud, a->s[13].p, a->s[14].p, a->s[3], OUT(0)), 1, 0, PLAIN) \
-    X(sph_rows_monotone(a->cloud, a->s[13].p, a->s[14].p, a->status), 0, 0, STATUS | NO_COUNT) \
+    X(sph_rows_apply(a->cloud, a->s[13].p, sph_scalars_array(a->s[14].p), a->s[3], sph_scalar_out_array(OUT(0), 0)), 1, 0, PLAIN) \
+    X(sph_rows_monotone(a->cloud, a->s[13].p, sph_scalars_array(a->s[14].p), a->status), 0, 0, STATUS | NO_COUNT) \
     X(sph_rows_time_step(a->cloud, a->s[13].p, OUT(0)), 1, 0, ONE | NO_COUNT) \
-    X(sph_fluid_rates_monaghan(SWEEP, fluid(a), vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
-    X(sph_fluid_rates_colagrossi(SWEEP, fluid(a), vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
-    X(sph_fluid_rates_hu_adams(SWEEP, fluid(a), vector_out(a, 0), OUT(3), OUT(4)), 5, 0, VECTOR) \
-    X(sph_viscous_mu_morris(SWEEP, fluid(a), a->s[2], vector_out(a, 0)), 3, 0, VECTOR) \
-    X(sph_viscous_mu_monaghan_cleary(SWEEP, fluid(a), a->s[2], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_fluid_rates_monaghan(SWEEP, fluid(a), (sph_fluid_out){.acceleration = vector_out(a, 0), .rate = OUT(3), .heating = OUT(4)}), 5, 0, VECTOR) \
+    X(sph_fluid_rates_colagrossi(SWEEP, fluid(a), (sph_fluid_out){.acceleration = vector_out(a, 0), .rate = OUT(3), .heating = OUT(4)}), 5, 0, VECTOR) \
+    X(sph_fluid_rates_hu_adams(SWEEP, fluid(a), (sph_fluid_out){.acceleration = vector_out(a, 0), .rate = OUT(3), .heating = OUT(4)}), 5, 0, VECTOR) \
+    X(sph_viscosity_mu_morris(SWEEP, fluid(a), a->s[2], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_viscosity_mu_monaghan_cleary(SWEEP, fluid(a), a->s[2], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_velocity_xsph(SWEEP, fluid(a), a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_wall_adami(SWEEP, wall(a), wall_out(a)), 4, 0, VECTOR | STATUS) \
     X(sph_collision_count(LIST, collision(a), vectors(a, 5), a->count), 0, 0, COUNTS) \
-    X(sph_collision_change_literal(LIST, collision(a), vectors(a, 5), vector_out(a, 0)), 3, 0, VECTOR) \
-    X(sph_collision_acceleration_literal(LIST, collision(a), vectors(a, 5), a->number[2], vector_out(a, 0)), \
-      3, 0, VECTOR) \
     X(sph_nearest_distance(LIST, a->cloud.points, scalar_out(a)), 1, 0, STATUS) \
     X(sph_hexatic_order(a->cloud, scalar_out(a)), 1, 0, STATUS) \
-    X(sph_count_coincident(LIST, a->number[0]), 0, 0, NO_COUNT) \
-    X(sph_divergence_difference(SWEEP, gas(a), vectors(a, 5), OUT(0)), 1, 0, PLAIN) \
-    X(sph_divergence_symmetric(SWEEP, gas(a), vectors(a, 5), OUT(0)), 1, 0, PLAIN) \
+    X(sph_coincident_count(LIST, a->number[0]), 0, 0, NO_COUNT) \
+    X(sph_divergence_difference(SWEEP, gas(a), vectors(a, 5), sph_scalar_out_array(OUT(0), 0)), 1, 0, PLAIN) \
+    X(sph_divergence_symmetric(SWEEP, gas(a), vectors(a, 5), sph_scalar_out_array(OUT(0), 0)), 1, 0, PLAIN) \
     X(sph_gradient_symmetric(SWEEP, gas(a), a->s[3], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_curl_difference(SWEEP, gas(a), vectors(a, 5), vector_out(a, 0)), 3, 0, THREE) \
     X(sph_cleaning_rates(SWEEP, cleaning(a), cleaning_out(a)), 5, 0, VECTOR) \
-    X(sph_cleaning_rates_nonconservative(SWEEP, cleaning(a), cleaning_out(a)), 5, 0, VECTOR) \
-    X(sph_cleaning_rates_symmetric(SWEEP, cleaning(a), cleaning_out(a)), 5, 0, VECTOR) \
     X(sph_mhd_rates(SWEEP, mhd(a), mhd_out(a)), 11, 0, VECTORS) \
-    X(sph_gravity_direct(SWEEP_ONE, a->s[0], a->number[0], vector_out(a, 0), OUT(3)), 4, 0, THREE) \
-    X(sph_gravity_zeta(SWEEP_ONE, a->s[0], a->s[1], OUT(0)), 1, 0, PLAIN) \
+    X(sph_gravity_direct(SWEEP_ONE, a->s[0], a->number[0], vector_out(a, 0), sph_scalar_out_array(OUT(3), 0)), 4, 0, THREE) \
+    X(sph_gravity_zeta(SWEEP_ONE, a->s[0], a->s[1], sph_scalar_out_array(OUT(0), 0)), 1, 0, PLAIN) \
     X(sph_gravity_correction(SWEEP_ONE, gas(a), a->s[4], a->number[0], vector_out(a, 0)), 3, 0, THREE)
 /* clang-format on */
 
@@ -354,12 +346,12 @@ static void own_density_adaptive(const arguments *a)
 {
     const size_t n = a->cloud.points.n > 0 ? (size_t)a->cloud.points.n : 0;
     sph_density_options options;
-    sph_density_out out;
+    sph_density_out out = {0};
     size_t i;
     sph_index answer;
     for (i = 0; i < n && a->out[0]; i++)
         a->out[0][i] = a->cloud.h.p ? a->cloud.h.p[a->cloud.h.stride ? i * a->cloud.h.stride : 0] : SPH_R(1);
-    options.reach = a->cloud.h, options.eta = SPH_R(1.2), options.tolerance = SPH_R(1e-3);
+    options.list_radius = a->cloud.h, options.eta = SPH_R(1.2), options.tolerance = SPH_R(1e-3);
     out.h = OUT(0), out.rho = OUT(1), out.omega = OUT(2);
     out.status = a->status;
     answer = sph_density_adaptive(SWEEP, a->s[0], options, out);
@@ -378,7 +370,7 @@ static void own_collide(const arguments *a)
     int c, finite = 1;
     for (c = 0; c < 3; c++)
         for (i = 0; i < n && a->out[c]; i++) a->out[c][i] = SPH_R((double)(i % 3) - (double)c);
-    answer = sph_collide_sequential(LIST, collision(a), vector_out(a, 0), &r);
+    answer = sph_collision_sequential(LIST, collision(a), vector_out(a, 0), &r);
     for (c = 0; c < a->dim && c < 3; c++) finite = finite && (!a->out[c] || all_finite(a->out[c], n));
     if (answer >= 0) REQUIRE((finite && isfinite(r.energy) && r.collisions >= 0) || answer > 0);
 }
@@ -396,7 +388,7 @@ static void own_weighted(const arguments *a)
 static void own_separate(const arguments *a)
 {
     int c;
-    if (sph_separate_coincident(LIST, a->number[0], a->number[1], vector_out(a, 0)) < 0) return;
+    if (sph_coincident_separate(LIST, a->number[0], a->number[1], vector_out(a, 0)) < 0) return;
     for (c = 0; c < a->dim; c++)
         REQUIRE(all_finite(a->out[c] + a->cloud.first, (size_t)(a->cloud.last - a->cloud.first)));
 }
@@ -426,8 +418,8 @@ typedef struct own {
     void (*run)(const arguments *);
     description d;
 } own;
-static const own owns[] = {{own_density_adaptive, {"sph_density_adaptive", 0, 0, 0}}, {own_collide, {"sph_collide_sequential", 0, 0, 0}}, {own_weighted, {"sph_collision_change_weighted", 0, 0, 0}},
-                           {own_separate, {"sph_separate_coincident", 0, 0, 0}},      {own_radial, {"sph_radial_distribution", 0, 0, 0}}, {own_sums, {"sph_conserved_sums", 0, 0, 0}},
+static const own owns[] = {{own_density_adaptive, {"sph_density_adaptive", 0, 0, 0}}, {own_collide, {"sph_collision_sequential", 0, 0, 0}}, {own_weighted, {"sph_collision_change_weighted", 0, 0, 0}},
+                           {own_separate, {"sph_coincident_separate", 0, 0, 0}},      {own_radial, {"sph_radial_distribution", 0, 0, 0}}, {own_sums, {"sph_conserved_sums", 0, 0, 0}},
                            {own_growth, {"sph_rows_growth", 0, 0, 0}}};
 enum { OWNS = sizeof owns / sizeof *owns };
 

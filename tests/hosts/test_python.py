@@ -66,6 +66,22 @@ cloud.range(0, n + 1)
 refuses(sph.Error, "the range must obey", cloud.gradient, f)
 cloud.range(0, n)
 
+spoilt = array_of(f)
+spoilt[17] = math.nan
+refuses(sph.Error, "f: a value is not finite, or a parameter is out of range, first at particle 17", cloud.gradient, spoilt)
+cloud.check()
+check("checked", list(cloud.gradient(f)[0]) == list(gx))
+spoilt = array_of(1.4 * dx for _ in range(n))
+spoilt[5] = -1
+unwell = sph.Cloud("w4", [x, y], spoilt, dx * dx)
+unwell.use_lists(cloud.start, cloud.index)
+refuses(sph.Error, "h: h must be finite and positive, first at particle 5", unwell.check)
+check("a status in words", sph.status_text(1) == "too few neighbours inside the support")
+empty = sph.Cloud("m4", [array_of([]), array_of([])], array_of([]), array_of([]))
+empty.find_lists()
+check("an empty cloud", [len(g) for g in empty.gradient(array_of([]))] == [0, 0] and len(empty.density(1.0)) == 0)
+check("its rows", len(empty.rows_msph(1.0)[0]) == 0 and len(empty.derivatives(array_of([]))) == 0)
+
 if sph.numpy:
     numpy = sph.numpy
     whole = numpy.array([x, y, f]).T.copy()  # n rows of 3

@@ -53,12 +53,12 @@ static void test_cloud(int kernel, int dim)
     const double tolerance = BY_PRECISION(1e-11, 2e-3);
     cloud x = cloud_lattice(dim, sides[dim - 1], 1.3, 0.2, 7);
     sph_shim_cloud *const s = (sph_shim_cloud *)(void *)space;
-    const sph_real radius = sph_kernel_support(k) * x.h, least = SPH_R(0.02);
+    const sph_real radius = sph_kernel_support_ratio(k) * x.h, least = SPH_R(0.02);
     const sph_index first = x.n / 4, last = x.n - 1;
     sph_index start[MAX_N + 1], *index = (sph_index *)cloud_memory(MAX_PAIRS, sizeof *index);
-    sph_elliptic_options options = sph_elliptic_defaults();
-    sph_derivative_out out = {0};
-    sph_row_out rows = {0};
+    sph_elliptic_options options = {0};
+    sph_derivatives_out out = {0};
+    sph_rows_out rows = {0};
     sph_list list;
     sph_cloud all, part;
     size_t found;
@@ -79,7 +79,7 @@ static void test_cloud(int kernel, int dim)
     all = sph_cloud_of(cloud_points(&x), list, cloud_h(&x), cloud_V(&x));
     part = sph_cloud_range(all, first, last);
 
-    CHECK(sph_shim_density_summation(s, x.V, 1, a) == sph_density_summation(k, dim, all, cloud_V(&x), b));
+    CHECK(sph_shim_density_summation(s, x.V, 1, a) == sph_density_summation(k, dim, all, cloud_V(&x), sph_scalar_out_array(b, 0)));
     CHECK(same((size_t)x.n, a, b, tolerance));
 
     sph_shim_cloud_range(s, first, last);
@@ -91,14 +91,14 @@ static void test_cloud(int kernel, int dim)
     memset(g, 0, sizeof g);
     CHECK(sph_shim_gradient_cspm(s, x.f, 1, a, c, e, status) ==
           sph_gradient_cspm(k, dim, part, cloud_f(&x),
-                            (sph_derivative_out){.gx = b, .gy = d, .gz = g, .status = status_inline}));
+                            (sph_derivatives_out){.gx = b, .gy = d, .gz = g, .status = status_inline}));
     CHECK(same((size_t)x.n, a, b, tolerance) && memcmp(status, status_inline, (size_t)x.n) == 0);
     if (dim > 1) CHECK(same((size_t)x.n, c, d, tolerance));
     if (dim > 2) CHECK(same((size_t)x.n, e, g, tolerance));
     CHECK(a[0] == 0 && a[last] == 0); /* out of the range: not touched */
 
     CHECK(sph_shim_laplacian_brookshaw(s, x.f, 1, a) ==
-          sph_laplacian_brookshaw(k, dim, part, cloud_f(&x), b));
+          sph_laplacian_brookshaw(k, dim, part, cloud_f(&x), sph_scalar_out_array(b, 0)));
     CHECK(same((size_t)x.n, a, b, tolerance));
 
     /* the components one by one: which stands where */
@@ -116,7 +116,7 @@ static void test_cloud(int kernel, int dim)
         if (dim > 1) out.hxy = component[p++], out.hyy = component[p++];
         if (dim > 2) out.hxz = component[p++], out.hyz = component[p++], out.hzz = component[p++];
         CHECK(p == numbers);
-        CHECK(sph_derivatives_icspm(k, dim, part, cloud_f(&x), least, 1, out) >= 0);
+        CHECK(sph_derivatives_icspm(k, dim, part, cloud_f(&x), (sph_derivatives_options){.conditioning_min = least, .fallback_wls = 1}, out) >= 0);
         for (q = 0; q < numbers; q++) {
             for (i = 0; i < x.n; i++) c[i] = a[i * numbers + q];
             CHECK(same((size_t)x.n, c, component[q], BY_PRECISION(1e-9, 5e-2)));
@@ -134,7 +134,7 @@ static void test_cloud(int kernel, int dim)
     CHECK(same(found, row, other, tolerance) && same((size_t)x.n, c, d, tolerance) && memcmp(status, status_inline, (size_t)x.n) == 0);
     memset(a, 0, sizeof a);
     memset(b, 0, sizeof b);
-    CHECK(sph_shim_rows_apply(s, row, c, x.f, 1, a) == sph_rows_apply(part, row, c, cloud_f(&x), b));
+    CHECK(sph_shim_rows_apply(s, row, c, x.f, 1, a) == sph_rows_apply(part, row, sph_scalars_array(c), cloud_f(&x), sph_scalar_out_array(b, 0)));
     CHECK(same((size_t)x.n, a, b, tolerance));
 
     /* collisions change both copies of the velocities alike */
@@ -147,8 +147,8 @@ static void test_cloud(int kernel, int dim)
             c[i] = d[i] = SPH_R(0.5) - x.y[i];
             e[i] = g[i] = SPH_R(0.5) - x.z[i];
         }
-        CHECK(sph_shim_collide_sequential(s, SPH_R(1.1) * (sph_real)x.dx, &one, 0, SPH_R(0.5), a, c, e, 1) == 0);
-        CHECK(sph_collide_sequential(dim, part, collision, sph_vector_out_separate(b, d, g), 0) == 0);
+        CHECK(sph_shim_collision_sequential(s, SPH_R(1.1) * (sph_real)x.dx, &one, 0, SPH_R(0.5), a, c, e, 1) == 0);
+        CHECK(sph_collision_sequential(dim, part, collision, sph_vector_out_separate(b, d, g), 0) == 0);
         CHECK(same((size_t)x.n, a, b, tolerance));
         CHECK(fabs((double)a[first + 1] - (0.5 - (double)x.x[first + 1])) > 0);
     }
@@ -180,9 +180,38 @@ static void test_refusals(void)
     CHECK(sph_shim_density_summation(s, &h, 0, &w) == SPH_ERROR_NULL); /* no h, no lists yet */
     sph_shim_cloud_volumes(s, &h, 0, &h, 0);
     sph_shim_cloud_lists(s, start, index);
+    {
+        const sph_real bad[] = {1, -1};
+        sph_index particle = 7;
+        sph_shim_cloud_volumes(s, bad, 1, &h, 0);
+        CHECK(sph_shim_cloud_check(s) == SPH_ERROR_H && sph_shim_density_summation(s, &h, 0, &w) == SPH_ERROR_H);
+        CHECK(strcmp(sph_shim_refused(SPH_ERROR_NULL, &particle), "") == 0 && particle == -1); /* another error */
+        CHECK(sph_shim_cloud_check(s) == SPH_ERROR_H);
+        CHECK(strcmp(sph_shim_refused(SPH_ERROR_H, &particle), "h") == 0 && particle == 1);
+        CHECK(strcmp(sph_shim_refused(SPH_ERROR_H, 0), "") == 0); /* told once */
+        sph_shim_cloud_volumes(s, &h, 0, &h, 0);
+        CHECK(sph_shim_cloud_check(s) == 0);
+    }
     sph_shim_cloud_range(s, 0, 3);
     CHECK(sph_shim_density_summation(s, &h, 0, &w) == SPH_ERROR_RANGE && w == SPH_R(1));
     CHECK(sph_shim_derivatives_icspm(s, &h, 0, 0, 0, 0, 0) == SPH_ERROR_NULL && sph_shim_grid_lists(s, SPH_GATHER, 0, 0, 0, 0, 0, 0, 0, 0) == SPH_ERROR_NULL);
+}
+
+/* without particles all arrays may be null */
+static void test_empty(void)
+{
+    sph_shim_cloud *const s = (sph_shim_cloud *)(void *)space;
+    sph_index start[1] = {3};
+    int64_t pairs = 3;
+    CHECK(sph_shim_cloud_init(s, SPH_WENDLAND_C2, 2, 0, 0, 0, 0, 1) == 0);
+    sph_shim_cloud_volumes(s, 0, 1, 0, 1);
+    CHECK(sph_shim_grid_lists(s, SPH_GATHER, 0, 1, 0, 0, start, 0, 0, &pairs) == 0 && start[0] == 0 && pairs == 0);
+    sph_shim_cloud_lists(s, start, 0);
+    CHECK(sph_shim_cloud_check(s) == 0 && sph_shim_density_summation(s, 0, 1, 0) == 0);
+    CHECK(sph_shim_gradient_cspm(s, 0, 1, 0, 0, 0, 0) == 0 && sph_shim_laplacian_brookshaw(s, 0, 1, 0) == 0);
+    CHECK(sph_shim_derivatives_icspm(s, 0, 1, 0, 0, 0, 0) == 0);
+    CHECK(sph_shim_elliptic_rows_msph(s, 0, 1, 0, 0, 0, 0) == 0 && sph_shim_rows_apply(s, 0, 0, 0, 1, 0) == 0);
+    CHECK(sph_shim_collision_sequential(s, 1, 0, 1, 1, 0, 0, 0, 1) == 0);
 }
 
 int main(int argc, char **argv)
@@ -192,5 +221,6 @@ int main(int argc, char **argv)
     for (k = 0; k < (int)SPH_KERNEL_COUNT; k++)
         for (dim = 1; dim <= 3; dim++) test_cloud(k, dim);
     test_refusals();
+    test_empty();
     return check_report("test_shim");
 }

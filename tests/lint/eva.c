@@ -63,7 +63,7 @@ static void names(void)
         sph_kernel_name(kernel);
         sph_kernel_has_cusp(kernel);
         sph_kernel_h_over_dx(kernel);
-        sph_kernel_support_from_h(kernel, between(narrowest, widest));
+        sph_kernel_support(kernel, between(narrowest, widest));
         if (k < SPH_KERNEL_COUNT) {
             sph_kernel_h_from_support(kernel, between(narrowest, widest));
             sph_kernel_may_convexify(kernel, Frama_C_interval(1, 3));

@@ -8,7 +8,7 @@ enum { N = 41 };
 int main(void)
 {
     double x[N], rho[N];
-    const double h = 0.15, m = 0.1, radius = sph_kernel_support(SPH_WENDLAND_C4_1D) * h;
+    const double h = 0.15, m = 0.1, radius = sph_kernel_support_ratio(SPH_WENDLAND_C4_1D) * h;
     static char work[20000];
     sph_index start[N + 1], index[8 * N];
     int64_t pairs;
@@ -21,9 +21,9 @@ int main(void)
         const sph_list list = {start, index};
         const sph_cloud all = sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_none());
         if (sizeof work < sph_grid_workspace(1, N) || sph_grid_build(1, points, radius, work, sizeof work, &grid) ||
-            sph_grid_lists(1, &grid, points, SPH_GATHER, R, R, 0, start, index, 8 * N, &pairs))
+            sph_grid_lists(1, &grid, sph_query_of(points, SPH_GATHER, R, 0), start, index, 8 * N, &pairs))
             return 1;
-        if (sph_density_summation(SPH_WENDLAND_C4_1D, 1, all, sph_scalars_same(&m), rho)) return 1;
+        if (sph_density_summation(SPH_WENDLAND_C4_1D, 1, all, sph_scalars_same(&m), sph_scalar_out_array(rho, 0))) return 1;
     }
     printf("sph.h %d.%d.%d: density %.4f\n", SPH_VERSION_MAJOR, SPH_VERSION_MINOR, SPH_VERSION_PATCH, rho[N / 2]);
     return rho[N / 2] < 0.99 || rho[N / 2] > 1.01;
