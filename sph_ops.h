@@ -38,8 +38,8 @@
  *   Nothing is a valid number: without targets every sweep answers 0 and looks at no array.
  *
  *   Lists must hold every source with r < support (more do no harm), and not the particle itself. h is that
- *   of the target, h_i, unless the operator says otherwise. volume is m / rho (an area in 2D, a length in 1D).
- *   Outputs must not overlap inputs.
+ *   of the target, h_i, unless the operator says otherwise. volume is m / rho (an area in 2D, a length in
+ *   1D). Outputs must not overlap inputs.
  *
  *   sph_points_periodic(points, lx, ly, lz) makes points periodic: every pair vector is then the one to the
  *   nearest image; positions need not be wrapped.
@@ -52,9 +52,10 @@
  *
  * ANSWERS of sweeps: how many targets are not ok (0: all well), or a negative sph_error, and then nothing was
  *   written. `status` says more about each target. Outputs of a target that is SPH_TOO_FEW, SPH_SINGULAR,
- *   SPH_NOT_AVAILABLE or SPH_NOT_FINITE are 0, never a NaN (where there are several outputs, those that are not
- *   finite; h of sph_density_adaptive, which is input and output, stays positive). SPH_REFUSED tells which argument was at fault. With SPH_CHECK = 1 a sweep first
- *   scans all that it reads: positions, h, lists, values. sph_cloud_checked does that once for a cloud.
+ *   SPH_NOT_AVAILABLE or SPH_NOT_FINITE are 0, never a NaN (of several outputs, those that are not finite; h of
+ *   sph_density_adaptive, which is input and output, stays positive). SPH_REFUSED tells which argument was at
+ *   fault. With SPH_CHECK = 1 a sweep first scans all that it reads: positions, h, lists, values.
+ *   sph_cloud_checked does that once for a cloud.
  *
  * INDEX   (k: kernel, dim: dimension; a name alone: a pair function, or a sibling of the one above)
  *   vectors        sph_dot  sph_scale  sph_subtract  sph_length
@@ -191,18 +192,22 @@
 #endif
 /* clang-format on */
 
-/* ================================================================ vectors */
+/* ================================================================ vectors
+ *
+ * Vectors and symmetric tensors are passed by value. The functions use their first dim components.
+ */
 
 typedef struct sph_vec {
     sph_real x, y, z; /* components beyond dim are 0 */
     SPHI_TCC_PAD
 } sph_vec;
 
-/* a symmetric tensor */
+/* A symmetric tensor. Components beyond dim are not read. */
 typedef struct sph_sym {
     sph_real xx, xy, yy, xz, yz, zz;
 } sph_sym;
 
+/* a . b, the sum over dim components. */
 SPH_FN sph_real sph_dot(int dim, sph_vec a, sph_vec b)
 {
     sph_real s = a.x * b.x;
@@ -210,6 +215,7 @@ SPH_FN sph_real sph_dot(int dim, sph_vec a, sph_vec b)
     if (dim > 2) s += a.z * b.z;
     return s;
 }
+/* a v, all three components. */
 SPH_FN sph_vec sph_scale(sph_real a, sph_vec v)
 {
     v.x *= a;
@@ -217,6 +223,7 @@ SPH_FN sph_vec sph_scale(sph_real a, sph_vec v)
     v.z *= a;
     return v;
 }
+/* a - b. Components beyond dim are those of a. */
 SPH_FN sph_vec sph_subtract(int dim, sph_vec a, sph_vec b)
 {
     a.x -= b.x;
@@ -224,8 +231,10 @@ SPH_FN sph_vec sph_subtract(int dim, sph_vec a, sph_vec b)
     if (dim > 2) a.z -= b.z;
     return a;
 }
+/* |v| = sqrt(v . v), over dim components. */
 SPH_FN sph_real sph_length(int dim, sph_vec v) { return SPHI_SQRT(sph_dot(dim, v, v)); }
 
+/* The product s v of a tensor and a vector. Components beyond dim are 0. */
 SPH_FN sph_vec sphi_sym_times(int dim, sph_sym s, sph_vec v)
 {
     sph_vec u;
@@ -243,24 +252,34 @@ SPH_FN sph_vec sphi_sym_times(int dim, sph_sym s, sph_vec v)
     return u;
 }
 
-/* ================================================================ views and clouds */
+/* ================================================================ views and clouds
+ *
+ * A view says where numbers of the caller are: pointers and a stride, which counts sph_real. It copies
+ * nothing and owns nothing. A cloud combines the views that say who interacts: positions, neighbour lists,
+ * smoothing lengths and volumes.
+ */
 
+/* Positions: the coordinates of particle i are x[i * stride], y[i * stride] and z[i * stride]. */
 typedef struct sph_points {
-    const SPH_GLOBAL sph_real *x, *y, *z; /* y, z are not read below dim 2, 3 */
-    size_t stride;                        /* from one particle to the next, in sph_real */
-    sph_index n;                          /* number of particles, all sources */
-    sph_vec box; /* periodic lengths of the axes; 0: open. Those beyond dim are not read */
+    const SPH_GLOBAL sph_real *x, *y, *z; /* y is read in 2D and 3D only, z in 3D only */
+    size_t stride;                        /* from one particle to the next, in sph_real; at least 1 */
+    sph_index n;                          /* number of particles; all of them are sources */
+    sph_vec box;                          /* periodic lengths of the first dim axes; 0: the axis is open */
 } sph_points;
 
+/* One number for each particle: that of particle i is p[i * stride]. */
 typedef struct sph_scalars {
     const SPH_GLOBAL sph_real *p;
     size_t stride; /* 0: one value for all */
 } sph_scalars;
 
+/* Neighbour lists in CSR form: the neighbours of target i are index[start[i]] ... index[start[i + 1] - 1]. */
 typedef struct sph_list {
     const SPH_GLOBAL sph_index *start, *index;
 } sph_list;
 
+/* Points whose coordinates are `stride` numbers apart, as in an array of structs. Every axis is open. y and z
+   may be null where the dimension does not need them. */
 SPH_FN sph_points sph_points_strided(sph_index n, const SPH_GLOBAL sph_real *x, const SPH_GLOBAL sph_real *y,
                                      const SPH_GLOBAL sph_real *z, size_t stride)
 {
@@ -273,21 +292,23 @@ SPH_FN sph_points sph_points_strided(sph_index n, const SPH_GLOBAL sph_real *x, 
     p.box.x = p.box.y = p.box.z = SPH_R(0);
     return p;
 }
+/* Points in separate arrays x[], y[], z[]. */
 SPH_FN sph_points sph_points_separate(sph_index n, const SPH_GLOBAL sph_real *x, const SPH_GLOBAL sph_real *y,
                                       const SPH_GLOBAL sph_real *z)
 {
     return sph_points_strided(n, x, y, z, 1);
 }
-/* xyzxyz... (dim numbers per particle) */
+/* Points in one array xyzxyz..., which has dim numbers for each particle. */
 SPH_FN sph_points sph_points_interleaved(sph_index n, int dim, const SPH_GLOBAL sph_real *xyz)
 {
     return sph_points_strided(n, xyz, dim > 1 && xyz ? xyz + 1 : xyz, dim > 2 && xyz ? xyz + 2 : xyz,
                               (size_t)(dim > 0 ? dim : 0));
 }
-/* The same points in a box that repeats with the lengths lx, ly, lz; 0 leaves an axis open. Every operator
-   then takes the nearest image of each neighbour (BIM, which has ends, excepted). Positions need not be
-   wrapped: they may lie up to a million (2^20) lengths from the origin, and lose that many digits there.
-   Supports must not reach beyond half a length. */
+/* The same points in a box that repeats with the lengths lx, ly, lz; a length of 0 leaves its axis open.
+   Every operator then uses the nearest image of each neighbour. There are two exceptions: BIM needs ends and
+   refuses a periodic axis, and sph_gravity_direct does not use the box. Positions need not be wrapped. They
+   may lie up to a million (2^20) lengths from the origin, but they lose as many digits there: 20 bits, or six
+   decimal digits. Supports must not reach beyond half a length. */
 SPH_FN sph_points sph_points_periodic(sph_points p, sph_real lx, sph_real ly, sph_real lz)
 {
     p.box.x = lx;
@@ -295,6 +316,7 @@ SPH_FN sph_points sph_points_periodic(sph_points p, sph_real lx, sph_real ly, sp
     p.box.z = lz;
     return p;
 }
+/* Numbers that are `stride` numbers apart: p[0], p[stride], p[2 * stride], ... */
 SPH_FN sph_scalars sph_scalars_strided(const SPH_GLOBAL sph_real *p, size_t stride)
 {
     sph_scalars s;
@@ -302,20 +324,23 @@ SPH_FN sph_scalars sph_scalars_strided(const SPH_GLOBAL sph_real *p, size_t stri
     s.stride = stride;
     return s;
 }
+/* A contiguous array. */
 SPH_FN sph_scalars sph_scalars_array(const SPH_GLOBAL sph_real *p) { return sph_scalars_strided(p, 1); }
+/* The number *value for all particles. */
 SPH_FN sph_scalars sph_scalars_same(const SPH_GLOBAL sph_real *value)
 {
     return sph_scalars_strided(value, 0);
 }
-SPH_FN sph_scalars sph_scalars_none(void) { return sph_scalars_strided(0, 0); } /* what is not there */
+/* Nothing: for values that the caller does not have, or that a sweep does not need. */
+SPH_FN sph_scalars sph_scalars_none(void) { return sph_scalars_strided(0, 0); }
 
-/* One vector per particle: three component arrays, of which dim are read (or written) */
+/* One vector for each particle. Only the first dim components are read. */
 typedef struct sph_vectors {
     sph_scalars x, y, z;
 } sph_vectors;
-/* Where results go: separate arrays or members of structs, `stride` sph_real apart (0 counts as 1). A null
-   pointer is
-   not wanted, where that makes sense. status: an sph_status of each target, contiguous. */
+/* Where results go: separate arrays, or members of structs that are `stride` numbers apart. A stride of 0
+   counts as 1. Where that makes sense, a null pointer says that a result is not wanted. status holds an
+   sph_status for each target, and is contiguous. */
 typedef struct sph_vector_out {
     SPH_GLOBAL sph_real *x, *y, *z;
     size_t stride;
@@ -325,6 +350,7 @@ typedef struct sph_scalar_out {
     size_t stride;
     SPH_GLOBAL unsigned char *status;
 } sph_scalar_out;
+/* Vectors in separate arrays x[], y[], z[]. */
 SPH_FN sph_vectors sph_vectors_separate(const SPH_GLOBAL sph_real *x, const SPH_GLOBAL sph_real *y,
                                         const SPH_GLOBAL sph_real *z)
 {
@@ -334,6 +360,7 @@ SPH_FN sph_vectors sph_vectors_separate(const SPH_GLOBAL sph_real *x, const SPH_
     v.z = sph_scalars_array(z);
     return v;
 }
+/* Vectors go to x[i * stride], y[i * stride], z[i * stride]. Only the first dim components are written. */
 SPH_FN sph_vector_out sph_vector_out_strided(SPH_GLOBAL sph_real *x, SPH_GLOBAL sph_real *y,
                                              SPH_GLOBAL sph_real *z, size_t stride)
 {
@@ -344,11 +371,13 @@ SPH_FN sph_vector_out sph_vector_out_strided(SPH_GLOBAL sph_real *x, SPH_GLOBAL 
     v.stride = stride;
     return v;
 }
+/* Vectors go to separate arrays x[], y[], z[]. */
 SPH_FN sph_vector_out sph_vector_out_separate(SPH_GLOBAL sph_real *x, SPH_GLOBAL sph_real *y,
                                               SPH_GLOBAL sph_real *z)
 {
     return sph_vector_out_strided(x, y, z, 1);
 }
+/* Numbers go to p[i * stride], and their status to status[i]. status may be null. */
 SPH_FN sph_scalar_out sph_scalar_out_strided(SPH_GLOBAL sph_real *p, size_t stride,
                                              SPH_GLOBAL unsigned char *status)
 {
@@ -358,27 +387,27 @@ SPH_FN sph_scalar_out sph_scalar_out_strided(SPH_GLOBAL sph_real *p, size_t stri
     s.status = status;
     return s;
 }
-/* status may be null */
+/* Numbers go to a contiguous array. status may be null. */
 SPH_FN sph_scalar_out sph_scalar_out_array(SPH_GLOBAL sph_real *p, SPH_GLOBAL unsigned char *status)
 {
     return sph_scalar_out_strided(p, 1, status);
 }
 
-/* Who interacts: sources with their volumes (m / rho; an area in 2D, a length in 1D), the targets first ...
-   last - 1 among them, the smoothing length of each and its neighbours. It travels by value, as one argument,
-   and owns nothing. */
+/* Who interacts: the sources with their volumes m / rho (areas in 2D, lengths in 1D), the targets first ...
+   last - 1 among them, and the smoothing length and the neighbours of each target. A cloud is passed by
+   value, as one argument, and owns nothing. */
 typedef struct sph_cloud {
     sph_points points;
     sph_list list;
     sph_scalars h, volume;
     sph_index first, last;
-    /* 0: every sweep scans what it reads; 1: sph_cloud_checked has done so, and the largest h; negative: it
-       found this sph_error, which every sweep then answers */
+    /* 0: every sweep scans what it reads. 1: sph_cloud_checked has scanned the cloud, and set largest_h.
+       Negative: sph_cloud_checked found this sph_error, and every sweep answers it. */
     int checked;
     sph_real largest_h;
 } sph_cloud;
-/* All particles as targets. What a sweep does not need may be left out with sph_scalars_none(): volumes where
-   it takes masses, h where there is no kernel. */
+/* A cloud whose targets are all particles. What a sweep does not need may be left out with
+   sph_scalars_none(): volumes where it takes masses, h where it has no kernel. */
 SPH_FN sph_cloud sph_cloud_of(sph_points points, sph_list list, sph_scalars h, sph_scalars volume)
 {
     sph_cloud c;
@@ -392,8 +421,9 @@ SPH_FN sph_cloud sph_cloud_of(sph_points points, sph_list list, sph_scalars h, s
     c.largest_h = SPH_R(0);
     return c;
 }
-/* The same cloud with the targets first ... last - 1 only: for a host's threads, and for ghosts, which are
-   sources alone. Targets that were not checked before have to be checked again. */
+/* The same cloud with the targets first ... last - 1 only. Threads of a host share the targets in this way,
+   and ghosts are left out, which are sources but not targets. A range that has targets which were not checked
+   loses the mark of sph_cloud_checked. */
 SPH_FN sph_cloud sph_cloud_range(sph_cloud cloud, sph_index first, sph_index last)
 {
     if (cloud.checked == 1 && (first < cloud.first || last > cloud.last)) cloud.checked = 0;
@@ -402,30 +432,35 @@ SPH_FN sph_cloud sph_cloud_range(sph_cloud cloud, sph_index first, sph_index las
     return cloud;
 }
 
-/* Where the derivatives go. */
+/* Where derivatives go: the gradient (gx, gy, gz), the Hessian (hxx ... hzz), its trace (laplacian), and the
+   conditioning of the system (1 good, 0 singular). What is null is not wanted; components beyond dim are not
+   written. */
 typedef struct sph_derivatives_out {
     SPH_GLOBAL sph_real *gx, *gy, *gz, *hxx, *hxy, *hyy, *hxz, *hyz, *hzz, *laplacian, *conditioning;
     size_t stride;
     SPH_GLOBAL unsigned char *status; /* sph_status, contiguous */
 } sph_derivatives_out;
 
-/* Where stencil rows go: D f_i * factor[i] = diagonal[i] f_i + sum_p row[p] f_index[p], p from start[i] to
-   start[i + 1] - 1; diagonal = -sum row. All but row may be null. The stride is that of the others, which
-   have one number a target. */
+/* Where rows go. The row of target i has one weight for each entry p = start[i] ... start[i + 1] - 1 of its
+   list, so that for an operator D
+       factor[i] D f_i = diagonal[i] f_i + sum_p row[p] f_index[p],   diagonal[i] = -sum_p row[p].
+   All pointers but row may be null. The stride is that of diagonal, factor and conditioning, which have one
+   number for each target; row is contiguous. */
 typedef struct sph_rows_out {
     SPH_GLOBAL sph_real *row, *diagonal, *factor, *conditioning;
     size_t stride;
     SPH_GLOBAL unsigned char *status;
 } sph_rows_out;
 
-/* Where the rows of a gradient go: one weight a pair and component; conditioning and status may be null. The
-   stride is that of conditioning. */
+/* Where the rows of a gradient go: one weight for each entry of the list and each component, contiguous.
+   conditioning and status may be null. The stride is that of conditioning. */
 typedef struct sph_gradient_rows_out {
     SPH_GLOBAL sph_real *x, *y, *z, *conditioning;
     size_t stride;
     SPH_GLOBAL unsigned char *status;
 } sph_gradient_rows_out;
 
+/* The number, and the position, of particle i. */
 SPH_FN sph_real sphi_at(sph_scalars a, sph_index i) { return a.p[(size_t)i * a.stride]; }
 SPH_FN sph_vec sphi_point(int dim, sph_points p, sph_index i)
 {
@@ -436,11 +471,11 @@ SPH_FN sph_vec sphi_point(int dim, sph_points p, sph_index i)
     v.z = dim > 2 ? p.z[o] : SPH_R(0);
     return v;
 }
-/* d less the nearest multiple of the length, which is 0 for an open axis. Written for loops that must
-   vectorise with SSE2: the rounding is a conversion to int and back (rint and floor are library calls there,
-   and -ffast-math deletes the trick of adding and subtracting 2^52), and an open axis is masked out instead
-   of branched around. The mask also makes a length that is known to be 0 fold away: an int and with 0 is 0 by
-   any rule, a product of reals is not. */
+/* d minus the nearest multiple of the length, which is 0 for an open axis. Loops with this function must
+   vectorise with SSE2. So it rounds by a conversion to int and back: rint and floor are library calls there,
+   and -ffast-math deletes the trick of adding and subtracting 2^52. It masks an open axis out, and has no
+   branch. The mask also lets the compiler remove the code where the length is known to be 0: an int & 0 is 0
+   by any rule, but a product of a real with 0 is not. */
 SPH_FN sph_real sphi_nearest_image(sph_real d, sph_real length)
 {
     const sphi_int32 periodic = length > SPH_R(0);
@@ -448,8 +483,8 @@ SPH_FN sph_real sphi_nearest_image(sph_real d, sph_real length)
     const sphi_int32 images = (sphi_int32)(t + SPHI_COPYSIGN(SPH_R(0.5), t)) & -periodic;
     return d - length * (sph_real)images;
 }
-/* a - b, the vector from b to a: between the nearest images if p is periodic. All operators form their pair
-   vectors here. */
+/* a - b, the vector from b to a; on periodic axes the one between the nearest images. All operators that use
+   the box form their pair vectors here. */
 SPH_FN sph_vec sphi_separation(int dim, sph_points p, sph_vec a, sph_vec b)
 {
     sph_vec d = sph_subtract(dim, a, b);
@@ -458,9 +493,14 @@ SPH_FN sph_vec sphi_separation(int dim, sph_points p, sph_vec a, sph_vec b)
     if (dim > 2) d.z = sphi_nearest_image(d.z, p.box.z);
     return d;
 }
-/* ================================================================ checks */
+/* ================================================================ checks
+ *
+ * A sweep checks its arguments before it writes anything. With SPH_CHECK = 1 it also scans the numbers in the
+ * arrays that it reads. A check or scan returns 0 or a negative sph_error. A result that is not finite is
+ * never stored: 0 is stored in its place.
+ */
 
-/* By the bits, because -ffast-math compiles comparisons with NaN away. */
+/* 1 if x is finite. It looks at the bits, because -ffast-math removes comparisons with NaN. */
 SPH_FN int sphi_finite(sph_real x)
 {
 #if SPH_OPENCL
@@ -481,15 +521,17 @@ SPH_FN int sphi_finite(sph_real x)
     return (v.u & 0x7ff0000000000000u) != 0x7ff0000000000000u;
 #endif
 }
-/* Stores a value, or 0 if it is not finite; returns 1 then. A null pointer is not wanted. */
+/* Stores a value, or 0 if it is not finite; it returns 1 then. With a null pointer it stores nothing, and
+   returns 0. */
 SPH_FN int sphi_put(SPH_GLOBAL sph_real *p, size_t stride, sph_index i, sph_real value)
 {
     const int ok = sphi_finite(value);
     if (p) p[(size_t)i * stride] = ok ? value : SPH_R(0);
     return p && !ok;
 }
+/* A stride of 0 counts as 1. */
 SPH_FN size_t sphi_stride(size_t given) { return given ? given : 1; }
-/* Stores a vector, or 0 if a component overflowed; returns 1 then. */
+/* Stores a vector, or 0 if a component overflowed; it returns 1 then. */
 SPH_FN int sphi_store_vector(int dim, sph_vector_out out, sph_index i, sph_vec a)
 {
     const size_t at = (size_t)i * sphi_stride(out.stride);
@@ -499,37 +541,40 @@ SPH_FN int sphi_store_vector(int dim, sph_vector_out out, sph_index i, sph_vec a
     if (dim > 2) out.z[at] = lost ? SPH_R(0) : a.z;
     return lost;
 }
-/* What a target got: the value, or 0 without one, and why. Returns 1 if it is not ok. */
+/* Stores the value of a target (the caller passes 0 where there is none) and its status. Returns 1 if the
+   status is not SPH_OK. */
 SPH_FN int sphi_answer(sph_scalar_out out, sph_index i, sph_real value, int state)
 {
     out.p[(size_t)i * sphi_stride(out.stride)] = value;
     if (out.status) out.status[i] = (unsigned char)state;
     return state != SPH_OK;
 }
+/* Stores the status of a target: SPH_NOT_FINITE if a result was lost, else SPH_OK. */
 SPH_FN void sphi_tell(SPH_GLOBAL unsigned char *status, sph_index i, int lost)
 {
     if (status) status[i] = (unsigned char)(lost ? SPH_NOT_FINITE : SPH_OK);
 }
-/* The same for a value that always exists, but may overflow. */
+/* sphi_answer for a value that always exists, but may overflow. */
 SPH_FN int sphi_store(sph_scalar_out out, sph_index i, sph_real value)
 {
     const int ok = sphi_finite(value);
     return sphi_answer(out, i, ok ? value : SPH_R(0), ok ? (int)SPH_OK : (int)SPH_NOT_FINITE);
 }
-/* The same for the entries first ... last - 1 of a row: all 0 if one overflowed, or their sum, the diagonal.
-   */
+/* Sets the entries first ... last - 1 of a row to 0 if one of them, or their sum (the diagonal), overflowed.
+   It returns 1 then. */
 SPH_FN int sphi_row_finite(SPH_GLOBAL sph_real *row, sph_index first, sph_index last)
 {
     sph_real sum = SPH_R(0);
     sph_index p;
     int lost;
-    for (p = first; p < last; p++) sum += row[p]; /* not finite if one of them is not */
+    for (p = first; p < last; p++) sum += row[p]; /* the sum is not finite if an entry is not */
     lost = !sphi_finite(sum);
     if (lost)
         for (p = first; p < last; p++) row[p] = SPH_R(0);
     return lost;
 }
-/* What goes with the row of a target; with_diagonal: what the row lacks to the sum 0. */
+/* Stores what belongs to the row of a target: the factor 1, the conditioning, the status, and the diagonal
+   -sum_p row[p] if with_diagonal is 1. */
 SPH_FN void sphi_row_answer(sph_rows_out out, sph_list list, sph_index i, int with_diagonal,
                             sph_real conditioning, int state)
 {
@@ -545,7 +590,8 @@ SPH_FN void sphi_row_answer(sph_rows_out out, sph_list list, sph_index i, int wi
     if (out.status) out.status[i] = (unsigned char)state;
 }
 
-/* What a sweep refuses: the name of an argument, and the first particle at fault, or -1. */
+/* Calls SPH_REFUSED with the name of an argument, the first particle at fault (-1: no particle) and the
+   error, and returns the error. */
 SPH_FN int sphi_refuse(SPHI_TEXT *argument, sph_index particle, int error)
 {
     (void)argument;
@@ -553,11 +599,13 @@ SPH_FN int sphi_refuse(SPHI_TEXT *argument, sph_index particle, int error)
     SPH_REFUSED(argument, particle, error);
     return error;
 }
-/* Checks return 0, a negative sph_error, or this: there are no targets, so nothing else is looked at. */
+/* Checks that know the targets may also return this: there are none, so that nothing else is looked at. */
 enum { SPHI_NO_TARGETS = 1 };
+/* What a sweep returns if a check returned this: the sph_error, or 0 if there are no targets. */
 SPH_FN int sphi_answer_of(int error) { return error < 0 ? error : 0; }
 
-/* Scans, in two passes, because the first vectorises: is there a fault, and where? */
+/* Scans of arrays: the values must be finite, positive, or not negative. They make two passes: the first asks
+   whether there is a fault, and vectorises; the second finds the place. */
 SPHI_LARGE int sphi_scan_finite(SPHI_TEXT *name, sph_scalars a, sph_index n, int error)
 {
     const sph_index count = a.stride ? n : 1;
@@ -588,7 +636,7 @@ SPHI_LARGE int sphi_scan_not_negative(SPHI_TEXT *name, sph_scalars a, sph_index 
     for (i = 0; !(sphi_at(a, i) < SPH_R(0));) i++;
     return sphi_refuse(name, i, SPH_ERROR_VALUE);
 }
-/* Smoothing lengths or radii; *largest grows to the largest. */
+/* Smoothing lengths or radii must be finite and positive. *largest is raised to the largest of them. */
 SPHI_LARGE int sphi_scan_h(SPHI_TEXT *name, sph_scalars h, sph_index n, sph_real *largest)
 {
     const sph_index count = h.stride ? n : 1;
@@ -600,7 +648,7 @@ SPHI_LARGE int sphi_scan_h(SPHI_TEXT *name, sph_scalars h, sph_index n, sph_real
     }
     return 0;
 }
-/* Coordinates: finite, and so is the difference of any two. */
+/* Coordinates must be finite, and so must the difference of any two. */
 SPHI_LARGE int sphi_scan_places(SPHI_TEXT *name, const SPH_GLOBAL sph_real *x, size_t stride, sph_index n)
 {
     sph_index i;
@@ -610,7 +658,8 @@ SPHI_LARGE int sphi_scan_places(SPHI_TEXT *name, const SPH_GLOBAL sph_real *x, s
     for (i = 0; sphi_finite(SPH_R(2) * x[(size_t)i * stride]);) i++;
     return sphi_refuse(name, i, SPH_ERROR_POSITION);
 }
-/* Coordinates on a periodic axis: the images can be counted in 32 bits. */
+/* Coordinates on a periodic axis must be so small that the images can be counted in 32 bits: at most 2^20
+   lengths. */
 SPHI_LARGE int sphi_scan_images(sph_real length, const SPH_GLOBAL sph_real *x, size_t stride, sph_index n)
 {
     const sph_real furthest = SPH_R(1048576) * length;
@@ -621,7 +670,8 @@ SPHI_LARGE int sphi_scan_images(sph_real length, const SPH_GLOBAL sph_real *x, s
     for (i = 0; SPHI_ABS(x[(size_t)i * stride]) <= furthest;) i++;
     return sphi_refuse("points", i, SPH_ERROR_BOX);
 }
-/* The rows first ... last - 1 of a list of n sources, which the targets are themselves unless foreign. */
+/* The lists of the targets first ... last - 1 must be in order, with entries 0 ... n - 1. If foreign is 0,
+   the targets are themselves among these n sources, and none may be in its own list. */
 SPHI_LARGE int sphi_scan_entries(sph_index first, sph_index last, sph_list list, sph_index n, int foreign)
 {
     sph_index i, p;
@@ -644,16 +694,16 @@ SPHI_LARGE int sphi_scan_entries(sph_index first, sph_index last, sph_list list,
     return SPH_ERROR_LIST;
 }
 
-/* One axis: the length, that no radius (support * h) of the largest h reaches beyond half of it, and that the
-   images of positions can be counted in 32 bits (unless a scan has found that). */
+/* Checks an axis of the box. Its length must not be negative, the largest support must not reach beyond half
+   of it, and the images of positions must be countable in 32 bits (unless a scan has found that before). */
 SPH_FN int sphi_check_axis(sph_real length, sph_real largest, const SPH_GLOBAL sph_real *x, size_t stride,
                            sph_index n, int scanned)
 {
     if (!sphi_finite(length) || length < SPH_R(0)) return sphi_refuse("box", -1, SPH_ERROR_BOX);
     if (!(length > SPH_R(0))) return 0;
-    /* a denormal number */
+    /* The inverse of a denormal length overflows. */
     if (!sphi_finite(SPH_R(1) / length)) return sphi_refuse("box", -1, SPH_ERROR_BOX);
-    /* with room for rounding: a host may have computed h from half the box */
+    /* There is room for rounding, because a host may have computed h from half the box. */
     if (!(largest <= SPH_R(0.5) * length * (SPH_R(1) + SPH_R(4) * SPH_EPSILON)))
         return sphi_refuse("box", -1, SPH_ERROR_BOX);
     return SPH_CHECK && !scanned ? sphi_scan_images(length, x, stride, n) : 0;
@@ -666,13 +716,14 @@ SPH_FN int sphi_check_box(int dim, sph_points x, sph_real largest, int scanned)
     return error;
 }
 
-/* The arrays of positions, of points that there are. */
+/* The arrays of positions must be there, with a stride of at least 1. */
 SPH_FN int sphi_check_arrays(int dim, sph_points x)
 {
     if (!x.x || (dim > 1 && !x.y) || (dim > 2 && !x.z)) return sphi_refuse("points", -1, SPH_ERROR_NULL);
     return x.stride < 1 ? sphi_refuse("points.stride", -1, SPH_ERROR_COUNT) : 0;
 }
-/* Which targets: what all sweeps over clouds share. */
+/* What all sweeps over clouds check: the dimension, the mark of sph_cloud_checked, and the range of targets.
+   Returns SPHI_NO_TARGETS if the range is empty. */
 SPH_FN int sphi_check_targets(int dim, sph_cloud cloud)
 {
     if (dim < 1 || dim > 3) return sphi_refuse("dim", -1, SPH_ERROR_DIM);
@@ -682,6 +733,7 @@ SPH_FN int sphi_check_targets(int dim, sph_cloud cloud)
         return sphi_refuse("first, last", -1, SPH_ERROR_RANGE);
     return cloud.first == cloud.last ? SPHI_NO_TARGETS : 0;
 }
+/* The same, and the arrays of positions and lists must be there. */
 SPH_FN int sphi_check_frame(int dim, sph_cloud cloud)
 {
     int error = sphi_check_targets(dim, cloud);
@@ -695,8 +747,8 @@ SPH_FN int sphi_check_positions(int dim, sph_points x)
     if (SPH_CHECK && !error && dim > 2) error = sphi_scan_places("z", x.z, x.stride, x.n);
     return error;
 }
-/* The rows first ... last - 1 of a list of n sources, which the targets are themselves unless foreign.
-   Without SPH_CHECK their ends alone. */
+/* The lists of the targets first ... last - 1, as for sphi_scan_entries. Without SPH_CHECK only the two ends
+   of the range are looked at. */
 SPH_FN int sphi_check_entries(sph_index first, sph_index last, sph_list list, sph_index n, int foreign)
 {
     if (first == last) return 0;
@@ -705,7 +757,7 @@ SPH_FN int sphi_check_entries(sph_index first, sph_index last, sph_list list, sp
     if (list.start[last] > list.start[first] && !list.index) return sphi_refuse("list", -1, SPH_ERROR_NULL);
     return SPH_CHECK ? sphi_scan_entries(first, last, list, n, foreign) : 0;
 }
-/* The positions, the box for sums that reach as far as `largest`, and the rows of the targets. */
+/* The positions, the box for sums that reach as far as `largest`, and the lists of the targets. */
 SPH_FN int sphi_check_scan(int dim, sph_cloud cloud, sph_real largest)
 {
     const int scanned = cloud.checked == 1;
@@ -714,7 +766,7 @@ SPH_FN int sphi_check_scan(int dim, sph_cloud cloud, sph_real largest)
     if (error || scanned) return error;
     return sphi_check_entries(cloud.first, cloud.last, cloud.list, cloud.points.n, 0);
 }
-/* Sweeps without a kernel: lists that reach as far as `distance`. */
+/* For sweeps without a kernel, whose lists reach as far as `distance`. */
 SPH_FN int sphi_check_list(int dim, sph_cloud cloud, sph_real distance)
 {
     const int error = sphi_check_frame(dim, cloud);
@@ -724,7 +776,7 @@ SPH_FN int sphi_check_h(SPHI_TEXT *name, sph_scalars h, sph_index n, sph_real *l
 {
     return SPH_CHECK ? sphi_scan_h(name, h, n, largest) : 0;
 }
-/* nothing else is said of values that there are */
+/* Values that are there must be finite; nothing else is asked of them. */
 SPH_FN int sphi_check_finite(SPHI_TEXT *name, sph_scalars a, sph_index n, int error)
 {
     return SPH_CHECK ? sphi_scan_finite(name, a, n, error) : 0;
@@ -737,30 +789,30 @@ SPH_FN int sphi_check_field(SPHI_TEXT *name, sph_scalars f, sph_index n)
 {
     return f.p ? sphi_check_finite(name, f, n, SPH_ERROR_VALUE) : sphi_refuse(name, -1, SPH_ERROR_NULL);
 }
-/* Sweeps with a kernel: h, and what weighs the neighbours (volumes or masses), too. */
+/* For sweeps with a kernel: the same, the kernel, h, and what weighs the neighbours (volumes or masses). */
 SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_cloud cloud, SPHI_TEXT *name, sph_scalars weights)
 {
     const int scanned = cloud.checked == 1;
-    sph_real largest = cloud.largest_h;
+    sph_real largest = scanned ? cloud.largest_h : SPH_R(0); /* 0: there was no h when it was scanned */
     int error = sphi_check_frame(dim, cloud);
     if (error >= 0 && sphi_check_kernel(k)) return SPH_ERROR_KERNEL;
     if (!error && !cloud.h.p) error = sphi_refuse("h", -1, SPH_ERROR_NULL);
     if (!error && !weights.p) error = sphi_refuse(name, -1, SPH_ERROR_NULL);
-    if (!error && !scanned) error = sphi_check_h("h", cloud.h, cloud.points.n, &largest);
+    if (!error && !(largest > SPH_R(0))) error = sphi_check_h("h", cloud.h, cloud.points.n, &largest);
     if (!error && !(scanned && weights.p == cloud.volume.p && weights.stride == cloud.volume.stride))
         error = sphi_check_finite(name, weights, cloud.points.n, SPH_ERROR_VALUE);
     return error ? error : sphi_check_scan(dim, cloud, sph_kernel_support_ratio(k) * largest);
 }
-/* after the checks of the sweep: where a vector goes */
+/* Where a vector goes: its first dim arrays must be there. To be called after the checks of the sweep. */
 SPH_FN int sphi_check_out(SPHI_TEXT *name, int dim, sph_vector_out out)
 {
     const int there = out.x && (dim < 2 || out.y) && (dim < 3 || out.z);
     return there ? 0 : sphi_refuse(name, -1, SPH_ERROR_NULL);
 }
 
-/* Scans positions, box, lists, h and volumes (if the cloud has them) once, and returns the cloud marked:
-   sweeps then scan only what they read besides, until something changes and the mark is made anew. If
-   something is wrong the mark is the sph_error, and every sweep answers that. */
+/* Scans positions and box once, and lists, h and volumes if the cloud has them. It returns the cloud with a
+   mark, so that sweeps scan only what else they read. Call it again when something changes. If something is
+   wrong, the mark is the sph_error, and every sweep answers it. */
 SPH_FN sph_cloud sph_cloud_checked(int dim, sph_cloud cloud)
 {
     int error;
@@ -779,7 +831,8 @@ SPH_FN sph_cloud sph_cloud_checked(int dim, sph_cloud cloud)
     return cloud;
 }
 
-/* Only asked for where a system was singular: was it for want of neighbours? */
+/* The reason why a system was singular: SPH_TOO_FEW if fewer than `needed` neighbours are inside the support
+   (coincident ones do not count), else SPH_SINGULAR. */
 SPH_FN int sphi_singular_status(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list, sph_real h,
                                 int needed)
 {
@@ -821,22 +874,24 @@ SPH_FN int sphi_check_not_negative(SPHI_TEXT *name, sph_scalars a, sph_index n)
     return error || !SPH_CHECK ? error : sphi_scan_not_negative(name, a, n);
 }
 
-/* ================================================================ small systems: dense, at most 6 x 6. Rows
-   are stored 6 apart. */
+/* ================================================================ small systems
+ *
+ * Dense systems a x = b of at most 6 equations, by a = L U with partial pivoting. Rows are stored 6 apart.
+ */
 
 enum { SPHI_MAX = 6 };
 typedef struct sphi_lu {
     sph_real a[SPHI_MAX][SPHI_MAX];
     int row[SPHI_MAX];
-    /* smallest |pivot|: a measure of singularity, because the matrices come scaled to a unit diagonal */
+    /* The smallest |pivot| measures the singularity, because the matrices come scaled to a unit diagonal. */
     sph_real pivot_min;
     sph_real sign; /* sign of the determinant */
 } sphi_lu;
 
-/* A pivot below this is round-off of a matrix whose entries are of order one. */
+/* A pivot below this is rounding error, because the entries of the matrix are of order one. */
 #define SPHI_PIVOT_MIN (SPH_R(64) * SPH_EPSILON)
 
-/* LU with partial pivoting. A pivot below SPHI_PIVOT_MIN is replaced by it, so that solutions stay finite and
+/* Factors s->a in place. A pivot below SPHI_PIVOT_MIN is replaced by it, so that solutions stay finite and
    show the null direction. */
 SPH_FN void sphi_lu_factor(int n, sphi_lu *s)
 {
@@ -868,6 +923,7 @@ SPH_FN void sphi_lu_factor(int n, sphi_lu *s)
         }
     }
 }
+/* Solves a x = b; x replaces b. */
 SPH_FN void sphi_lu_solve(int n, const sphi_lu *s, sph_real *b)
 {
     int i, j;
@@ -884,7 +940,7 @@ SPH_FN void sphi_lu_solve(int n, const sphi_lu *s, sph_real *b)
         b[i] /= s->a[i][i];
     }
 }
-/* y = m x, and y = m^T x; m is rows x cols */
+/* y = m x, and y = m^T x, where m has the shape rows x cols. */
 SPH_FN void sphi_multiply(int rows, int cols, sph_real (*m)[SPHI_MAX], const sph_real *x, sph_real *y)
 {
     int i, j;
@@ -906,25 +962,31 @@ SPH_FN void sphi_multiply_transposed(int rows, int cols, sph_real (*m)[SPHI_MAX]
 /* ================================================================ interpolation and density
  *
  * Interpolation needs no formula beyond V_j W_ij and V_j f_j W_ij.
- * With q = r_ij / h_i and W = sigma / h^dim w(q), all that density and smoothing length need are two sums
- * over the neighbours and the particle itself (q = 0):
- *     S = sum_j m_j w(q),   T = -sum_j m_j q w'(q) >= 0 (for kernels that fall monotonically)
- *     rho = sigma / h^dim S,   d rho/dh = (rho / h) (T / S - dim),   Omega = 1 + h / (dim rho) d rho/dh = T /
- *     (dim S).
- * h = eta (m / rho)^(1/dim) is sigma S / m = eta^dim, whose left side only grows with h: from sigma w(0) (and
- * whatever coincides with the particle) to sigma w(0) sum m_j / m: one solution at most, and none if eta^dim
- * lies outside.
- * Springel & Hernquist 2002, MNRAS 333, 649 (1/Omega is their f_i); Price & Monaghan 2004, MNRAS 348, 139:
- * Omega = 1 - dh/drho sum_j m_j dW_ij(h_i)/dh_i with dh/drho = -h / (dim rho); the relation of h and rho is
- * (10) of Price 2012, JCP 231, 759. Omega is near 1 where the density is uniform, above 1 where it rises with
- * the distance from the particle, and 0 for a particle without neighbours.
+ *
+ * With q = r_ij / h_i and W = sigma / h^dim w(q), density and smoothing length need two sums over the
+ * neighbours and the particle itself (q = 0):
+ *     S        = sum_j m_j w(q),
+ *     T        = -sum_j m_j q w'(q),   T >= 0 for kernels that fall monotonically,
+ *     rho      = sigma / h^dim S,
+ *     d rho/dh = (rho / h) (T / S - dim),
+ *     Omega    = 1 + h / (dim rho) d rho/dh = T / (dim S).
+ * The relation h = eta (m / rho)^(1/dim) is the same as sigma S / m = eta^dim. The left side only grows with
+ * h: it begins at sigma w(0), or higher where other particles coincide with this one, and ends at
+ * sigma w(0) sum_j m_j / m. So there is one solution at most, and none if eta^dim lies outside this range.
+ * Omega is near 1 where the density is uniform, above 1 where it rises with the distance from the particle,
+ * and 0 for a particle without neighbours.
+ *
+ * Sources: Springel & Hernquist 2002, MNRAS 333, 649 (their f_i is 1 / Omega); Price & Monaghan 2004,
+ * MNRAS 348, 139 (Omega = 1 - dh/drho sum_j m_j dW_ij(h_i)/dh_i with dh/drho = -h / (dim rho)); Price 2012,
+ * JCP 231, 759, (10) (the relation of h and rho).
  */
 
+/* The sums S and T. */
 typedef struct sph_density_sums {
     sph_real weight, slope;
 } sph_density_sums;
 
-/* the contribution of a neighbour at q = r / h; of the particle itself at q = 0 */
+/* What a neighbour at q = r / h adds to S and T: m_j w(q) and -m_j q w'(q). The particle itself has q = 0. */
 SPH_FN sph_density_sums sph_density_pair(sph_kernel k, int dim, sph_real q, sph_real m_j)
 {
     sph_density_sums c;
@@ -932,15 +994,16 @@ SPH_FN sph_density_sums sph_density_pair(sph_kernel k, int dim, sph_real q, sph_
     c.slope = -m_j * q * q * sph_kernel_shape_f(k, dim, q);
     return c;
 }
-/* rho = sigma / h^dim S */
+/* rho = sigma / h^dim S. Its unit is mass / length^dim. */
 SPH_FN sph_real sph_density_value(sph_kernel k, int dim, sph_density_sums s, sph_real h)
 {
     return sph_kernel_sigma(k, dim) * sphi_power(SPH_R(1) / h, dim) * s.weight;
 }
-/* Omega = T / (dim S): no difference of nearly equal numbers, however few the neighbours */
+/* Omega = T / (dim S), without unit. S must not be 0. This form takes no difference of nearly equal numbers,
+   however few the neighbours are. */
 SPH_FN sph_real sph_density_omega(int dim, sph_density_sums s) { return s.slope / (SPH_R(dim) * s.weight); }
-/* ln(eta (m / rho)^(1/dim) / h): 0 for the h that belongs to rho, positive where h is too short. Its
-   derivative by ln h is -Omega. S and m must be positive. */
+/* ln(eta (m / rho)^(1/dim) / h). It is 0 for the h that belongs to rho, and positive where h is too short.
+   Its derivative by ln h is -Omega. S, m and eta must be positive. */
 SPH_FN sph_real sph_density_mismatch(sph_kernel k, int dim, sph_density_sums s, sph_real m, sph_real eta)
 {
     return SPHI_LOG(eta) - SPHI_LOG(sph_kernel_sigma(k, dim) * s.weight / m) / SPH_R(dim);
@@ -948,7 +1011,7 @@ SPH_FN sph_real sph_density_mismatch(sph_kernel k, int dim, sph_density_sums s, 
 
 /* -------- interpolation: sweeps */
 
-/* sum_j w_j W_ij, the particle itself included; w: volumes or masses */
+/* sum_j w_j W_ij, the particle itself included. The weights w are volumes or masses. */
 SPH_FN sph_index sphi_sum_of_weights(sph_kernel k, int dim, sph_cloud cloud, SPHI_TEXT *name,
                                      sph_scalars weights, sph_scalar_out out)
 {
@@ -973,16 +1036,18 @@ SPH_FN sph_index sphi_sum_of_weights(sph_kernel k, int dim, sph_cloud cloud, SPH
     }
     return failed;
 }
-/* gamma_i = sum_j V_j W_ij, the particle itself included: 1 in the interior of a regular cloud, about 1/2 at
-   a plane boundary. Shepard 1968; (4.10) of the ICSPM paper. */
+/* gamma_i = sum_j V_j W_ij, the particle itself included. It is 1 in the interior of a regular cloud, and
+   about 1/2 at a plane boundary. Sources: Shepard 1968; (4.10) of the ICSPM paper (see second derivatives).
+   Where the sum overflows, the result is 0 and SPH_NOT_FINITE. */
 SPH_FN sph_index sph_shepard_sum(sph_kernel k, int dim, sph_cloud cloud, sph_scalar_out out)
 {
     return sphi_sum_of_weights(k, dim, cloud, "volume", cloud.volume, out);
 }
 
-/* f_i = sum_j V_j f_j W_ij / sum_j V_j W_ij, the particle itself included: exact for constants, O(h^2) in the
-   interior, O(h) at a boundary. A target of volume 0 is a probe. SPH_TOO_FEW where the sum of weights is not
-   positive. */
+/* f_i = sum_j V_j f_j W_ij / sum_j V_j W_ij, the particle itself included. It is exact for constants; the
+   error is O(h^2) in the interior and O(h) at a boundary. Source: Shepard 1968. A target of volume 0 is a
+   probe. The result is 0 where the sum of weights is not positive (SPH_TOO_FEW) or a sum overflows
+   (SPH_NOT_FINITE). */
 SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                          sph_scalar_out out)
 {
@@ -1018,15 +1083,16 @@ SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_cloud cloud,
 
 /* -------- density: sweeps */
 
-/* rho_i = sum_j m_j W_ij(h_i), the particle itself included (its mass counts; 0 for a probe): error O(h^2) in
-   the interior of a regular cloud, about rho/2 at a free surface. h is given: for one that follows rho see
-   below. */
+/* rho_i = sum_j m_j W_ij(h_i), the particle itself included (a probe has the mass 0). The error is O(h^2) in
+   the interior of a regular cloud, and about rho / 2 at a free surface. h is given here; sph_density_adaptive
+   finds an h that follows rho. Where the sum overflows, the result is 0 and SPH_NOT_FINITE. */
 SPH_FN sph_index sph_density_summation(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                        sph_scalar_out out)
 {
     return sphi_sum_of_weights(k, dim, cloud, "m", m, out);
 }
 
+/* S and T of target i at the smoothing length h_i. */
 SPH_FN sph_density_sums sphi_density_sums(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list,
                                           sph_real h_i, sph_scalars m)
 {
@@ -1048,7 +1114,8 @@ SPH_FN sph_density_sums sphi_density_sums(sph_kernel k, int dim, sph_index i, sp
     return sums;
 }
 
-/* an h just so short that only coincident neighbours are in the support */
+/* An h that is just so short that only coincident neighbours are inside the support. It is 0 if there are no
+   other neighbours. */
 SPH_FN sph_real sphi_density_h_alone(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list)
 {
     const sph_vec x_i = sphi_point(dim, x, i);
@@ -1061,11 +1128,12 @@ SPH_FN sph_real sphi_density_h_alone(sph_kernel k, int dim, sph_index i, sph_poi
     return nearest / sph_kernel_support_ratio(k) * (SPH_R(1) - SPH_R(8) * SPH_EPSILON);
 }
 
-/* Newton's method in ln h (exact in one step where rho h^dim is a power of h) between bounds low < root <=
-   high as far as they are known (0: not yet). A step that leaves the bounds, or follows one that did not
-   halve the mismatch, is replaced: by the longest h while there is no upper bound, by the shortest that can
-   matter while there is no lower one, else by bisection in ln h. A mismatch is halved at most 64 times, and
-   bounds as far apart as numbers can be close in at most 64: hence the number of steps. */
+/* Newton's method in ln h. It is exact in one step where rho h^dim is a power of h. The bounds low < root <=
+   high are kept as far as they are known (0: not yet). A step is replaced if it leaves the bounds, or if the
+   step before did not halve the mismatch: by the longest h while there is no upper bound, by the shortest h
+   that can matter while there is no lower bound, else by bisection in ln h. A mismatch can be halved at most
+   64 times, and bounds as far apart as numbers can be meet after at most 64 bisections: hence the number of
+   steps. */
 enum { SPHI_DENSITY_STEPS = 130 };
 SPH_FN int sphi_density_solve(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list,
                               sph_real longest, sph_scalars m, sph_real eta, sph_real tolerance,
@@ -1078,8 +1146,8 @@ SPH_FN int sphi_density_solve(sph_kernel k, int dim, sph_index i, sph_points x, 
         *sums = sphi_density_sums(k, dim, i, x, list, at, m);
         *h = at;
         if (!sphi_finite(sums->weight) || !sphi_finite(sums->slope)) return SPH_NOT_FINITE;
-        if (sums->weight >
-            SPH_R(0)) { /* else negative lobes or masses outweigh the rest, as if it were too short */
+        /* If negative lobes or masses outweigh the rest, h counts as too short. */
+        if (sums->weight > SPH_R(0)) {
             mismatch = sph_density_mismatch(k, dim, *sums, sphi_at(m, i), eta);
             if (!sphi_finite(mismatch)) return SPH_NOT_FINITE;
             if (SPHI_ABS(SPHI_EXP(mismatch) - SPH_R(1)) <= tolerance) return SPH_OK;
@@ -1111,8 +1179,8 @@ SPH_FN int sphi_density_solve(sph_kernel k, int dim, sph_index i, sph_points x, 
     return SPH_ILL_CONDITIONED;
 }
 
-/* Where h would have to be longer than the list allows: SPH_LIST_TOO_SHORT and an h to build the next one
-   for, or SPH_TOO_FEW if no list could help. */
+/* For a target whose h would have to be longer than the list allows. Returns SPH_LIST_TOO_SHORT, and in *h
+   the one to build the next list for; or SPH_TOO_FEW if no list could help. */
 SPH_FN int sphi_density_longer(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list, sph_scalars m,
                                sph_real eta, sph_density_sums sums, SPH_GLOBAL sph_real *h)
 {
@@ -1124,8 +1192,8 @@ SPH_FN int sphi_density_longer(sph_kernel k, int dim, sph_index i, sph_points x,
     longest *= SPH_R(0.5) / sph_kernel_support_ratio(k);
     if (longest > SPH_R(0)) {
         if (!(*h < longest * (SPH_R(1) - SPH_R(8) * SPH_EPSILON))) return SPH_TOO_FEW;
-    } else if (list.start[i + 1] - list.start[i] >=
-               x.n - 1) { /* the whole cloud: is all its mass at the distance 0 enough? */
+    } else if (list.start[i + 1] - list.start[i] >= x.n - 1) {
+        /* The list is the whole cloud: would all its mass at the distance 0 be enough? */
         sph_density_sums all = sph_density_pair(k, dim, SPH_R(0), sphi_at(m, i));
         for (p = list.start[i]; p < list.start[i + 1]; p++)
             all.weight += sph_density_pair(k, dim, SPH_R(0), sphi_at(m, list.index[p])).weight;
@@ -1135,10 +1203,8 @@ SPH_FN int sphi_density_longer(sph_kernel k, int dim, sph_index i, sph_points x,
     if (sums.weight > SPH_R(0) && sums.slope > SPH_R(0)) {
         const sph_real e =
             sph_density_mismatch(k, dim, sums, sphi_at(m, i), eta) / sph_density_omega(dim, sums);
-        if (e < SPH_R(0.6))
-            grow = SPH_R(1.05) *
-                   SPHI_EXP(
-                       e); /* with a margin: an h that is a little too short again would cost another list */
+        /* An h that is a little too short again would cost another list: hence the margin. */
+        if (e < SPH_R(0.6)) grow = SPH_R(1.05) * SPHI_EXP(e);
     }
     if (!sphi_finite(*h * grow)) return SPH_TOO_FEW;
     *h = longest > SPH_R(0) && *h * grow > longest ? longest : *h * grow;
@@ -1146,42 +1212,47 @@ SPH_FN int sphi_density_longer(sph_kernel k, int dim, sph_index i, sph_points x,
 }
 
 typedef struct sph_density_options {
-    sph_scalars list_radius; /* row i of the list holds every source with r < list_radius_i; has no default */
+    sph_scalars list_radius; /* the list of target i holds every source with r < list_radius_i; no default */
     sph_real eta;            /* h = eta (m / rho)^(1/dim); 0: sph_kernel_h_over_dx(k) */
-    sph_real tolerance;      /* of h, relative, below 1; 0: 1e-3. Less than 64 round-offs counts as that */
+    sph_real tolerance;      /* relative, of h, below 1; 0: 1e-3. At least 64 unit round-offs are used */
 } sph_density_options;
-/* h holds the guess, and the answer; omega and status may be null. The stride is that of h, rho and omega. */
+/* h holds the guess, and then the answer. omega and status may be null. The stride is that of h, rho and
+   omega. */
 typedef struct sph_density_out {
     SPH_GLOBAL sph_real *h, *rho, *omega;
     size_t stride;
     SPH_GLOBAL unsigned char *status;
 } sph_density_out;
 
-/* Density and smoothing length that belong together: h_i = eta (m_i / rho_i)^(1/dim), rho_i = sum_j m_j
-   W_ij(h_i) with the particle itself, to |eta (m_i / rho_i)^(1/dim) / h_i - 1| <= tolerance, and Omega_i = 1
-   + h_i / (dim rho_i) sum_j m_j dW_ij/dh_i, the factor of equations of motion with that h (see the pair tier:
-   sources, sign). On a lattice of spacing dx, h = eta dx but for the kernel's error there. Never diverges; a
-   good guess costs two or three passes over the row.
-   list_radius  h_i is never made longer than list_radius_i / support. At most half a periodic length.
-   h            in: a guess for the targets (any positive number); out: the result.
+/* Density and smoothing length that belong together, and the factor Omega of the equations of motion with
+   that h (sources: see the beginning of this chapter). The particle itself is in all sums:
+       h_i     = eta (m_i / rho_i)^(1/dim)   to   |eta (m_i / rho_i)^(1/dim) / h_i - 1| <= tolerance,
+       rho_i   = sum_j m_j W_ij(h_i),
+       Omega_i = 1 + h_i / (dim rho_i) sum_j m_j dW_ij/dh_i.
+   On a lattice of spacing dx, h is eta dx, but for the error of the kernel there. The method never diverges,
+   and with a good guess makes two or three passes over the list.
+   list_radius  h_i is never made longer than list_radius_i / support ratio. A list_radius is at most half a
+                periodic length.
+   h            Before the call: a guess for each target (any positive number). After it: the result.
+   The status of a target that is not SPH_OK:
    SPH_LIST_TOO_SHORT   h would have to be longer. h[i] is the one to try next (at most twice the longest that
-                        was allowed), rho and omega are those at list_radius_i / support. Build a list that is
-                        longer where h[i] * support exceeds list_radius_i and call again; or stop at the
-                        longest h that makes sense, and keep rho and omega.
-   SPH_TOO_FEW          no h will do, because all the sources there are (or, in a periodic box, all within
-                        half of it) have too little mass: a particle alone, for which rho h^dim is a constant
-                        and every h or none fits. h[i] = list_radius_i / support, rho and omega 0.
-   SPH_SINGULAR         no h is short enough: the particle (and what coincides with it) has more than eta^dim
-                        allows at any h: eta is too small, or particles have clumped in one point. rho and
-                        omega 0, h[i] too short to hold any other particle (or the guess, if that was).
-   SPH_NOT_AVAILABLE    m_i is not positive: rho and omega 0, h[i] as it was.
-   SPH_ILL_CONDITIONED  rho jumps across the solution, as kernels do that are cut off at their edge (the
-                        Gaussians): h[i] is the place of the jump, the rest as computed there.
-   SPH_NOT_FINITE       the sums overflowed: rho and omega 0, h[i] where that happened.
-   Besides the errors of all sweeps: SPH_ERROR_H for a guess or a list_radius that is not finite and
+                        was allowed); rho and omega are those at list_radius_i / support ratio. Build a list
+                        that is longer where h[i] * support ratio exceeds list_radius_i, and call again. Or
+                        stop at the longest h that makes sense, and keep rho and omega.
+   SPH_TOO_FEW          No h is long enough, because all sources (in a periodic box: all within half of it)
+                        have too little mass. A particle alone is such a case: its rho h^dim is a constant, so
+                        that every h fits or none. h[i] is list_radius_i / support ratio; rho and omega are 0.
+   SPH_SINGULAR         No h is short enough, because at any h the particle, with those that coincide with it,
+                        has more mass than eta^dim allows: eta is too small, or particles have clumped in one
+                        point. rho and omega are 0. h[i] is too short to reach any particle elsewhere; it is
+                        the guess, if that was so short.
+   SPH_NOT_AVAILABLE    m_i is not positive. rho and omega are 0; h[i] is as it was.
+   SPH_ILL_CONDITIONED  rho jumps across the solution. This happens with kernels that are cut off at their
+                        edge (the Gaussians). h[i] is the place of the jump; rho and omega are those there.
+   SPH_NOT_FINITE       The sums overflowed. rho and omega are 0; h[i] is where that happened.
+   Errors, besides those of all sweeps: SPH_ERROR_H for a guess or a list_radius that is not finite and
    positive, SPH_ERROR_VALUE for eta or tolerance out of range, SPH_ERROR_BOX for a list_radius beyond half
-   the box. Ranges
-   may run in parallel: of h only the range's own entries are read. */
+   the box. Ranges of targets may run in parallel, because a range reads only its own entries of h. */
 SPH_FN sph_index sph_density_adaptive(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                       sph_density_options options, sph_density_out out)
 {
@@ -1214,7 +1285,7 @@ SPH_FN sph_index sph_density_adaptive(sph_kernel k, int dim, sph_cloud cloud, sp
         sph_real density = SPH_R(0), factor = SPH_R(0);
         int state = SPH_NOT_AVAILABLE;
         if (sphi_at(m, i) > SPH_R(0)) {
-            /* a radius that is a denormal number may leave no h at all */
+            /* If the radius is a denormal number, the longest h may be 0. */
             state = longest > SPH_R(0) ? sphi_density_solve(k, dim, i, cloud.points, cloud.list, longest, m,
                                                             eta, accepted, h, &sums)
                                        : (int)SPH_NOT_FINITE;
@@ -1235,33 +1306,43 @@ SPH_FN sph_index sph_density_adaptive(sph_kernel k, int dim, sph_cloud cloud, sp
     return failed;
 }
 
-/* ================================================================ gradients and two-point Laplacians */
+/* ================================================================ gradients and two-point Laplacians
+ *
+ * With x_ij = x_i - x_j, e = -x_ij, F = (1/r) dW/dr <= 0 and grad_i W_ij = F_ij x_ij:
+ *     difference   grad f_i = sum_j V_j (f_j - f_i) grad_i W_ij
+ *     CSPM         grad f_i = K^-1 sum_j V_j (-F_ij) e (f_j - f_i),   K = sum_j V_j (-F_ij) e e^T
+ *     Brookshaw    lap f_i  = sum_j 2 V_j (f_i - f_j) F_ij
+ * The unit of a gradient is that of f / length, that of a Laplacian f / length^2. K has no unit.
+ */
 
-/* V_j (f_j - f_i) grad_i W_ij: exact for constants; error O(h^2) in the interior where the particles are
-   regular, O(1) at a boundary. Monaghan 1992, ARA&A 30, 543, in difference form. */
+/* V_j (f_j - f_i) grad_i W_ij, where df = f_j - f_i: a pair's part of grad f_i. The sum is exact for
+   constants. Its error is O(h^2) in the interior where the particles are regular, and O(1) at a boundary.
+   Source: Monaghan 1992, ARA&A 30, 543, in difference form. */
 SPH_FN sph_vec sph_gradient_pair_difference(sph_kernel k, int dim, sph_real V_j, sph_real df, sph_vec x_ij,
                                             sph_real r, sph_real h)
 {
     return sph_scale(V_j * df * sph_kernel_f(k, dim, r, h), x_ij);
 }
 
-/* Weight of (f_j - f_i) in Brookshaw's Laplacian: -2 V_j F_ij >= 0. L f_i = sum_j weight (f_j - f_i) = sum_j
-   2 V_j (f_i - f_j) F_ij. Brookshaw 1985, Proc. ASA 6, 207. Error O(h^2) in the interior of a regular cloud,
-   O(1/h) at a boundary and O(1) or worse in disorder. */
+/* The weight of (f_j - f_i) in Brookshaw's Laplacian: -2 V_j F_ij >= 0, so that
+       L f_i = sum_j weight (f_j - f_i) = sum_j 2 V_j (f_i - f_j) F_ij.
+   It is exact for constants. The error is O(h^2) in the interior of a regular cloud, O(1/h) at a boundary,
+   and O(1) or worse in disorder. Source: Brookshaw 1985, Proc. ASA 6, 207. */
 SPH_FN sph_real sph_laplacian_weight_brookshaw(sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j)
 {
     return SPH_R(-2) * V_j * sph_kernel_f(k, dim, r, h);
 }
 
-/* The gradient alone needs K only:  sum weight e_a e_b  with the weight  -V_j F_ij  (h cancels against the e
-   of the right-hand side), grad = K^-1 sum weight e df. */
+/* The weight -V_j F_ij >= 0 of CSPM's gradient: K = sum_j weight e e^T, grad f_i = K^-1 sum_j weight e df
+   with e = x_j - x_i and df = f_j - f_i. Here e is not divided by h, because h cancels. */
 SPH_FN sph_real sph_moment_weight_gradient(sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j)
 {
     return -V_j * sph_kernel_f(k, dim, r, h);
 }
 
-/* Inverse of the symmetric K, scaled to a unit diagonal for the test of singularity. Returns SPH_OK or
-   SPH_SINGULAR (nothing written); *conditioning, if wanted, is the smallest pivot in [0, 1]. */
+/* *inverse = K^-1 for the symmetric K = moment. Returns SPH_OK, or SPH_SINGULAR and then writes nothing. For
+   the test of singularity K is scaled to a unit diagonal. *conditioning is the smallest pivot of the scaled
+   K, in [0, 1] (1 good, 0 singular); the pointer may be null. */
 SPH_FN int sph_solve_gradient(int dim, sph_sym moment, sph_sym *inverse, sph_real *conditioning)
 {
     sph_real a, b, c, p, q, l, n, s, t;
@@ -1274,7 +1355,7 @@ SPH_FN int sph_solve_gradient(int dim, sph_sym moment, sph_sym *inverse, sph_rea
     moment.xy *= a * b;
     moment.xz *= a * c;
     moment.yz *= b * c;
-    /* By K = L D L^T, D = (1, p, q): cofactors over the determinant would lose twice as many digits where K
+    /* K = L D L^T with D = (1, p, q). Cofactors over the determinant would lose twice as many digits where K
        is nearly singular. */
     p = SPH_R(1) - moment.xy * moment.xy;
     if (!(p > SPHI_PIVOT_MIN)) return SPH_SINGULAR;
@@ -1297,7 +1378,9 @@ SPH_FN int sph_solve_gradient(int dim, sph_sym moment, sph_sym *inverse, sph_rea
 
 /* -------- gradients: sweeps */
 
-/* grad f_i = sum_j V_j (f_j - f_i) grad_i W_ij, not corrected */
+/* grad f_i = sum_j V_j (f_j - f_i) grad_i W_ij, without correction. Exact for constants; for source and
+   errors see sph_gradient_pair_difference. Where a component overflows, the gradient is 0 and the target
+   counts as failed. */
 SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                          sph_vector_out out)
 {
@@ -1329,7 +1412,7 @@ SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_cloud cloud,
     return failed;
 }
 
-/* K = sum weight e e and, if asked for, D = sum weight e df, with e = x_j - x_i */
+/* *moment = K = sum_j weight e e^T with e = x_j - x_i. If with_f is 1: *sum = sum_j weight e (f_j - f_i). */
 SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list,
                                   sph_real h_i, sph_scalars volume, int with_f, sph_scalars f,
                                   sph_sym *moment, sph_vec *sum)
@@ -1373,11 +1456,15 @@ SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points
     sum->z = sz;
 }
 
-/* grad f_i = K^-1 sum_j V_j (-F_ij) e (f_j - f_i), K = sum_j V_j (-F_ij) e e^T, e = x_j - x_i: exact for
-   linear fields at any particle; error O(h^2) inside, O(h) at a boundary. Randles & Libersky 1996, CMAME 139,
-   375; CSPM (3.5) of the ICSPM paper in 1D (with W', where its list under (5.17) prints W). conditioning (may
-   be null): smallest pivot of K scaled to a unit diagonal. Needs dim neighbours that are not on a line or in
-   a plane. */
+/* grad f_i = K^-1 sum_j V_j (-F_ij) e (f_j - f_i) with K = sum_j V_j (-F_ij) e e^T and e = x_j - x_i. It is
+   exact for linear fields at any particle; the error is O(h^2) in the interior and O(h) at a boundary.
+   Sources: Randles & Libersky 1996, CMAME 139, 375; in 1D CSPM, (3.5) of the ICSPM paper (with W', where its
+   list under (5.17) prints W).
+   Of out, gx (with gy and gz as dim needs them) is filled, and conditioning and status if they are not null.
+   conditioning is the smallest pivot of K scaled to a unit diagonal, in [0, 1]. A target needs dim neighbours
+   inside its support; in 2D not all may be on one line with it, in 3D not all in one plane with it. Else the
+   gradient is 0, with SPH_TOO_FEW or SPH_SINGULAR. Where a component overflows, it is 0 with
+   SPH_NOT_FINITE. */
 SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                    sph_derivatives_out out)
 {
@@ -1407,7 +1494,8 @@ SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_s
     return failed;
 }
 
-/* The same as rows: grad f_i = sum_p (wx[p], wy[p], wz[p]) (f_j - f_i), p along the list. */
+/* The same gradient as rows: grad f_i = sum_p (x[p], y[p], z[p]) (f_j - f_i), where p runs along the list of
+   i and j = index[p]. The rows of a target that is not SPH_OK are 0. */
 SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_gradient_rows_out out)
 {
     SPH_GLOBAL sph_real *const SPH_RESTRICT wx = out.x, *const SPH_RESTRICT wy = out.y,
@@ -1461,7 +1549,8 @@ SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, 
 
 /* -------- two-point Laplacians: sweeps */
 
-/* L f_i = sum_j 2 V_j (f_i - f_j) F_ij; see sph_laplacian_weight_brookshaw */
+/* L f_i = sum_j 2 V_j (f_i - f_j) F_ij. For source and errors see sph_laplacian_weight_brookshaw. Where the
+   sum overflows, the result is 0 and SPH_NOT_FINITE. */
 SPH_FN sph_index sph_laplacian_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                          sph_scalar_out out)
 {
@@ -1486,6 +1575,8 @@ SPH_FN sph_index sph_laplacian_brookshaw(sph_kernel k, int dim, sph_cloud cloud,
     }
     return failed;
 }
+/* The same Laplacian as rows: L f_i = sum_p row[p] (f_j - f_i) with row[p] = -2 V_j F_ij >= 0, factor 1 and
+   conditioning 1. A row that overflows is 0, with SPH_NOT_FINITE. */
 SPH_FN sph_index sph_laplacian_rows_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_rows_out out)
 {
     SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
@@ -1513,41 +1604,45 @@ SPH_FN sph_index sph_laplacian_rows_brookshaw(sph_kernel k, int dim, sph_cloud c
 
 /* ================================================================ second derivatives
  *
- * One system serves CSPM, ICSPM and weighted least squares. With e = (x_j - x_i) / h = -x_ij / h and df = f_j
- * - f_i, Taylor's series
+ * One system serves CSPM, ICSPM and weighted least squares (WLS). With e = (x_j - x_i) / h = -x_ij / h and
+ * df = f_j - f_i, Taylor's series
  *     df = e . (h grad f) + e_a e_b (h^2/2 d_a d_b f) + ...
- * is summed against the test functions  g e_a  (dim of them) and  w e_a e_b, a <= b  (dim (dim + 1) / 2 of
- * them):
+ * is summed against dim test functions g e_a, and dim (dim + 1) / 2 test functions w e_a e_b with a <= b:
  *     [ K  B ] [ h grad f ]   [ sum g e df   ]        K = sum g e e,  B = sum g e ee,
  *     [ A  M ] [ h^2 hess ] = [ sum w e e df ]        A = sum w ee e, M = sum w ee ee.
- *   CSPM   g = -V_j F_ij, w = V_j W_ij / r^2.  grad = K^-1 (...) as if B were 0; then hess = M^-1 (... - A
- *          grad). In 1D: (3.5), (5.15).
- *   ICSPM  the same tests, solved as the coupled system it is. In 1D: (5.17), hess = hess_CSPM / kappa with
- *          kappa = 1 - A B / (K M).
- *   WLS    g = w = V_j W_ij: the normal equations of a weighted least-squares fit of a quadratic (moving
- *          least squares at the particle).
- * CSPM: Chen, Beraun & Carney 1999, IJNME 46, 231. ICSPM: Korzilius, Schilders & Anthonissen 2017, J. Appl.
- * Math. Phys. 5, 168, in 1D; the n-dimensional form with the matrix kappa = 1 - M^-1 A K^-1 B is its natural
- * extension and reduces to it exactly.
- * Misprints there that are corrected here: (4.14), (5.17) print kappa with a plus sign; the list under (5.17)
- * prints W instead of W' in <f'>; section II prints dW/dy, which is -dW/dx. tests/test_derivatives.c shows
- * that the printed forms fail.
- * Exact for:  CSPM gradient: linear fields. CSPM Hessian: quadratic fields in the interior of symmetric
- *             clouds only. ICSPM, WLS: quadratic fields, for any positions and volumes.
- * Errors:     interior, regular: O(h^2) all. At a boundary: CSPM gradient O(h), Hessian O(1); ICSPM and WLS
- *             gradient O(h^2), Hessian O(h).
- * kappa:      det(kappa) is 1 in the interior, negative for one-sided neighbours, and so 0 somewhere in
- *             between (in 1D at 0.30 h from the end of the domain for wendland-c4-1d). There ICSPM amplifies
- *             rounding and truncation; its conditioning number tells, and WLS, whose matrix is definite, is
- *             the fallback.
+ * Here hess holds the coefficients of e_a e_b: d_a d_b f for a < b, and half of it for a = b.
+ *   CSPM    g = -V_j F_ij and w = V_j W_ij / r^2. The gradient is solved as if B were 0, then the Hessian:
+ *               h grad f = K^-1 sum g e df,   h^2 hess = M^-1 (sum w e e df - A h grad f).
+ *           In 1D these are (3.5) and (5.15) of the ICSPM paper.
+ *   ICSPM   The same test functions, but both rows are solved together. In 1D this is (5.17) of the ICSPM
+ *           paper: hess = hess_CSPM / kappa with kappa = 1 - A B / (K M).
+ *   WLS     g = w = V_j W_ij. The system is that of a weighted least-squares fit of a quadratic (moving least
+ *           squares at the particle).
+ *
+ * Sources. CSPM: Chen, Beraun & Carney 1999, IJNME 46, 231. "ICSPM paper": Korzilius, Schilders & Anthonissen
+ * 2017, J. Appl. Math. Phys. 5, 168, in 1D. In more dimensions ICSPM is its natural extension with the matrix
+ * kappa = 1 - M^-1 A K^-1 B, which is exactly the kappa of the paper in 1D.
+ * Misprints of the ICSPM paper that are corrected here: (4.14) and (5.17) print kappa with a plus sign; the
+ * list under (5.17) prints W instead of W' in <f'>; section II prints dW/dy, which is -dW/dx.
+ * tests/test_derivatives.c shows that the printed forms fail.
+ *
+ * Exact for   CSPM gradient: linear fields. CSPM Hessian: quadratic fields, in the interior of symmetric
+ *             clouds only. ICSPM and WLS: quadratic fields, for any positions and volumes.
+ * Errors      In the interior of a regular cloud: all O(h^2). At a boundary: CSPM gradient O(h) and Hessian
+ *             O(1), ICSPM and WLS gradient O(h^2) and Hessian O(h).
+ * kappa       det(kappa) is 1 in the interior and negative for one-sided neighbours, so that it is 0
+ *             somewhere in between: in 1D, with wendland-c4-1d, at 0.30 h from the end of the domain. There
+ *             ICSPM amplifies rounding and truncation errors. Its conditioning shows this; WLS, whose matrix
+ *             is definite, is the fallback.
  */
 
-/* Weights of the test functions */
+/* The weights g and w of the test functions. */
 typedef struct sph_test_weights {
     sph_real g, w;
 } sph_test_weights;
 
-/* q = r / h. The normalisation of the kernel cancels and is left out. */
+/* The weights of CSPM and ICSPM, g = -V_j F_ij and w = V_j W_ij / r^2, at q = r / h. Powers of h and the
+   normalisation of the kernel cancel and are left out. At q = 0, w is 0. */
 SPH_FN sph_test_weights sph_test_weights_cspm(sph_kernel k, int dim, sph_real q, sph_real V_j)
 {
     sph_test_weights t;
@@ -1555,6 +1650,7 @@ SPH_FN sph_test_weights sph_test_weights_cspm(sph_kernel k, int dim, sph_real q,
     t.w = V_j * sphi_over_q(sph_kernel_shape(k, dim, q), q * q);
     return t;
 }
+/* The weights of WLS, g = w = V_j W_ij, likewise. */
 SPH_FN sph_test_weights sph_test_weights_wls(sph_kernel k, int dim, sph_real q, sph_real V_j)
 {
     sph_test_weights t;
@@ -1562,8 +1658,8 @@ SPH_FN sph_test_weights sph_test_weights_wls(sph_kernel k, int dim, sph_real q, 
     return t;
 }
 
-/* The sums: name and contribution of a neighbour at e = (x, y, z). Y is what 2D adds to 1D, Z what 3D adds to
-   2D. */
+/* The sums: their names, and what a neighbour at e = (x, y, z) adds. Y holds what 2D has beyond 1D, and Z
+   what 3D has beyond 2D. */
 /* clang-format off */
 #define SPHI_MATRIX_X(X) X(gxx, g * x * x) X(gxxx, g * x * x * x) X(wxxx, w * x * x * x) \
     X(wxxxx, w * x * x * x * x)
@@ -1591,6 +1687,7 @@ SPH_FN sph_test_weights sph_test_weights_wls(sph_kernel k, int dim, sph_real q, 
 #define SPHI_VALUE(dim, X) SPHI_VALUE_X(X) if (dim > 1) { SPHI_VALUE_Y(X) } if (dim > 2) { SPHI_VALUE_Z(X) }
 /* clang-format on */
 
+/* The sums of one particle: gxy is sum g e_x e_y, and so on. gfx, wfxx, ... are the right-hand side. */
 #define SPHI_FIELD(name, formula) sph_real name;
 /* clang-format off */
 typedef struct sph_moments {
@@ -1599,6 +1696,7 @@ typedef struct sph_moments {
 } sph_moments;
 /* clang-format on */
 
+/* All sums are 0. */
 #define SPHI_ZERO(name, formula) s.name = SPH_R(0);
 SPH_FN sph_moments sph_moments_zero(void)
 {
@@ -1608,8 +1706,8 @@ SPH_FN sph_moments sph_moments_zero(void)
     return s;
 }
 
-/* Adds a neighbour's part of the matrix (and, with the second function, of the right-hand side): e = (x_j -
-   x_i) / h_i, t from sph_test_weights_*, df = f_j - f_i. */
+/* Adds what a neighbour contributes to the matrix: g e e, g e ee, w ee e and w ee ee. e is (x_j - x_i) / h_i;
+   t comes from sph_test_weights_cspm (for CSPM and ICSPM) or sph_test_weights_wls. */
 #define SPHI_ADD(name, formula) s->name += formula;
 SPH_FN void sph_moments_add(int dim, sph_moments *s, sph_vec e, sph_test_weights t)
 {
@@ -1618,6 +1716,7 @@ SPH_FN void sph_moments_add(int dim, sph_moments *s, sph_vec e, sph_test_weights
     (void)z;
     SPHI_MATRIX(dim, SPHI_ADD)
 }
+/* Adds what a neighbour contributes to the right-hand side: g e df and w ee df with df = f_j - f_i. */
 SPH_FN void sph_moments_add_value(int dim, sph_moments *s, sph_vec e, sph_test_weights t, sph_real df)
 {
     const sph_real x = e.x, y = e.y, z = e.z, g = t.g, w = t.w;
@@ -1626,15 +1725,17 @@ SPH_FN void sph_moments_add_value(int dim, sph_moments *s, sph_vec e, sph_test_w
     SPHI_VALUE(dim, SPHI_ADD)
 }
 
-/* First and second derivatives: as a result, the derivatives of f; as an operator, the coefficients of D f =
-   sum gradient_a d_a f + sum_{a <= b} hessian_ab d_a d_b f (so hessian.xx = hessian.yy = hessian.zz = 1 and
-   the rest 0 is the Laplacian, and each mixed derivative counts once). */
+/* First and second derivatives. As a result, these are the derivatives of f. As an operator, they are the
+   coefficients of
+       D f = sum_a gradient_a d_a f + sum_{a <= b} hessian_ab d_a d_b f,
+   where each mixed derivative counts once. The Laplacian has hessian.xx = hessian.yy = hessian.zz = 1, and
+   all else is 0. */
 typedef struct sph_jet {
     sph_vec gradient;
     sph_sym hessian;
 } sph_jet;
 
-/* the operator D = Laplacian */
+/* The operator D = sum_a d_a d_a, the Laplacian. */
 SPH_FN sph_jet sph_jet_laplacian(int dim)
 {
     sph_jet d;
@@ -1645,12 +1746,13 @@ SPH_FN sph_jet sph_jet_laplacian(int dim)
     return d;
 }
 
-/* -------- the block system. Unknowns in the order (x, y, z) and (xx, xy, yy, xz, yz, zz), so that lower
-   dimensions are the leading parts; as second unknown the coefficient of e_a e_b (half the derivative for a =
-   b). Rows and columns are scaled to unit diagonals of K and M: conditioning then does not depend on units.
-   */
+/* -------- the block system */
 
-/* of the Hessian */
+/* The unknowns have the order (x, y, z) and (xx, xy, yy, xz, yz, zz), so that lower dimensions are the
+   leading parts. The second ones are the coefficients of e_a e_b (half the derivative for a = b). Rows and
+   columns are scaled to unit diagonals of K and M; the conditioning then does not depend on units. */
+
+/* The number of unknowns of the Hessian: dim (dim + 1) / 2. */
 SPH_FN int sphi_unknowns(int dim)
 {
     SPH_ASSERT(dim >= 1 && dim <= 3);
@@ -1659,11 +1761,12 @@ SPH_FN int sphi_unknowns(int dim)
 
 typedef struct sphi_blocks {
     sph_real kk[SPHI_MAX][SPHI_MAX], bb[SPHI_MAX][SPHI_MAX], aa[SPHI_MAX][SPHI_MAX], mm[SPHI_MAX][SPHI_MAX];
-    sph_real s[SPHI_MAX], d[SPHI_MAX]; /* scales of the gradient's and the Hessian's unknowns */
+    sph_real s[SPHI_MAX], d[SPHI_MAX]; /* the scales of the unknowns of gradient and Hessian */
 } sphi_blocks;
 
 #define SPHI_SET(m, i, j, value) b->m[i][j] = b->m[j][i] = (value);
-/* Returns 0 where a diagonal entry is not positive: no neighbour in that direction (or negative volumes). */
+/* Fills and scales the blocks. Returns 1, or 0 if a diagonal entry is not positive: there is no neighbour in
+   that direction, or volumes are negative. */
 SPH_FN int sphi_blocks_fill(int dim, const sph_moments *m, sphi_blocks *b)
 {
     const int nh = sphi_unknowns(dim);
@@ -1740,7 +1843,7 @@ SPH_FN int sphi_blocks_fill(int dim, const sph_moments *m, sphi_blocks *b)
 }
 #undef SPHI_SET
 
-/* the right-hand side, scaled like the rows */
+/* The right-hand side, scaled like the rows. */
 SPH_FN void sphi_blocks_values(int dim, const sph_moments *m, const sphi_blocks *b, sph_real *u, sph_real *v)
 {
     u[0] = m->gfx * b->s[0];
@@ -1758,8 +1861,8 @@ SPH_FN void sphi_blocks_values(int dim, const sph_moments *m, const sphi_blocks 
     }
 }
 
-/* From scaled unknowns to derivatives, and from the coefficients of an operator on derivatives to those on
-   the unknowns. */
+/* The first function turns scaled unknowns into derivatives. The second turns the coefficients that an
+   operator has for derivatives into those for scaled unknowns. */
 SPH_FN sph_jet sphi_jet_unscaled(int dim, const sphi_blocks *b, sph_real h, const sph_real *u,
                                  const sph_real *v)
 {
@@ -1799,6 +1902,7 @@ SPH_FN void sphi_operator_scaled(int dim, const sphi_blocks *b, sph_real h, sph_
     }
 }
 
+/* Copies m and factors it. */
 SPH_FN void sphi_lu_load(int n, sphi_lu *s, sph_real (*m)[SPHI_MAX])
 {
     int i, j;
@@ -1807,8 +1911,8 @@ SPH_FN void sphi_lu_load(int n, sphi_lu *s, sph_real (*m)[SPHI_MAX])
     sphi_lu_factor(n, s);
 }
 
-/* The blocks, and K and M factored: SPH_OK, or SPH_SINGULAR if the neighbours do not determine a gradient or
-   a Hessian at all. */
+/* Fills the blocks, and factors K and M. Returns SPH_OK, or SPH_SINGULAR if the neighbours do not determine a
+   gradient or a Hessian at all. */
 SPH_FN int sphi_blocks_factor(int dim, const sph_moments *m, sphi_blocks *b, sphi_lu *kk, sphi_lu *mm)
 {
     if (!sphi_blocks_fill(dim, m, b)) return SPH_SINGULAR;
@@ -1817,7 +1921,7 @@ SPH_FN int sphi_blocks_factor(int dim, const sph_moments *m, sphi_blocks *b, sph
     return kk->pivot_min < SPHI_PIVOT_MIN || mm->pivot_min < SPHI_PIVOT_MIN ? SPH_SINGULAR : SPH_OK;
 }
 
-/* the Schur complement S = M - A K^-1 B, or its transpose, factored */
+/* The Schur complement S = M - A K^-1 B = M kappa, or its transpose, factored. */
 SPH_FN void sphi_schur(int dim, const sphi_blocks *b, const sphi_lu *kk, int transposed, sphi_lu *schur)
 {
     const int nh = sphi_unknowns(dim);
@@ -1835,8 +1939,8 @@ SPH_FN void sphi_schur(int dim, const sphi_blocks *b, const sphi_lu *kk, int tra
     sphi_lu_factor(nh, schur);
 }
 
-/* sign(det kappa) / |kappa^-1|, kappa^-1 = S^-1 M, in the norm of the largest row sum: 1 in the interior, in
-   1D just kappa */
+/* sign(det kappa) / |kappa^-1| with kappa^-1 = S^-1 M, in the norm of the largest row sum. It is 1 in the
+   interior, and kappa itself in 1D. */
 SPH_FN sph_real sphi_conditioning(int dim, const sphi_blocks *b, const sphi_lu *schur)
 {
     const int nh = sphi_unknowns(dim);
@@ -1854,9 +1958,11 @@ SPH_FN sph_real sphi_conditioning(int dim, const sphi_blocks *b, const sphi_lu *
     return schur->sign / largest;
 }
 
-/* Gradient and Hessian by CSPM from the moments. Returns SPH_OK or SPH_SINGULAR (nothing written).
-   *conditioning, if wanted, is the smallest pivot of the scaled K and M, in [0, 1]: 1 for isotropic K, 0
-   where the neighbours do not determine the answer (it depends a little on the order of the axes). */
+/* Gradient and Hessian by CSPM from the moments: h grad f = K^-1 sum g e df, and then
+   h^2 hess = M^-1 (sum w e e df - A h grad f). Returns SPH_OK, or SPH_SINGULAR and then writes nothing.
+   *conditioning is the smallest pivot of the scaled K and M, in [0, 1]: 1 for isotropic K, 0 where the
+   neighbours do not determine the answer. It depends a little on the order of the axes. The pointer may be
+   null. */
 SPH_FN int sph_solve_cspm(int dim, const sph_moments *m, sph_real h, sph_jet *jet, sph_real *conditioning)
 {
     const int nh = sphi_unknowns(dim);
@@ -1875,9 +1981,10 @@ SPH_FN int sph_solve_cspm(int dim, const sph_moments *m, sph_real h, sph_jet *je
     return SPH_OK;
 }
 
-/* Gradient and Hessian by ICSPM or WLS (the moments tell which). Returns SPH_OK or SPH_SINGULAR (nothing
-   written). *conditioning, if wanted, is kappa in 1D and sign(det kappa) / |kappa^-1| in general: what ICSPM
-   multiplies the errors of CSPM by is 1 / |conditioning|. */
+/* Gradient and Hessian by ICSPM or WLS: the solution of the whole system, whose moments decide which of the
+   two it is. Returns SPH_OK, or SPH_SINGULAR and then writes nothing. *conditioning is kappa in 1D, and
+   sign(det kappa) / |kappa^-1| in general: ICSPM multiplies the errors of CSPM by 1 / |conditioning|. The
+   pointer may be null. */
 SPH_FN int sph_solve_block(int dim, const sph_moments *m, sph_real h, sph_jet *jet, sph_real *conditioning)
 {
     const int nh = sphi_unknowns(dim);
@@ -1902,14 +2009,19 @@ SPH_FN int sph_solve_block(int dim, const sph_moments *m, sph_real h, sph_jet *j
     return SPH_OK;
 }
 
-/* -------- rows. The weight of (f_j - f_i) in the operator D is  g c.first . e + w c.second : ee  with
-   coefficients c that depend on i only. */
+/* -------- rows */
 
+/* The coefficients c of the row of an operator D. They depend on i only:
+       sum_j weight_j (f_j - f_i) = factor D f_i,
+       weight_j = g c.first . e + w sum_{a <= b} c.second_ab e_a e_b.
+   The factor is 1, or kappa for ICSPM. */
 typedef struct sph_coefficients {
     sph_vec first;
     sph_sym second;
-    sph_real factor; /* sum_j weight (f_j - f_i) = factor * D f: 1, or kappa for ICSPM */
+    sph_real factor;
 } sph_coefficients;
+
+/* weight_j of the neighbour at e = (x_j - x_i) / h_i, whose test weights are t. */
 
 SPH_FN sph_real sph_coefficients_weight(int dim, sph_coefficients c, sph_vec e, sph_test_weights t)
 {
@@ -1919,6 +2031,7 @@ SPH_FN sph_real sph_coefficients_weight(int dim, sph_coefficients c, sph_vec e, 
     return t.g * sph_dot(dim, c.first, e) + t.w * second;
 }
 
+/* The coefficients from scaled ones. */
 SPH_FN sph_coefficients sphi_row_unscaled(int dim, const sphi_blocks *b, const sph_real *u, const sph_real *v,
                                           sph_real factor)
 {
@@ -1941,8 +2054,8 @@ SPH_FN sph_coefficients sphi_row_unscaled(int dim, const sphi_blocks *b, const s
     return c;
 }
 
-/* Row of the operator op by CSPM. Returns SPH_OK or SPH_SINGULAR (nothing written). *conditioning as for
-   sph_solve_cspm. */
+/* The row of the operator op by CSPM. Returns SPH_OK, or SPH_SINGULAR and then writes nothing. *conditioning
+   is that of sph_solve_cspm. */
 SPH_FN int sph_coefficients_cspm(int dim, const sph_moments *m, sph_real h, sph_jet op, sph_coefficients *c,
                                  sph_real *conditioning)
 {
@@ -1962,13 +2075,12 @@ SPH_FN int sph_coefficients_cspm(int dim, const sph_moments *m, sph_real h, sph_
     return SPH_OK;
 }
 
-/* Row of the operator op by ICSPM (icspm = 1) or WLS (icspm = 0). Returns SPH_OK or SPH_SINGULAR (nothing
-   written).
-   ICSPM rows are never divided by kappa: they are scaled to the size of the CSPM row, and the factor goes to
-   the right-hand side. In 1D the row is the CSPM row and the factor is kappa, as published; in general row
-   and factor are those of (op row) * factor with |M^T second| the same as in CSPM, so that both stay finite
-   where kappa is singular (factor 0 then: the row still annihilates what it must). *conditioning is the same
-   as for sph_solve_block. */
+/* The row of the operator op by ICSPM (icspm = 1) or WLS (icspm = 0). Returns SPH_OK, or SPH_SINGULAR and
+   then writes nothing. *conditioning is that of sph_solve_block.
+   An ICSPM row is never divided by kappa. It is scaled to the size of the CSPM row, and the factor goes to
+   the right-hand side. In 1D the row is the CSPM row and the factor is kappa, as published. In general the
+   factor is such that |M^T second| is the same as in CSPM. So row and factor stay finite where kappa is
+   singular: the factor is 0 there, and the row gives 0 for all quadratic fields, as it must. */
 SPH_FN int sph_coefficients_block(int dim, int icspm, const sph_moments *m, sph_real h, sph_jet op,
                                   sph_coefficients *c, sph_real *conditioning)
 {
@@ -1990,7 +2102,7 @@ SPH_FN int sph_coefficients_block(int dim, int icspm, const sph_moments *m, sph_
     for (i = 0; i < nh; i++) y[i] = v[i] = y[i] - v[i];
     sphi_schur(dim, &b, &kk, 1, &schur);
     sphi_lu_solve(nh, &schur, v);
-    if (icspm) { /* |y|: what M^T v is in CSPM; t = M v: what it is here (M is symmetric) */
+    if (icspm) { /* M^T v is y in CSPM, and t = M v here (M is symmetric) */
         sph_real yy = SPH_R(0), tt = SPH_R(0), yt = SPH_R(0);
         sphi_multiply(nh, nh, b.mm, v, t);
         for (i = 0; i < nh; i++) {
@@ -2031,16 +2143,16 @@ SPH_FN sph_test_weights sphi_test_weights(int method, sph_kernel k, int dim, sph
     return method == SPHI_WLS ? sph_test_weights_wls(k, dim, q, V_j) : sph_test_weights_cspm(k, dim, q, V_j);
 }
 
-/* Fifty sums do not stay in registers one pair at a time: neighbours are gathered into tiles and summed in
-   lanes, which vectorises without a flag. Rows are filled up with a neighbour out of reach, whose weights are
-   0. */
+/* One pair at a time, fifty sums do not stay in registers. So neighbours are gathered into tiles and summed
+   in lanes, which vectorises without a flag. Lanes without a neighbour get one out of reach, whose weights
+   are 0. */
 enum { SPHI_TILE = 64, SPHI_LANES = 8 };
 typedef struct sphi_tile {
     sph_real x[SPHI_TILE], y[SPHI_TILE], z[SPHI_TILE], q[SPHI_TILE], volume[SPHI_TILE], df[SPHI_TILE];
 } sphi_tile;
 
-/* e = (x_j - x_i) / h_i, q = |e|, V_j and f_j - f_i of up to SPHI_TILE neighbours; returns their number
-   rounded up to whole lanes */
+/* Gathers e = (x_j - x_i) / h_i, q = |e|, V_j and f_j - f_i of up to SPHI_TILE neighbours. Returns their
+   number, rounded up to a multiple of SPHI_LANES. */
 SPH_FN int sphi_tile_gather(int dim, int with_f, sphi_tile *t, sph_vec x_i, sph_real h_i, sph_real f_i,
                             sph_points x, sph_scalars volume, sph_scalars f,
                             const SPH_GLOBAL sph_index *index, int n)
@@ -2086,7 +2198,7 @@ typedef struct sphi_lanes {
     for (l = 1; l < SPHI_LANES; l++) s.name[0] += s.name[l]; \
     m->name = s.name[0];
 
-/* the moments of target i, as sph_moments_add and sph_moments_add_value make them */
+/* The moments of target i, as sph_moments_add and sph_moments_add_value make them. */
 SPH_FN void sphi_moments(int method, sph_kernel k, int dim, int with_f, sph_index i, sph_points pos,
                          sph_list list, sph_real h_i, sph_scalars volume, sph_scalars f, sph_moments *m)
 {
@@ -2095,7 +2207,7 @@ SPH_FN void sphi_moments(int method, sph_kernel k, int dim, int with_f, sph_inde
     const sph_index end = list.start[i + 1];
     sphi_tile t;
     sphi_lanes s;
-    sph_index left; /* counted down: beyond the last entry there may be no index to count up to */
+    sph_index left; /* It counts down, because an index beyond the last entry may not exist. */
     int l, c;
     for (l = 0; l < SPHI_LANES; l++) {
         SPHI_MATRIX(dim, SPHI_LANE_ZERO)
@@ -2119,13 +2231,13 @@ SPH_FN void sphi_moments(int method, sph_kernel k, int dim, int with_f, sph_inde
                 }
             }
     }
-    *m = sph_moments_zero(); /* what dim leaves out, too: a compiler that does not know dim would warn */
+    *m = sph_moments_zero(); /* A compiler that does not know dim would warn of what dim leaves out. */
     SPHI_MATRIX(dim, SPHI_LANE_SUM)
     if (with_f) { SPHI_VALUE(dim, SPHI_LANE_SUM) }
 }
 
-/* unknowns that the neighbours must determine: CSPM solves for gradient and Hessian one after the other, the
-   others at once */
+/* The number of unknowns that the neighbours must determine at once. CSPM solves for the gradient and then
+   for the Hessian, the others solve for both together. */
 SPH_FN int sphi_neighbours_needed(int method, int dim)
 {
     return method == SPHI_CSPM ? sphi_unknowns(dim) : dim + sphi_unknowns(dim);
@@ -2138,10 +2250,12 @@ SPH_FN int sphi_solve(int method, int dim, const sph_moments *m, sph_real h, sph
                                : sph_solve_block(dim, m, h, jet, conditioning);
 }
 
-/* What the sweeps over derivatives may be told; zeros are the defaults. */
+/* Options of the sweeps for derivatives. Zeros are the defaults. */
 typedef struct sph_derivatives_options {
-    sph_real conditioning_min; /* a target whose |conditioning| is below is SPH_ILL_CONDITIONED; 0: none is */
-    int fallback_wls; /* ICSPM: 1: targets that are singular or ill-conditioned get the least-squares value */
+    /* A target whose |conditioning| is smaller is SPH_ILL_CONDITIONED; >= 0. 0: no target is. */
+    sph_real conditioning_min;
+    /* For ICSPM. 1: targets that are singular or ill-conditioned get the values of WLS. */
+    int fallback_wls;
 } sph_derivatives_options;
 
 SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
@@ -2166,7 +2280,7 @@ SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_cloud c
         sphi_moments(method, k, dim, 1, i, cloud.points, cloud.list, h_i, cloud.volume, f, &m);
         state = sphi_solve(method, dim, &m, h_i, &j, want_conditioning ? &conditioning : 0);
         solved = state == SPH_OK;
-        if (!sphi_finite(conditioning)) conditioning = SPH_R(0); /* moments that overflowed */
+        if (!sphi_finite(conditioning)) conditioning = SPH_R(0); /* the moments overflowed */
         if (!solved)
             state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i,
                                          sphi_neighbours_needed(method, dim));
@@ -2207,29 +2321,37 @@ SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_cloud c
     return failed;
 }
 
-/* Gradient, Hessian and Laplacian by CSPM: (3.5), (5.15) of the ICSPM paper in 1D. The Hessian has an error
-   O(1) at boundaries: in 1D it is kappa f''. conditioning: smallest pivot of the scaled matrices, in [0, 1];
-   a target below conditioning_min (>= 0) is reported SPH_ILL_CONDITIONED, its value kept. */
+/* Gradient, Hessian and Laplacian (the trace of the Hessian) by CSPM:
+       h grad f = K^-1 sum g e df,   h^2 hess = M^-1 (sum w e e df - A h grad f),
+   in 1D (3.5) and (5.15) of the ICSPM paper. The gradient is exact for linear fields, the Hessian for
+   quadratic fields in the interior of symmetric clouds only. The Hessian has an error O(1) at boundaries: in
+   1D it is kappa f'' instead of f''. conditioning is the smallest pivot of the scaled matrices, in [0, 1]. A
+   target below conditioning_min is SPH_ILL_CONDITIONED and keeps its values.
+   All values are 0 where the neighbours do not determine them (SPH_TOO_FEW if the support holds fewer than 1,
+   3 or 6 neighbours in 1D, 2D or 3D, else SPH_SINGULAR), and where one overflows (SPH_NOT_FINITE). */
 SPH_FN sph_index sph_derivatives_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                       sph_derivatives_options options, sph_derivatives_out out)
 {
     return sphi_derivatives(SPHI_CSPM, k, dim, cloud, f, options, out);
 }
 
-/* Gradient, Hessian and Laplacian by ICSPM: (5.17) of the ICSPM paper in 1D. Exact for quadratic fields
-   wherever it is not singular. conditioning: kappa in 1D, sign(det kappa) / |kappa^-1| in general. Targets
-   whose |conditioning| is below conditioning_min (>= 0; where there are boundaries and disorder 0.2 is a good
-   value in 1D and 0.02 in 2D and 3D; 0 is the published method) are SPH_ILL_CONDITIONED and keep their value,
-   or, with fallback_wls = 1, get the least-squares one and are SPH_FELL_BACK. */
+/* Gradient, Hessian and Laplacian by ICSPM, the solution of the whole system: (5.17) of the ICSPM paper in
+   1D. They are exact for quadratic fields wherever the system is not singular. conditioning is kappa in 1D,
+   and sign(det kappa) / |kappa^-1| in general. A target whose |conditioning| is below conditioning_min is
+   SPH_ILL_CONDITIONED and keeps its values. Where there are boundaries and disorder, 0.2 is a good
+   conditioning_min in 1D, and 0.02 in 2D and 3D; 0 is the published method. With fallback_wls = 1, targets
+   that are ill-conditioned or singular get the values of WLS and are SPH_FELL_BACK.
+   Where there is no answer, the values and the status are as for CSPM, but with 2, 5 or 9 neighbours. */
 SPH_FN sph_index sph_derivatives_icspm(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                        sph_derivatives_options options, sph_derivatives_out out)
 {
     return sphi_derivatives(SPHI_ICSPM, k, dim, cloud, f, options, out);
 }
 
-/* Gradient, Hessian and Laplacian by weighted least squares: the robust sibling. Exact for quadratic fields;
-   the matrix is definite wherever the neighbours determine a quadratic. conditioning: as for ICSPM, here in
-   [0, 1]. */
+/* Gradient, Hessian and Laplacian by weighted least squares, the robust sibling of ICSPM. They are exact for
+   quadratic fields; the matrix is definite wherever the neighbours determine a quadratic field. conditioning
+   is that of ICSPM, here in [0, 1]. conditioning_min, and the values and the status where there is no answer,
+   are as for ICSPM; there is no fallback. */
 SPH_FN sph_index sph_derivatives_wls(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                      sph_derivatives_options options, sph_derivatives_out out)
 {
@@ -2287,33 +2409,38 @@ SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_clo
     return failed;
 }
 
-/* Stencil rows of the operator d (see sph_jet): sum_p row[p] (f_j - f_i) = factor_i D f_i. The rows of a
-   target that is not ok are 0, and so is its factor. */
+/* Rows of the operator d (see sph_jet) by CSPM: sum_p row[p] (f_j - f_i) = factor[i] D f_i with factor 1. It
+   is exact for what sph_derivatives_cspm is exact for. The row of a target that is not SPH_OK is 0, and so is
+   its factor. SPH_ERROR_VALUE for a d that is not finite. */
 SPH_FN sph_index sph_derivatives_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_jet d,
                                            sph_rows_out out)
 {
     return sphi_derivative_rows(SPHI_CSPM, k, dim, cloud, d, out);
 }
 
-/* ICSPM: factor is the kappa of the paper (in 1D the rows are those of CSPM and the boundary value problem is
-   sum_p row[p] (u_j - u_i) = kappa_i f''(x_i)): nothing is ever divided by kappa, so a target where kappa is
-   0 is ok here. */
+/* The same by ICSPM: sum_p row[p] (f_j - f_i) = factor[i] D f_i, exact for quadratic fields. The factor is
+   the kappa of the paper. In 1D the rows are those of CSPM, and a boundary value problem u'' = b becomes
+   sum_p row[p] (u_j - u_i) = kappa_i b(x_i). Nothing is ever divided by kappa, so that a target where kappa
+   is 0 is SPH_OK here. */
 SPH_FN sph_index sph_derivatives_rows_icspm(sph_kernel k, int dim, sph_cloud cloud, sph_jet d,
                                             sph_rows_out out)
 {
     return sphi_derivative_rows(SPHI_ICSPM, k, dim, cloud, d, out);
 }
+/* The same by WLS, exact for quadratic fields, with factor 1. */
 SPH_FN sph_index sph_derivatives_rows_wls(sph_kernel k, int dim, sph_cloud cloud, sph_jet d, sph_rows_out out)
 {
     return sphi_derivative_rows(SPHI_WLS, k, dim, cloud, d, out);
 }
 
-/* -------- BIM, one dimension */
+/* -------- BIM (boundary integrals), one dimension */
 
-/* 1D, BIM: weight of (f_b - f_i) for the end b of the domain at x_b, whose outer normal is `normal` (+1
-   right, -1 left):  2 normal W(x_i - x_b) / (x_b - x_i). Macia, Gonzalez, Cercos-Pita & Souto-Iglesias 2012,
-   Prog. Theor. Phys. 128, 439; (4.9) of the ICSPM paper, where the braces are lost in print: the factor
-   2/gamma multiplies the boundary terms, too. Undefined (0/0) at the end itself: do not call it there. */
+/* The weight of (f_b - f_i) for the end b of the domain at x_b, before the division by gamma_i:
+       2 normal W(x_i - x_b) / (x_b - x_i)   with   e = x_b - x_i.
+   The outer normal is +1 at the right end and -1 at the left end, so that the weight is positive inside.
+   Sources: Macia, Gonzalez, Cercos-Pita & Souto-Iglesias 2012, Prog. Theor. Phys. 128, 439; (4.9) of the
+   ICSPM paper, where the braces are lost in print: the factor 2 / gamma multiplies the boundary terms, too.
+   At the end itself (e = 0) the term is undefined (0/0): do not call the function there. */
 SPH_FN sph_real sph_boundary_weight_bim(sph_kernel k, sph_real e, sph_real normal, sph_real h)
 {
     return SPH_R(2) * normal * sph_kernel_w(k, 1, SPHI_ABS(e), h) / e;
@@ -2321,15 +2448,15 @@ SPH_FN sph_real sph_boundary_weight_bim(sph_kernel k, sph_real e, sph_real norma
 
 SPH_FN int sphi_check_ends(sph_points x, sph_index left, sph_index right)
 {
-    if (x.box.x > SPH_R(0)) return sphi_refuse("box", -1, SPH_ERROR_BOX); /* a periodic axis has no ends */
+    if (x.box.x > SPH_R(0)) return sphi_refuse("box", -1, SPH_ERROR_BOX); /* A periodic axis has no ends. */
     if (left < 0 || left >= x.n || right < 0 || right >= x.n)
         return sphi_refuse("left, right", -1, SPH_ERROR_RANGE);
     return x.x[(size_t)left * x.stride] < x.x[(size_t)right * x.stride]
                ? 0
                : sphi_refuse("left, right", left, SPH_ERROR_POSITION);
 }
-/* not available at (or beyond) the ends; too few without a neighbour in the support, because the sum would
-   then be a silent 0 */
+/* SPH_NOT_AVAILABLE at or beyond the ends. SPH_TOO_FEW without a neighbour inside the support, because the
+   sum would then be 0 without notice. */
 SPH_FN int sphi_bim_status(sph_kernel k, sph_index i, sph_points x, sph_list list, sph_real h,
                            sph_real x_left, sph_real x_right)
 {
@@ -2338,9 +2465,14 @@ SPH_FN int sphi_bim_status(sph_kernel k, sph_index i, sph_points x, sph_list lis
     return sphi_singular_status(k, 1, i, x, list, h, 1) == SPH_TOO_FEW ? SPH_TOO_FEW : SPH_OK;
 }
 
-/* f''_i = (1/gamma_i) { sum_j 2 V_j (f_i - f_j) F_ij + boundary terms at the particles `left` and `right` },
-   gamma_i the Shepard sum. (5.16) of the ICSPM paper. First order near a boundary if h grows against the
-   spacing, as the integrals demand. Not available (SPH_NOT_AVAILABLE, 0) at the ends themselves. */
+/* The second derivative in 1D by boundary integrals, where `left` and `right` are the particles at the ends:
+       f''_i = (1/gamma_i) { sum_j 2 V_j (f_i - f_j) F_ij + sum_b weight_b (f_b - f_i) },
+   with the Shepard sum gamma_i, b = left, right, and weight_b from sph_boundary_weight_bim. Source: (5.16) of
+   the ICSPM paper. It is exact for constants. Near a boundary the error is of first order if h grows relative
+   to the spacing, as the integrals require.
+   The result is 0 at and beyond the ends (SPH_NOT_AVAILABLE), without a neighbour inside the support
+   (SPH_TOO_FEW), and where it overflows (SPH_NOT_FINITE). SPH_ERROR_BOX for a periodic axis, SPH_ERROR_RANGE
+   if an end is not a particle, SPH_ERROR_POSITION if left is not to the left of right. */
 SPH_FN sph_index sph_second_derivative_bim(sph_kernel k, sph_cloud cloud, sph_scalars f, sph_index left,
                                            sph_index right, sph_scalar_out out)
 {
@@ -2379,8 +2511,8 @@ SPH_FN sph_index sph_second_derivative_bim(sph_kernel k, sph_cloud cloud, sph_sc
     return failed;
 }
 
-/* The same as rows: f''_i = sum_p row[p] (f_j - f_i). The ends must be in the lists of the targets that reach
-   them. */
+/* The same as rows: f''_i = sum_p row[p] (f_j - f_i), with factor 1. The ends must be in the lists of the
+   targets whose support reaches them. The row of a target that is not SPH_OK is 0. */
 SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_cloud cloud, sph_index left,
                                                 sph_index right, sph_rows_out out)
 {
@@ -2415,64 +2547,82 @@ SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_cloud cloud, s
 
 /* ================================================================ elliptic operator
  *
- * L u = div(m grad u) as a sum of two-point fluxes. With e = x_j - x_i (from the particle to its neighbour)
- * and g_ij = grad_i W_ij = -F_ij e,
- *     L u_i = sum_j T_ij (u_j - u_i),   T_ij = scale_i V_j mu_ij (t_ij - xi_i . g_ij),   t_ij = e . g_ij /
- *     |e|^2,   mu_ij = m_i + m_j,
- * where each particle has, from the moments of its neighbourhood
- *     Gamma = sum V_j t e e^T,   K = sum V_j e g^T = C^-1,   N = sum V_j g,   N~ = sum V_j t e,
+ * L u = div(m grad u) as a sum of two-point fluxes. m is the mobility (conductivity, permeability,
+ * diffusivity). Let e = x_j - x_i = -x_ij, which points from the particle to its neighbour, and let g_ij
+ * be grad_i W_ij = -F_ij e, or another gradient of the kernel (sph_elliptic_gradient). Then
+ *     L u_i = sum_j T_ij (u_j - u_i),   T_ij = scale_i V_j mu_ij (t_ij - xi_i . g_ij),
+ *     t_ij  = e . g_ij / |e|^2,         mu_ij = m_i + m_j.
+ * scale_i and xi_i follow from the moments of the neighbourhood of particle i:
+ *     Gamma = sum V_j t e e^T,   K = sum V_j e g^T = C^-1,   N = sum V_j g,   N~ = sum V_j t e
  *     Brookshaw             scale = 1                    xi = 0
  *     corrected Brookshaw   scale = tr K^-1 / dim        xi = 0
  *     Schwaiger             scale = tr Gamma^-1 / dim    xi = K^-1 N
- *     M-SPH                 scale = tr Gamma^-1 / dim    xi = K^-1 N~      (on request Gamma* = Gamma - sum
- *                           V_j (xi . g) e e^T for Gamma)
- * Lukyanov & Vuik 2020, arXiv:1711.11351: (27), (51), (52), (69), and (24), (53), (55), (65), (71) for the
- * moments; T_ij is their meshless transmissibility (90). Brookshaw 1985, Proc. ASA 6, 207. Schwaiger 2008,
- * IJNME 75, 647.
- * Exact for: Brookshaw constants only. Corrected Brookshaw linear fields where N = 0. Schwaiger and M-SPH
- * with constant m: linear fields at every particle, for any positions and volumes; with xx, xy, yy and cubic
- * fields in the interior of lattices. Of the second derivatives only the trace is normalised (nearly: see
- * options.trace): in disorder errors are O(1) in the pointwise sense for all four, at a boundary O(1) for the
- * last two and O(1/h) for the first two.
- * Signs: L is negative semi-definite where all T >= 0, which is where 1 - xi . e > 0 ((92), (93);
- * sph_elliptic_diagnose). The paper's (1) is -L u - g. Misprints and misreadings that are corrected here:
- * (52) does have the two-point form, because m_j u_j - m_i u_i - u_i (m_j - m_i) + m_i (u_j - u_i) = (m_i +
- * m_j) (u_j - u_i): with N = N~ Schwaiger's scheme and M-SPH are the same numbers, for the radial gradients
- * (15), (17), (18), any cloud and any m. (91) has the sign of G wrong, and (71) as printed starts with C^-1,
- * which is not Gamma for the gradient (16): here it is Gamma. The factor of the cubic spline
- * under (12) is 2/3 in 1D, not 3/2. (70) asks whether Gamma* is 0; it must be definite. (69) with a matrix M
- * is inconsistent unless neighbours lie on the axes only (examples/papers/elliptic_msph_diagonal.h);
- * sph_elliptic_rows_anisotropic is not. tests/test_elliptic.c shows that the printed forms fail.
+ *     M-SPH                 scale = tr Gamma^-1 / dim    xi = K^-1 N~
+ * On request M-SPH takes Gamma* = Gamma - sum V_j (xi . g) e e^T in the place of Gamma
+ * (options.gamma_star).
+ *
+ * Sources: Lukyanov & Vuik 2020, arXiv:1711.11351, (27), (51), (52), (69) for the four schemes, and (24),
+ * (53), (55), (65), (71) for the moments. T_ij is their meshless transmissibility (90). Brookshaw 1985,
+ * Proc. ASA 6, 207. Schwaiger 2008, IJNME 75, 647.
+ *
+ * Exact for:
+ *   Brookshaw            constants only.
+ *   corrected Brookshaw  linear fields where N = 0.
+ *   Schwaiger, M-SPH     with constant m: linear fields at every particle, for any positions and volumes;
+ *                        in the interior of lattices also xx, xy, yy and cubic fields.
+ * Only the trace of the second derivatives is normalised (nearly: see options.trace). In disorder, the
+ * pointwise errors of all four are therefore O(1). At a boundary they are O(1) for the last two and O(1/h)
+ * for the first two.
+ * Signs: L is negative semi-definite where all T >= 0, that is, where 1 - xi . e > 0 ((92), (93);
+ * sph_elliptic_diagnose tells). The equation (1) of the paper is -L u - g.
+ *
+ * Misprints and misreadings that are corrected here:
+ *   - Schwaiger's scheme (52) has the two-point form, too, because m_j u_j - m_i u_i - u_i (m_j - m_i) +
+ *     m_i (u_j - u_i) = (m_i + m_j) (u_j - u_i). For the radial gradients (15), (17), (18) we have N = N~,
+ *     so that Schwaiger's scheme and M-SPH give the same numbers, for any cloud and any m.
+ *   - (91) has the wrong sign of G.
+ *   - (71) as printed starts with C^-1, which is not Gamma for the gradient (16). Here it
+ *     starts with Gamma.
+ *   - The factor of the cubic spline under (12) is 2/3 in 1D, not 3/2.
+ *   - (70) asks whether Gamma* is 0. It must be definite.
+ *   - (69) with a matrix M is inconsistent unless all neighbours lie on the axes
+ *     (examples/papers/elliptic_msph_diagonal.h). sph_elliptic_rows_anisotropic is consistent.
+ * tests/test_elliptic.c shows that the printed forms fail.
  */
 
-/* Which gradient of the kernel stands for g; nu_i = sum_j V_j W_ij, the particle itself included. All but
-   FULL are radial (along e). */
+/* -------- elliptic operator: types and pair functions */
+
+/* The gradient of the kernel that is taken for g. nu_i = sum_j V_j W_ij, with the particle itself. All but
+   SPH_GRADIENT_FULL are radial, that is, parallel to e. */
 typedef enum sph_elliptic_gradient {
-    SPH_GRADIENT_DIFFUSE, /* (15) grad W */
-    SPH_GRADIENT_FULL,    /* (16) grad (W / nu): nu is differentiated, too. Best at boundaries in M-SPH */
-    SPH_GRADIENT_SHEPARD_DIFFUSE, /* (17) grad W / nu */
-    SPH_GRADIENT_SHEPARD_FULL /* (18) grad_j (W / nu): with the neighbour's own part of nu differentiated */
+    SPH_GRADIENT_DIFFUSE,         /* (15) grad W */
+    SPH_GRADIENT_FULL,            /* (16) grad (W / nu). Best for M-SPH at boundaries */
+    SPH_GRADIENT_SHEPARD_DIFFUSE, /* (17) (grad W) / nu */
+    SPH_GRADIENT_SHEPARD_FULL     /* (18) grad_j (W / nu): of nu, only the neighbour's part varies */
 } sph_elliptic_gradient;
 
-/* The mobility of a pair. */
+/* The mean of two mobilities. */
 typedef enum sph_mobility_mean {
     SPH_MOBILITY_ARITHMETIC, /* (m_i + m_j) / 2: as published */
-    SPH_MOBILITY_HARMONIC,   /* 2 m_i m_j / (m_i + m_j): keeps the flux through a jump */
-    SPH_MOBILITY_UPWIND      /* that of the particle with the higher potential */
+    SPH_MOBILITY_HARMONIC,   /* 2 m_i m_j / (m_i + m_j): keeps the flux through a jump of m */
+    SPH_MOBILITY_UPWIND      /* m of the particle with the higher potential; m_i if they are equal */
 } sph_mobility_mean;
 
-/* nu and grad nu of a particle */
+/* nu = sum_j V_j W_ij of a particle, and grad nu = sum_j V_j grad_i W_ij. */
 typedef struct sph_shepard {
     sph_real nu;
     sph_vec gradient;
 } sph_shepard;
 
-/* g = radial e + rest */
+/* A gradient of the kernel, g = radial e + rest. */
 typedef struct sph_kernel_gradient {
     sph_real radial;
-    sph_vec rest; /* 0 but for SPH_GRADIENT_FULL */
+    sph_vec rest; /* 0, except for SPH_GRADIENT_FULL */
 } sph_kernel_gradient;
 
+/* g of a pair, for one of sph_elliptic_gradient. v: W and F of the pair; s: nu and grad nu of the target.
+   V_j is read for SPH_GRADIENT_SHEPARD_FULL only, s for all but SPH_GRADIENT_DIFFUSE, s.gradient for
+   SPH_GRADIENT_FULL only. */
 SPH_FN sph_kernel_gradient sph_elliptic_gradient_pair(int gradient, sph_wf v, sph_real V_j, sph_shepard s)
 {
     sph_kernel_gradient g;
@@ -2485,7 +2635,7 @@ SPH_FN sph_kernel_gradient sph_elliptic_gradient_pair(int gradient, sph_wf v, sp
     else if (gradient == (int)SPH_GRADIENT_SHEPARD_FULL) g.radial *= (SPH_R(1) - v.w * V_j / s.nu) / s.nu;
     return g;
 }
-/* g itself, and t = e . g / |e|^2 (for coincident particles its radial part). */
+/* g as a vector. */
 SPH_FN sph_vec sph_elliptic_gradient_vector(int dim, int gradient, sph_vec e, sph_kernel_gradient g)
 {
     sph_vec v = sph_scale(g.radial, e);
@@ -2496,6 +2646,7 @@ SPH_FN sph_vec sph_elliptic_gradient_vector(int dim, int gradient, sph_vec e, sp
     }
     return v;
 }
+/* t = e . g / |e|^2. For coincident particles it is the radial part alone. */
 SPH_FN sph_real sph_elliptic_projection(int dim, int gradient, sph_vec e, sph_kernel_gradient g)
 {
     return gradient == (int)SPH_GRADIENT_FULL
@@ -2503,8 +2654,8 @@ SPH_FN sph_real sph_elliptic_projection(int dim, int gradient, sph_vec e, sph_ke
                : g.radial;
 }
 
-/* Twice the mean of the mobilities, mu_ij. upstream: potential_i - potential_j, for SPH_MOBILITY_UPWIND only.
-   */
+/* mu_ij, which is twice the mean of the mobilities. upstream = potential_i - potential_j; it is read for
+   SPH_MOBILITY_UPWIND only. */
 SPH_FN sph_real sph_mobility_pair(int mean, sph_real m_i, sph_real m_j, sph_real upstream)
 {
     if (mean == (int)SPH_MOBILITY_HARMONIC) return SPH_R(4) * m_i * (m_j / (m_i + m_j + SPHI_TINY));
@@ -2512,12 +2663,15 @@ SPH_FN sph_real sph_mobility_pair(int mean, sph_real m_i, sph_real m_j, sph_real
     return m_i + m_j;
 }
 
+/* What corrects the weights of one particle: the number scale and the vector xi (1/length) of
+   the formulas above. */
 typedef struct sph_elliptic_correction {
     sph_real scale;
     sph_vec xi;
 } sph_elliptic_correction;
 
-/* T_ij without the mobility: what the weight is for mu = 1. For radial gradients scale V_j t (1 - xi . e). */
+/* T_ij / mu_ij = scale V_j (t - xi . g), the weight of (u_j - u_i) for mu = 1. For radial gradients it is
+   scale V_j t (1 - xi . e). */
 SPH_FN sph_real sph_elliptic_weight(int dim, int gradient, sph_vec e, sph_kernel_gradient g,
                                     sph_elliptic_correction c, sph_real V_j)
 {
@@ -2526,12 +2680,14 @@ SPH_FN sph_real sph_elliptic_weight(int dim, int gradient, sph_vec e, sph_kernel
     return c.scale * V_j * (t - sph_dot(dim, c.xi, sph_elliptic_gradient_vector(dim, gradient, e, g)));
 }
 
-/* The moments of a particle. K is kept by rows: kx = sum V e_x g. */
+/* The moments of a particle: Gamma, N, N~ and the rows of K, kx = sum V_j e_x g and so on. Gamma and K are
+   pure numbers; N and N~ have the unit 1/length. */
 typedef struct sph_elliptic_moments {
     sph_sym gamma;
     sph_vec n, n_tilde, kx, ky, kz;
 } sph_elliptic_moments;
 
+/* The moments of a radial gradient, for which K = Gamma and N~ = N. */
 SPH_FN sph_elliptic_moments sph_elliptic_moments_radial(sph_sym gamma, sph_vec n)
 {
     sph_elliptic_moments m;
@@ -2546,10 +2702,11 @@ SPH_FN sph_elliptic_moments sph_elliptic_moments_radial(sph_sym gamma, sph_vec n
     return m;
 }
 
-/* K^-1, by rows */
+/* K^-1 by rows. */
 typedef struct sph_elliptic_inverse {
     sph_vec x, y, z;
 } sph_elliptic_inverse;
+/* The product K^-1 v. */
 SPH_FN sph_vec sph_elliptic_inverse_times(int dim, sph_elliptic_inverse a, sph_vec v)
 {
     sph_vec u;
@@ -2558,12 +2715,14 @@ SPH_FN sph_vec sph_elliptic_inverse_times(int dim, sph_elliptic_inverse a, sph_v
     u.z = dim > 2 ? sph_dot(dim, a.z, v) : SPH_R(0);
     return u;
 }
-/* Returns SPH_OK or SPH_SINGULAR (nothing written). *conditioning: smallest pivot in [0, 1]. */
+/* Inverts K. Returns SPH_OK, or SPH_SINGULAR and then writes nothing. *conditioning, if the pointer
+   is not null, is the smallest pivot: of K scaled to a unit diagonal, in [0, 1]; or for
+   SPH_GRADIENT_FULL of K as it is. */
 SPH_FN int sph_elliptic_invert(int dim, int gradient, const sph_elliptic_moments *m, sph_elliptic_inverse *a,
                                sph_real *conditioning)
 {
-    if (gradient ==
-        (int)SPH_GRADIENT_FULL) { /* not symmetric; its entries are of order one, because nu normalises it */
+    if (gradient == (int)SPH_GRADIENT_FULL) {
+        /* K is not symmetric. Its entries are of order one, because g is normalised by nu. */
         sphi_lu s;
         sph_real b[3][SPHI_MAX];
         int c, r;
@@ -2596,8 +2755,8 @@ SPH_FN int sph_elliptic_invert(int dim, int gradient, const sph_elliptic_moments
     return SPH_OK;
 }
 
-/* Eigenvalues of a symmetric tensor, ascending (those beyond dim are 0): Jacobi's rotations, to round-off of
-   the largest. */
+/* The eigenvalues of a symmetric tensor in ascending order, by Jacobi's rotations. Those beyond dim are 0.
+   Errors are rounding errors of the largest. */
 SPH_FN sph_vec sph_sym_eigenvalues(int dim, sph_sym s)
 {
     sph_real a[3][3], t;
@@ -2619,7 +2778,7 @@ SPH_FN sph_vec sph_sym_eigenvalues(int dim, sph_sym s)
                     SPHI_COPYSIGN(SPH_R(1), theta) / (SPHI_ABS(theta) + SPHI_SQRT(theta * theta + SPH_R(1)));
                 cosine = SPH_R(1) / SPHI_SQRT(tangent * tangent + SPH_R(1));
                 sine = tangent * cosine;
-                r = 3 - p - q; /* the axis that is not turned */
+                r = 3 - p - q; /* the axis that does not turn */
                 a[p][p] -= tangent * a[p][q];
                 a[q][q] += tangent * a[p][q];
                 a[p][q] = a[q][p] = SPH_R(0);
@@ -2642,31 +2801,34 @@ SPH_FN sph_vec sph_sym_eigenvalues(int dim, sph_sym s)
 
 /* -------- elliptic operator: sweeps */
 
-/* What the elliptic sweeps may be told. Zeros are the defaults: gradient (15), arithmetic means, Gamma. */
+/* Options of the elliptic sweeps. All zeros are the defaults: gradient (15), arithmetic means, Gamma. */
 typedef struct sph_elliptic_options {
-    int gradient;   /* an sph_elliptic_gradient */
-    int mean;       /* an sph_mobility_mean */
-    int gamma_star; /* M-SPH only, 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK */
-    /* Schwaiger, M-SPH, 1: scale = dim / tr Gamma* where that is sound, else SPH_FELL_BACK; see
-       sph_elliptic_msph */
+    int gradient; /* an sph_elliptic_gradient */
+    int mean;     /* an sph_mobility_mean */
+    /* For M-SPH only. 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK. */
+    int gamma_star;
+    /* For Schwaiger and M-SPH. 1: scale = dim / tr Gamma* where tr Gamma* is large enough, else
+       SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below. */
     int trace;
-    sph_real conditioning_min; /* below: SPH_ILL_CONDITIONED, but computed */
-    sph_scalars potential;     /* for SPH_MOBILITY_UPWIND */
-    sph_scalars source;        /* added to the result, unless there is none (rows are without) */
+    /* Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed. */
+    sph_real conditioning_min;
+    sph_scalars potential; /* read for SPH_MOBILITY_UPWIND only */
+    sph_scalars source;    /* is added to the result, if it is there; rows do not contain it */
 } sph_elliptic_options;
 
-/* Gamma* counts as definite if its smallest eigenvalue (for options.trace: its trace) is at least this much
-   of Gamma's. At boundaries it often is not, and nearly singular, where its trace of the inverse would be
-   huge. */
+/* Gamma* counts as definite if its smallest eigenvalue is at least this fraction of that of Gamma; for
+   options.trace the two traces are compared. At boundaries Gamma* is often indefinite, or nearly singular,
+   and the trace of its inverse would be huge. */
 #define SPHI_GAMMA_STAR_MIN SPH_R(0.1)
 
-/* h_ij = (h_i + h_j) / 2; one h for all costs nothing */
+/* h_ij = (h_i + h_j) / 2. If all particles have the same h, no h_j is read. */
 SPH_FN sph_real sphi_mean_h(int uniform, sph_scalars h, sph_real h_i, sph_index j)
 {
     return uniform ? h_i : SPH_R(0.5) * (h_i + sphi_at(h, j));
 }
 
-/* What the loops over the neighbours of one particle share. */
+/* What the loops over the neighbours of one particle have in common. uniform: 1 if all particles
+   have the same h. */
 typedef struct sphi_elliptic {
     sph_cloud cloud;
     sph_scalars m;
@@ -2690,7 +2852,7 @@ SPH_FN int sphi_elliptic_check(sph_kernel k, int dim, const sphi_elliptic *a)
     return error;
 }
 
-/* nu and its gradient; not needed, and 1 and 0, for the gradient (15) */
+/* nu and its gradient. For the gradient (15) they are not needed, and are 1 and 0. */
 SPH_FN sph_shepard sphi_elliptic_shepard(sph_kernel k, int dim, const sphi_elliptic *a, sph_index i)
 {
     const sph_vec x_i = sphi_point(dim, a->cloud.points, i);
@@ -2721,7 +2883,7 @@ SPH_FN sph_shepard sphi_elliptic_shepard(sph_kernel k, int dim, const sphi_ellip
     return s;
 }
 
-/* the pair i, j of the list */
+/* A pair i, j of the list. */
 typedef struct sphi_elliptic_pair {
     sph_vec e;
     sph_kernel_gradient g;
@@ -2779,12 +2941,12 @@ SPH_FN sph_elliptic_moments sphi_elliptic_moments_of(sph_kernel k, int dim, cons
     n.y = ny;
     n.z = nz;
     m = sph_elliptic_moments_radial(gamma, n);
-    if (gradient == (int)SPH_GRADIENT_FULL) { /* K and N are sums of their own */
+    if (gradient == (int)SPH_GRADIENT_FULL) { /* K and N differ from Gamma and N~ */
         const sph_real own =
             -sphi_at(a->cloud.volume, i) * sph_kernel_w(k, dim, SPH_R(0), h_i) / (s.nu * s.nu);
         sph_real k0 = SPH_R(0), k1 = SPH_R(0), k2 = SPH_R(0), k3 = SPH_R(0), k4 = SPH_R(0), k5 = SPH_R(0),
                  k6 = SPH_R(0), k7 = SPH_R(0), k8 = SPH_R(0);
-        nx = own * s.gradient.x; /* the particle itself: in N only, which is 0 because of it */
+        nx = own * s.gradient.x; /* The particle itself counts in N only. With it, N is 0. */
         ny = own * s.gradient.y;
         nz = own * s.gradient.z;
         SPH_SUM(k0, k1, k2, k3, k4, k5, k6, k7, k8, nx, ny, nz)
@@ -2817,7 +2979,7 @@ SPH_FN sph_elliptic_moments sphi_elliptic_moments_of(sph_kernel k, int dim, cons
     return m;
 }
 
-/* Gamma* = Gamma - sum V_j (xi . g) e e^T, (71) */
+/* Gamma* = Gamma - sum V_j (xi . g) e e^T, (71). */
 SPH_FN sph_sym sphi_elliptic_gamma_star(sph_kernel k, int dim, const sphi_elliptic *a, sph_shepard s,
                                         sph_index i, sph_sym gamma, sph_vec xi)
 {
@@ -2837,8 +2999,8 @@ SPH_FN sph_sym sphi_elliptic_gamma_star(sph_kernel k, int dim, const sphi_ellipt
 
 enum { SPHI_ELLIPTIC_BROOKSHAW, SPHI_ELLIPTIC_CORRECTED, SPHI_ELLIPTIC_SCHWAIGER, SPHI_ELLIPTIC_MSPH };
 
-/* scale and xi of a particle; SPH_TOO_FEW and SPH_SINGULAR leave them 0. And its moments, but for Brookshaw's
-   scheme, which has none. */
+/* scale, xi and conditioning of a particle. With SPH_TOO_FEW and SPH_SINGULAR scale and xi are 0. Its
+   moments are written, too, except for Brookshaw's scheme, which has none. */
 SPH_FN int sphi_elliptic_correct(int scheme, sph_kernel k, int dim, const sphi_elliptic *a, sph_shepard s,
                                  sph_index i, sph_elliptic_correction *c, sph_elliptic_moments *m,
                                  sph_real *conditioning)
@@ -2968,7 +3130,8 @@ SPH_FN sphi_elliptic sphi_elliptic_of(sph_cloud cloud, sph_scalars m, sph_ellipt
     a.uniform = uniform;
     return a;
 }
-/* u and out, or rows; with one body for one h for all, and one for h of each particle's own */
+/* The two kinds of sweeps: to a result, or to rows. Each loop is compiled twice: once for one h, and once
+   for an h of each particle. */
 SPH_FN sph_index sphi_elliptic_sweep(int scheme, sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                      sph_elliptic_options options, sph_scalars u, sph_scalar_out out)
 {
@@ -2995,25 +3158,30 @@ SPH_FN sph_index sphi_elliptic_rows(int scheme, sph_kernel k, int dim, sph_cloud
                           : sphi_elliptic_row(scheme, k, dim, &one, out);
 }
 
-/* div(m grad u)_i + source_i, for all four schemes (see the pair tier: formulas, sources, exactness, errors).
-   h        one for all, or each particle's own: pairs then use (h_i + h_j) / 2, and lists must hold every j
-            within support * (h_i + h_j) / 2 (SPH_MEAN).
-   m        mobility (conductivity, permeability, diffusivity), not negative.   options:
-            sph_elliptic_defaults(), or change what it returns.
-   source   sph_scalars_array(0) for none.   Vector unknowns: rows once, and sph_rows_apply for each
-            component.
-   Rows:    div(m grad u)_i = diagonal[i] u_i + sum_p row[p] u_j, p along the list; factor[i] = 1.
-   trace    in disorder tr Gamma^-1 / dim is not the right factor: tr Gamma tr Gamma^-1 >= dim^2, so that rows
-            of Schwaiger's scheme and M-SPH are 0.3 to 0.7 % too large on jittered clouds, at any resolution,
-            and solutions with a source do not converge. With options.trace = 1 the factor is dim / tr Gamma*,
-            for which sum_j T_ij |e|^2 = 2 dim m where m is constant: exact for |x|^2 at any particle, at no
-            cost in signs (a row's weights keep their ratios). This toolkit's;
-            examples/papers/elliptic_clouds.c has the orders. Not at most boundary particles, where tr Gamma*
-            is small or negative.
-   SPH_TOO_FEW, SPH_SINGULAR: not for Brookshaw's scheme; the neighbours lie on a line or in a plane, or are
-   too few: output and row are 0. SPH_FELL_BACK: Gamma was taken for Gamma*, which is not definite.
-   SPH_ILL_CONDITIONED: computed, with a conditioning (smallest pivot of the scaled Gamma) below
-   conditioning_min. Coincident neighbours get the radial weight of r = 0. */
+/* div(m grad u)_i + source_i by the four schemes. The chapter's opening has formulas,
+   sources and exactness.
+     h        one for all particles, or one for each. A pair uses (h_i + h_j) / 2, so that the list must
+              hold every j with r < support ratio * (h_i + h_j) / 2 (SPH_MEAN).
+     m        the mobility, not negative.
+     options  all zeros are the defaults. options.source = sph_scalars_none() adds no source.
+     rows     div(m grad u)_i = diagonal[i] u_i + sum_p row[p] u_j, p along the list; factor[i] = 1. For a
+              vector unknown compute the rows once, and call sph_rows_apply for each component.
+     trace    In disorder tr Gamma^-1 / dim is not the right factor, because tr Gamma tr Gamma^-1 >= dim^2.
+              On jittered clouds the rows of Schwaiger's scheme and M-SPH are 0.3 to 0.7 % too large, at
+              any resolution, and solutions with a source do not converge. With options.trace = 1 the
+              factor is dim / tr Gamma*. Then sum_j T_ij |e|^2 = 2 dim m where m is constant: the result is
+              exact for |x|^2 at any particle. Signs do not change, because the weights of a row keep their
+              ratios. This factor is an addition of this toolkit; examples/papers/elliptic_clouds.c has the
+              orders of convergence. At most boundary particles it is not available, because tr Gamma* is
+              small or negative there.
+   Returns the number of targets that are not SPH_OK, or a negative sph_error. The states are:
+     SPH_TOO_FEW, SPH_SINGULAR  the neighbours are too few, or lie on a line or in a plane; result and row
+                                are 0. Brookshaw's scheme does not have these states.
+     SPH_FELL_BACK              computed with Gamma, because Gamma* is not definite (or its
+                                trace is too small).
+     SPH_ILL_CONDITIONED        computed, but the conditioning is below conditioning_min. It is the
+                                smallest pivot of the scaled Gamma (1 good, 0 singular).
+   Coincident neighbours have the radial weight of r = 0. */
 SPH_FN sph_index sph_elliptic_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                         sph_elliptic_options options, sph_scalars u, sph_scalar_out out)
 {
@@ -3056,24 +3224,28 @@ SPH_FN sph_index sph_elliptic_rows_msph(sph_kernel k, int dim, sph_cloud cloud, 
     return sphi_elliptic_rows(SPHI_ELLIPTIC_MSPH, k, dim, cloud, m, options, out);
 }
 
-/* What the neighbourhood of a particle promises, for M-SPH with the gradient of the options; n numbers each,
-   a null pointer is not wanted. */
+/* What the neighbourhood of a particle promises for M-SPH with the gradient of the options. Each array has
+   one number a particle; null pointers are not written. */
 typedef struct sph_elliptic_report {
-    /* of T_ij / (scale V_j mu t_ij) = 1 - xi . e over the neighbours: all weights have one sign where both
-       have ((92)), and are positive where both are ((93)) */
+    /* The least and the largest T_ij / (scale V_j mu t_ij) = 1 - xi . e of the neighbours inside the support.
+       (92): if both have the same sign, all weights have one sign. (93): if both are positive, so are all
+       weights of the row. */
     SPH_GLOBAL sph_real *sign_least, *sign_most;
-    SPH_GLOBAL sph_real *xi; /* |N~ C|, figure 6 of the paper */
-    /* largest V_j e . g / dim: the SPH continuity condition (21) asks for at most 1 */
+    SPH_GLOBAL sph_real *xi; /* |xi| = |N~ C|, figure 6 of the paper; unit 1/length */
+    /* The largest V_j e . g / dim. The SPH continuity condition (21) asks for at most 1. */
     SPH_GLOBAL sph_real *continuity;
-    SPH_GLOBAL sph_real *n, *n_bound; /* |N| and its bound sum V_j |g|, (22): the bound is C / h */
-    /* of C^-1 (its symmetric part), near 1 inside, smaller towards a free surface: Marrone et al. 2010, JCP
-       229, 3652, with gradient (17) */
+    SPH_GLOBAL sph_real *n, *n_bound; /* |N| and its bound sum V_j |g|, (22), which is a constant / h */
+    /* The smallest eigenvalue of K = C^-1 (of its symmetric part). It is near 1 in the interior, and smaller
+       towards a free surface: Marrone et al. 2010, JCP 229, 3652, with gradient (17). */
     SPH_GLOBAL sph_real *eigenvalue_least;
-    SPH_GLOBAL sph_real *eigenvalue_ratio; /* largest / smallest of Gamma; 0 where it has none */
-    size_t stride;
-    SPH_GLOBAL unsigned char *status;
+    SPH_GLOBAL sph_real *eigenvalue_ratio; /* of Gamma: largest / smallest; 0 if the smallest is <= 0 */
+    size_t stride;                         /* of all arrays but status, in sph_real; 0 counts as 1 */
+    SPH_GLOBAL unsigned char *status;      /* contiguous; as for sph_elliptic_msph with the same options */
 } sph_elliptic_report;
 
+/* Fills an sph_elliptic_report for each target. Lists as for the elliptic sweeps; mobilities do not
+   matter. Where the status is SPH_TOO_FEW or SPH_SINGULAR, sign_least, sign_most and xi are 0; the other
+   numbers are computed. Returns the number of targets that are not SPH_OK, or a negative sph_error. */
 SPH_FN sph_index sph_elliptic_diagnose(sph_kernel k, int dim, sph_cloud cloud, sph_elliptic_options options,
                                        sph_elliptic_report out)
 {
@@ -3110,7 +3282,7 @@ SPH_FN sph_index sph_elliptic_diagnose(sph_kernel k, int dim, sph_cloud cloud, s
             if (c.V_j * sph_dot(dim, c.e, g) > continuity * SPH_R(dim))
                 continuity = c.V_j * sph_dot(dim, c.e, g) / SPH_R(dim);
             bound += SPHI_ABS(c.V_j) * sph_length(dim, g);
-            if (!(SPHI_ABS(t) > SPH_R(0))) continue; /* out of the support */
+            if (!(SPHI_ABS(t) > SPH_R(0))) continue; /* outside the support */
             if (!any || sign < least) least = sign;
             if (!any || sign > most) most = sign;
             any = 1;
@@ -3138,8 +3310,9 @@ SPH_FN sph_index sph_elliptic_diagnose(sph_kernel k, int dim, sph_cloud cloud, s
     return failed;
 }
 
-/* -------- a mobility for each axis: div(M grad u), M = diag(M_x, M_y, M_z) */
+/* -------- elliptic operator: a mobility for each axis, div(M grad u) with M = diag(M_x, M_y, M_z) */
 
+/* The mobilities of the axes. */
 typedef struct sph_diagonal {
     sph_scalars x, y, z; /* y, z are not read below dim 2, 3 */
 } sph_diagonal;
@@ -3160,17 +3333,22 @@ SPH_FN int sphi_check_diagonal(int dim, sph_diagonal mobility, sph_index n)
     return error;
 }
 
-/* Consistent rows of div(M grad u) for a diagonal M on full supports. What (69) gets wrong is the fourth
-   moment: sum_j V_j G e_a e_b M_c e_c^2 / |e|^2, G = -F_ij, is not M_a delta_ab. Here M is replaced by S =
-   T^-1 M with T_ac = sum V_j G e_a^2 e_c^2 / |e|^2, so that it is:
-       row = V_j G sum_c S(M_i + M_j)_c (e_c^2 / |e|^2 - (K^-1 N_c) . e),   N_c = sum V_j G e e_c^2 / |e|^2,
-       K = sum V_j G e e^T.
-   In the continuum S = ((dim + 2) M - tr M) / 2; with neighbours on the axes only T is diagonal and this is
-   M-SPH, as it is for isotropic M where T is isotropic. This form is this toolkit's. Exact for linear fields
-   (M constant) at every particle and for xx, yy, zz in the interior of lattices; to O(disorder) elsewhere. S
-   may be negative where M_x / M_y is beyond 3 (2D): weights then have both signs, and maximum principles are
-   lost. Gradient (15), arithmetic means. SPH_SINGULAR also where T is: fewer directions of neighbours than
-   axes. */
+/* Rows of div(M grad u) for a diagonal M that are consistent on full supports. (69) is not, because of the
+   fourth moment: sum_j V_j G e_a e_b sum_c M_c e_c^2 / |e|^2 with G = -F_ij is not M_a delta_ab. It is, if
+   M is replaced by S = T^-1 M with T_ac = sum V_j G e_a^2 e_c^2 / |e|^2. The rows are
+       row = V_j G sum_c S(M_i + M_j)_c (e_c^2 / |e|^2 - (K^-1 N_c) . e),
+       N_c = sum V_j G e e_c^2 / |e|^2,   K = sum V_j G e e^T.
+   In the continuum S = ((dim + 2) M - tr M) / 2. If all neighbours lie on the axes, T is diagonal and
+   the rows are those of M-SPH; so they are for isotropic M where T is isotropic. This form is an
+   addition of this toolkit.
+   Exact for linear fields (M constant) at every particle, and for xx, yy, zz in the interior of lattices;
+   elsewhere the error is O(disorder).
+   Signs: S may be negative if M_x / M_y is beyond 3 (2D). Weights then have both signs, and maximum
+   principles are lost.
+   The gradient is (15), means are arithmetic, a pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). A row is
+   0 where the state is SPH_TOO_FEW or SPH_SINGULAR: K or T is singular. T is so where neighbours lie in
+   fewer directions than there are axes. Returns the number of targets that are not SPH_OK, or a
+   negative sph_error. */
 SPH_FN sph_index sph_elliptic_rows_anisotropic(sph_kernel k, int dim, sph_cloud cloud, sph_diagonal mobility,
                                                sph_rows_out out)
 {
@@ -3249,20 +3427,25 @@ SPH_FN sph_index sph_elliptic_rows_anisotropic(sph_kernel k, int dim, sph_cloud 
     return failed;
 }
 
-/* -------- boundary conditions */
+/* -------- elliptic operator: boundary conditions */
 
-/* alpha u + beta m du/dn at a boundary particle, with the outer normal; both 0: not a boundary particle. */
+/* What holds at a boundary particle: alpha u + beta m n . grad u is given. alpha = beta = 0 means that the
+   particle is not on a boundary. */
 typedef struct sph_boundary {
-    sph_vectors normal;
-    sph_scalars alpha, beta;
+    sph_vectors normal;      /* n, which points out of the domain */
+    sph_scalars alpha, beta; /* of u, and of m n . grad u */
 } sph_boundary;
 
-/* Rows of  alpha_i u_i + beta_i m_i n_i . grad u  for the targets with alpha or beta not 0; the rows of
-            others are left as they are: write those of the operator first, then these over
-   them. Dirichlet: alpha = 1, beta = 0. Neumann: alpha = 0, beta = 1: the flux into the domain through a
-   boundary with the outer normal n, (100) of Lukyanov & Vuik 2020 with the corrected gradient, exact for
-   linear fields, error O(h). Robin: both. n need not have unit length. diagonal is needed. A row of
-   SPH_TOO_FEW or SPH_SINGULAR is 0, with its diagonal. */
+/* Rows of alpha_i u_i + beta_i m_i n_i . grad u for the targets where alpha or beta is not 0. The rows of
+   the others are left as they are: write the rows of the operator first, then these over them.
+     Dirichlet  alpha = 1, beta = 0.
+     Neumann    alpha = 0, beta = 1: m n . grad u, the flux into the domain through a boundary with
+                the outer normal n.
+     Robin      both are not 0.
+   (100) of Lukyanov & Vuik 2020 with the corrected gradient grad u = K^-T sum V_j g (u_j - u_i). Exact for
+   linear fields, error O(h). The length of n counts: it multiplies beta. out.diagonal must not be null. A
+   row with the state SPH_TOO_FEW or SPH_SINGULAR is 0, with its diagonal. Returns the number of boundary
+   targets that are not SPH_OK, or a negative sph_error. */
 SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                             sph_elliptic_options options, sph_boundary boundary,
                                             sph_rows_out out)
@@ -3322,9 +3505,17 @@ SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_cloud clo
 }
 
 /* ================================================================ rows and matrices
-   Rows of any operator of this file: their use, and what they promise. */
+ *
+ * A row holds one weight for each entry of the list of a target. The rows may be those of any operator of
+ * this file; here is what they are used for, and what they promise. With e = x_j - x_i and the neighbours
+ * j along the list, a row stands for
+ *     L u_i = sum_p row[p] (u_j - u_i) = diagonal[i] u_i + sum_p row[p] u_j,  diagonal[i] = -sum_p row[p].
+ * Sources: Lukyanov & Vuik 2020, arXiv:1711.11351, for M-matrices and von Neumann's growth factor.
+ */
 
-/* the targets, their lists, and that there are rows of numbers; diagonal may be none */
+/* -------- rows and matrices: sweeps */
+
+/* Checks the targets, their lists, and that the rows are there and finite. diagonal may be missing. */
 SPH_FN int sphi_check_rows(sph_cloud cloud, const SPH_GLOBAL sph_real *row, sph_scalars diagonal)
 {
     const sph_list list = cloud.list;
@@ -3344,8 +3535,9 @@ SPH_FN int sphi_check_rows(sph_cloud cloud, const SPH_GLOBAL sph_real *row, sph_
     return error;
 }
 
-/* out_i = sum_p row[p] (u_j - u_i), or, if diagonal is given, diagonal[i] u_i + sum_p row[p] u_j. n: number
-   of particles, all sources. The first is exact for constants. */
+/* out_i = sum_p row[p] (u_j - u_i), which is exactly 0 for constants. If diagonal is given, out_i =
+   diagonal[i] u_i + sum_p row[p] u_j. Rows with a factor give factor[i] times the operator. Returns the
+   number of targets whose result overflowed (it is 0 then), or a negative sph_error. */
 SPH_FN sph_index sph_rows_apply(sph_cloud cloud, const SPH_GLOBAL sph_real *row, sph_scalars diagonal,
                                 sph_scalars u, sph_scalar_out out)
 {
@@ -3365,11 +3557,13 @@ SPH_FN sph_index sph_rows_apply(sph_cloud cloud, const SPH_GLOBAL sph_real *row,
     return failed;
 }
 
-/* Is a row that of an M-matrix: no two off-diagonal weights of different sign, the diagonal of the other sign
-   and at least as large as their sum? Lukyanov & Vuik 2020, Definition 7, but for the strictness of the
-   dominance: rows of an operator have the sum 0. A matrix of such rows, connected, with a Dirichlet row, is
-   monotone: no maximum inside. Returns the number of rows that are not; monotone[i] (may be null): 1 or 0.
-   Weights below round-off of the row's largest do not count. */
+/* Counts the rows that are not rows of an M-matrix. A row is one if its off-diagonal weights do not differ
+   in sign, and the diagonal has the other sign and at least the size of their sum: Lukyanov & Vuik 2020,
+   Definition 7. The dominance need not be strict, because the rows of an operator have the sum 0. A
+   connected matrix of such rows, of which one is a Dirichlet row, is monotone: the solution has no maximum
+   in the interior. Weights below the rounding error of the largest weight of a row do not count.
+   monotone[i] (the pointer may be null) is 1 for rows of an M-matrix, else 0. Returns the number of the
+   others, or a negative sph_error. */
 SPH_FN sph_index sph_rows_monotone(sph_cloud cloud, const SPH_GLOBAL sph_real *row, sph_scalars diagonal,
                                    SPH_GLOBAL unsigned char *monotone)
 {
@@ -3389,17 +3583,19 @@ SPH_FN sph_index sph_rows_monotone(sph_cloud cloud, const SPH_GLOBAL sph_real *r
         noise = SPH_R(64) * SPH_EPSILON * (most - least);
         ok = least >= -noise ? own <= -sum + SPH_R(64) * SPH_EPSILON * sum
                              : most <= noise && own >= -sum + SPH_R(64) * SPH_EPSILON * sum;
-        if (most <= noise && least >= -noise) ok = own != SPH_R(0); /* a Dirichlet row of either sign */
+        if (most <= noise && least >= -noise) ok = own != SPH_R(0); /* a Dirichlet row, of either sign */
         if (monotone) monotone[i] = (unsigned char)ok;
         others += !ok;
     }
     return others;
 }
 
-/* The longest stable step of du/dt = L u by explicit Euler steps: *dt = 2 / max_i (|sum_p row| + sum_p |row|)
-   (Gershgorin), a bound that holds for sure where all weights of a row have one sign. 1/SPHI_TINY if there is
-   nothing to limit it. For a uniform lattice and its 2 dim nearest neighbours it is dx^2 / (2 dim m). Half of
-   it keeps maxima from growing. */
+/* The longest stable step of du/dt = L u for the explicit Euler method, by Gershgorin's circles:
+       *dt = 2 / max_i (|sum_p row| + sum_p |row|).
+   It is certain where all weights are >= 0; it then also keeps maxima from growing. Half of it also keeps
+   every mode from changing its sign from step to step. On a uniform lattice with the 2 dim nearest
+   neighbours it is dx^2 / (2 dim m). *dt = 1/SPHI_TINY if nothing limits the step. Returns 0 or a
+   negative sph_error. */
 SPH_FN sph_index sph_rows_time_step(sph_cloud cloud, const SPH_GLOBAL sph_real *row, SPH_GLOBAL sph_real *dt)
 {
     int error = dt ? sphi_check_rows(cloud, row, sph_scalars_none()) : sphi_refuse("dt", -1, SPH_ERROR_NULL);
@@ -3418,6 +3614,7 @@ SPH_FN sph_index sph_rows_time_step(sph_cloud cloud, const SPH_GLOBAL sph_real *
     return 0;
 }
 
+/* One coordinate of particle i: finite, and on a periodic axis not too many lengths from the origin. */
 SPH_FN int sphi_check_coordinate(SPHI_TEXT *name, sph_real x, sph_real length, sph_index i)
 {
     if (!SPH_CHECK) return 0;
@@ -3425,20 +3622,22 @@ SPH_FN int sphi_check_coordinate(SPHI_TEXT *name, sph_real x, sph_real length, s
     if (!(length > SPH_R(0)) || SPHI_ABS(x) <= SPH_R(1048576) * length) return 0;
     return sphi_refuse("points", i, SPH_ERROR_BOX);
 }
-/* position and box as far as particle i goes */
+/* The lengths of the box, and the position of particle i. */
 SPH_FN int sphi_check_one(int dim, sph_points x, sph_index i)
 {
     const sph_vec at = sphi_point(dim, x, i);
     int error;
-    x.n = 0; /* the lengths alone */
+    x.n = 0; /* checks the lengths alone */
     error = sphi_check_box(dim, x, SPH_R(0), 1);
     if (!error) error = sphi_check_coordinate("x", at.x, x.box.x, i);
     if (!error && dim > 1) error = sphi_check_coordinate("y", at.y, x.box.y, i);
     if (!error && dim > 2) error = sphi_check_coordinate("z", at.z, x.box.z, i);
     return error;
 }
-/* The growth factor lambda = 1 + tau sum_p row[p] (exp(i k . e) - 1) of the wave k at particle i under u +
-   tau L u (von Neumann); |lambda| <= 1 is stable. (83) of Lukyanov & Vuik 2020. */
+/* The growth factor lambda = 1 + tau sum_p row[p] (exp(i k . e) - 1) of a wave with the wave vector k
+   (`wave`) at the first target, for the step u + tau L u (von Neumann). It is stable if |lambda| <= 1.
+   (83) of Lukyanov & Vuik 2020. *re and *im are the real and the imaginary part. Returns 0; or 1 if they
+   are not finite; or a negative sph_error. It writes nothing with the last two, and without targets. */
 SPH_FN sph_index sph_rows_growth(int dim, sph_cloud cloud, const SPH_GLOBAL sph_real *row, sph_real tau,
                                  sph_vec wave, SPH_GLOBAL sph_real *re, SPH_GLOBAL sph_real *im)
 {
@@ -3452,9 +3651,8 @@ SPH_FN sph_index sph_rows_growth(int dim, sph_cloud cloud, const SPH_GLOBAL sph_
     if (!error) error = sphi_check_rows(sph_cloud_range(cloud, i, i + 1), row, sph_scalars_none());
     if (!error && (!sphi_finite(tau) || !sphi_finite(sph_dot(dim, wave, wave))))
         error = sphi_refuse("tau, wave", -1, SPH_ERROR_VALUE);
-    if (!error)
-        error = sphi_check_one(dim, x,
-                               i); /* of the positions only those that it needs: it is called for many i */
+    /* Checks only the positions that are needed, because a host calls this for many particles. */
+    if (!error) error = sphi_check_one(dim, x, i);
     if (!error && SPH_CHECK)
         for (p = list.start[i]; !error && p < list.start[i + 1]; p++)
             error = sphi_check_one(dim, x, list.index[p]);
@@ -3464,7 +3662,7 @@ SPH_FN sph_index sph_rows_growth(int dim, sph_cloud cloud, const SPH_GLOBAL sph_
                                                     sphi_separation(dim, x, sphi_point(dim, x, list.index[p]),
                                                                     sphi_point(dim, x, i)));
         const sph_real sine = SPHI_SIN(phase);
-        a -= SPH_R(2) * row[p] * sine * sine; /* cos - 1, without cancellation */
+        a -= SPH_R(2) * row[p] * sine * sine; /* cos - 1 = -2 sin^2(phase), without cancellation */
         b += SPH_R(2) * row[p] * sine * SPHI_COS(phase);
     }
     if (!sphi_finite(a * tau) || !sphi_finite(b * tau)) return 1;
@@ -3473,18 +3671,19 @@ SPH_FN sph_index sph_rows_growth(int dim, sph_cloud cloud, const SPH_GLOBAL sph_
     return 0;
 }
 
-/* -------- assembly: rows and diagonals into a CSR matrix on the caller's memory */
+/* -------- rows and matrices: assembly of a matrix in CSR form, in the caller's memory */
 
 #if !SPH_OPENCL
-/* entries that sph_csr_assemble may need for these targets: those of the rows, and one diagonal each */
+/* The number of entries that sph_csr_assemble needs at most: those of the rows, and one diagonal for each
+   target. It is 0 without targets or list. */
 SPH_FN int64_t sph_csr_size(sph_cloud cloud)
 {
     if (!cloud.list.start || cloud.first < 0 || cloud.last <= cloud.first) return 0;
     return (int64_t)cloud.list.start[cloud.last] - cloud.list.start[cloud.first] + (cloud.last - cloud.first);
 }
 
-/* ascending columns; Shell's method, which costs next to nothing for rows that are sorted or nearly so
-   (SPH_LIST_SORTED) */
+/* Sorts by column, ascending. Shell's method costs next to nothing for rows that are sorted or nearly so
+   (SPH_LIST_SORTED). */
 SPH_FN void sphi_sort_entries(sph_index *column, sph_real *value, sph_index n)
 {
     sph_index gap = 1, i, j;
@@ -3502,22 +3701,23 @@ SPH_FN void sphi_sort_entries(sph_index *column, sph_real *value, sph_index n)
         }
 }
 
-/* A matrix in CSR form, on the caller's memory: start has a place for each target and one more, column and
-   value have
-   `capacity` places. */
+/* A matrix in CSR form, in the caller's memory. start has one place for each target and one more; column
+   and value have `capacity` places each. */
 typedef struct sph_csr {
     sph_index *start, *column;
     sph_real *value;
     int64_t capacity;
 } sph_csr;
 
-/* The matrix of the targets first ... last - 1: row r belongs to target first + r and has the entries
-   start[r] ... start[r + 1] - 1, columns ascending, the diagonal always there, weights of a neighbour that a
-   list names twice added up. drop_zeros = 1 leaves out off-diagonal entries that are 0 (neighbours out of
-   reach, Dirichlet rows); 0 keeps the pattern of the lists. start: last - first + 1 numbers; column, value:
-   capacity, at least sph_csr_size. *entries (may be null): how many there are. Returns 0, or
-   SPH_ERROR_CAPACITY (nothing written) if capacity is below sph_csr_size, or that beyond the range of
-   sph_index. Must not overlap its inputs. */
+/* The matrix of the targets first ... last - 1. Row r belongs to target first + r and has the entries
+   start[r] ... start[r + 1] - 1. Columns are the numbers of the sources, and ascend in a row. The diagonal
+   is always there. If a list names a neighbour twice, its weights are added. drop_zeros = 1 leaves out the
+   off-diagonal entries that are 0 (neighbours outside the support, Dirichlet rows); 0 keeps the pattern of
+   the lists. start needs last - first + 1 places, column and value need `capacity` places, at least
+   sph_csr_size(cloud). *entries (the pointer may be null) is the number of entries. The output must not
+   overlap the input.
+   Returns 0 or a negative sph_error, and then nothing was written. It is SPH_ERROR_CAPACITY if capacity is
+   below sph_csr_size(cloud), or if that number is beyond the range of sph_index. */
 SPH_FN sph_index sph_csr_assemble(sph_cloud cloud, const sph_real *row, sph_scalars diagonal, int drop_zeros,
                                   sph_csr out, int64_t *entries)
 {
@@ -3565,104 +3765,121 @@ SPH_FN sph_index sph_csr_assemble(sph_cloud cloud, const sph_real *row, sph_scal
 
 /* ================================================================ fluid
  *
- * Notation: v_ij = v_i - v_j, vx = v_ij . x_ij (negative for particles that approach), rho density, p
- * pressure, c sound speed, m mass, V = m / rho.
- * Accelerations are  a_i = -sum_j m_j (P_ij + Pi_ij) F_ij x_ij  with a pressure term P_ij and an artificial
- *                    viscosity Pi_ij, both symmetric in i and j: forces are equal and opposite
- * along the line between the particles where F is (one h for both), and momentum and angular momentum are
- * conserved to round-off.
+ * Notation: v_ij = v_i - v_j; vx = v_ij . x_ij, which is negative for particles that approach; rho
+ * density, p pressure, c sound speed, m mass, V = m / rho; mu dynamic viscosity, nu = mu / rho kinematic
+ * viscosity. Accelerations are
+ *     a_i = -sum_j m_j (P_ij + Pi_ij) F_ij x_ij
+ * with a pressure term P_ij and an artificial viscosity Pi_ij. Both are symmetric in i and j. If F_ij is
+ * symmetric, too (one h for both), the forces of a pair are equal and opposite, and act along the line
+ * between the two particles. Momentum and angular momentum are then conserved to round-off. Since F <= 0,
+ * positive pressure and viscosity push particles apart.
+ *
+ * Sources: Korzilius, Schilders & Anthonissen (the paper on particle clustering; equation numbers without
+ * a name are those of this paper), Monaghan 1992, ARA&A 30, 543, and those that each function names.
  */
 
-/* One particle of a pair; a formula reads those that it names. mu: dynamic viscosity. */
+/* -------- fluid: types */
+
+/* One particle of a pair: mass, density, pressure, dynamic viscosity. A function reads only the members
+   that its formula names. */
 typedef struct sph_fluid_side {
     sph_real m, rho, p, mu;
 } sph_fluid_side;
-/* How two particles meet: vx = v_ij . x_ij (negative if they approach), their distance r, the h of the pair,
-   and the means of their sound speeds and densities. */
+/* How two particles meet: vx = v_ij . x_ij (negative if they approach), their distance r, the h of the
+   pair, and the means of their sound speeds and of their densities. */
 typedef struct sph_encounter {
     sph_real vx, r, h, c, rho;
 } sph_encounter;
-/* of an artificial viscosity */
+/* The coefficients of an artificial viscosity, pure numbers: alpha of the linear term, beta of the
+   quadratic term, and eta, which softens r^2 to r^2 + eta^2 h^2. */
 typedef struct sph_viscosity_terms {
     sph_real alpha, beta, eta;
 } sph_viscosity_terms;
-/* density without pressure p0, speed of sound there, exponent, and the pressure at rho0 */
+/* Tait's equation of state: the density rho0 at the pressure p0, the sound speed c at this density, and
+   the exponent gamma. */
 typedef struct sph_tait {
     sph_real rho0, c, gamma, p0;
 } sph_tait;
 
-/* P_ij = p_i / rho_i^2 + p_j / rho_j^2: the variational partner of the summation density, (2.3) of Korzilius,
-   Schilders & Anthonissen; Monaghan 1992, ARA&A 30, 543, (3.3). Wrong where the density jumps: it then
-   differs from particle to particle of one pressure. */
+/* -------- fluid: pair functions */
+
+/* P_ij = p_i / rho_i^2 + p_j / rho_j^2, the variational partner of the summation density. (2.3);
+   Monaghan 1992, (3.3). Do not use it where the density jumps: there, it differs between particles of
+   the same pressure. */
 SPH_FN sph_real sph_pressure_pair_monaghan(sph_fluid_side i, sph_fluid_side j)
 {
     return i.p / (i.rho * i.rho) + j.p / (j.rho * j.rho);
 }
-/* P_ij = (p_i + p_j) / (rho_i rho_j): the partner of the continuity equation in volumes (5.23), (5.24) there;
-   Colagrossi & Landrini 2003, JCP 191, 448. Takes density jumps. */
+/* P_ij = (p_i + p_j) / (rho_i rho_j), the partner of the continuity equation in volumes. (5.23), (5.24);
+   Colagrossi & Landrini 2003, JCP 191, 448. Valid where the density jumps. */
 SPH_FN sph_real sph_pressure_pair_colagrossi(sph_fluid_side i, sph_fluid_side j)
 {
     return (i.p + j.p) / (i.rho * j.rho);
 }
-/* P_ij = (V_i^2 p_i + V_j^2 p_j) / (m_i m_j), V = m / rho: the partner of rho_i = m_i sum_j W_ij
-   (sph_density_number). Hu & Adams 2006, JCP 213, 844, (16). Takes density jumps. */
+/* P_ij = (V_i^2 p_i + V_j^2 p_j) / (m_i m_j) with V = m / rho, the partner of rho_i = m_i sum_j W_ij
+   (sph_density_number). Hu & Adams 2006, JCP 213, 844, (16). Valid where the density jumps. */
 SPH_FN sph_real sph_pressure_pair_hu_adams(sph_fluid_side i, sph_fluid_side j)
 {
     return i.m / j.m * i.p / (i.rho * i.rho) + j.m / i.m * j.p / (j.rho * j.rho);
 }
 
-/* Artificial viscosity Pi_ij >= 0, for particles that approach only: (-alpha c mu + beta mu^2) / rho with mu
-   = h vx / (r^2 + eta^2 h^2), and means of c and rho. Monaghan & Gingold 1983, JCP 52, 374; Monaghan 1992,
-   (4.1), (4.2). eta^2 = 0.01 is usual. A pair at one point feels nothing. Linear term: a kinematic shear
-   viscosity of about alpha h c / (2 (dim + 2)) where all pairs count. */
+/* Artificial viscosity between particles that approach:
+       Pi_ij = (-alpha c mu + beta mu^2) / rho >= 0,   mu = h min(vx, 0) / (r^2 + eta^2 h^2)
+   with the means of c and rho; here mu is a velocity. Monaghan & Gingold 1983, JCP 52, 374; Monaghan 1992,
+   (4.1), (4.2). Usually eta^2 = 0.01. It is 0 for coincident particles. If all pairs counted, the linear
+   term would be a kinematic shear viscosity of about alpha h c / (2 (dim + 2)). */
 SPH_FN sph_real sph_viscosity_pair_monaghan(sph_viscosity_terms terms, sph_encounter e)
 {
     const sph_real mu = e.h * SPH_R(0.5) * (e.vx - SPHI_ABS(e.vx)) /
                         (e.r * e.r + terms.eta * terms.eta * e.h * e.h + SPHI_TINY);
     return (terms.beta * mu - terms.alpha * e.c) * mu / e.rho;
 }
-/* The linear term for particles that recede, too: a Navier-Stokes viscosity (shear and bulk). It may be
-   negative. Monaghan 2005, Rep. Prog. Phys. 68, 1703, section 4. */
+/* The linear term for all pairs: Pi_ij = -alpha c h vx / ((r^2 + eta^2 h^2) rho), which is negative for
+   particles that recede. It acts as the shear and bulk viscosity of the Navier-Stokes equations. Monaghan
+   2005, Rep. Prog. Phys. 68, 1703, section 4. */
 SPH_FN sph_real sph_viscosity_pair_linear(sph_viscosity_terms terms, sph_encounter e)
 {
     return -terms.alpha * e.c * e.h * e.vx /
            ((e.r * e.r + terms.eta * terms.eta * e.h * e.h + SPHI_TINY) * e.rho);
 }
-/* The speed at which two particles see each other: v_sig = (c_i + c_j + beta |w|) / 2, w = v_ij . x_ij / r; c
-   is the speed of sound or, of a magnetised gas, sph_mhd_fast_speed. Monaghan 1997, JCP 136, 298; Price 2012,
-   JCP 231, 759, (105). */
+/* The signal speed of a pair, v_sig = (c_i + c_j + beta |w|) / 2 with w = v_ij . x_ij / r;
+   beta_w = beta |w|. c is the sound speed, or sph_mhd_fast_speed in a magnetised gas. Monaghan 1997, JCP
+   136, 298; Price 2012, JCP 231, 759, (105). */
 SPH_FN sph_real sph_signal_speed(sph_real c_i, sph_real c_j, sph_real beta_w)
 {
     return SPH_R(0.5) * (c_i + c_j + beta_w);
 }
-/* Pi_ij = alpha v_sig |w| / rho where particles approach (w < 0), else 0; alpha_speed = alpha v_sig. */
+/* Pi_ij = alpha v_sig |w| / rho where particles approach (w < 0), else 0. alpha_speed = alpha v_sig,
+   per_rho = 1 / rho. */
 SPH_FN sph_real sph_viscosity_signal(sph_real alpha_speed, sph_real w, sph_real per_rho)
 {
     return SPH_R(0.5) * alpha_speed * (SPHI_ABS(w) - w) * per_rho;
 }
-/* By the speed at which the two particles see each other's signal: -alpha/2 v_sig w / rho, w = min(vx, 0) /
-   r, v_sig = c_i + c_j - beta w. Monaghan 1997, JCP 136, 298, (4.13) with K = alpha/2; beta = 3 there.
-   Independent of h. */
+/* Artificial viscosity by the signal speed: Pi_ij = alpha v_sig |w| / rho where particles approach, else
+   0, with w = vx / r and v_sig = c + beta |w| / 2. Monaghan 1997, JCP 136, 298, (4.13) with K = alpha / 2;
+   his v_sig is twice this one, and his beta is 3. It does not depend on h; eta is not read. */
 SPH_FN sph_real sph_viscosity_pair_signal(sph_viscosity_terms terms, sph_encounter e)
 {
     const sph_real w = e.vx / (e.r + SPHI_TINY), speed = sph_signal_speed(e.c, e.c, terms.beta * SPHI_ABS(w));
     return sph_viscosity_signal(terms.alpha * speed, w, SPH_R(1) / e.rho);
 }
 
-/* Physical viscosity with the dynamic viscosities mu_i, mu_j (mu = nu rho). Morris: the coefficient B of a_i
-   = sum_j m_j B v_ij, B = (mu_i + mu_j) / (rho_i rho_j) F r^2 / (r^2 + eta^2 h^2) <= 0: exact for linear
-   velocities in the interior, conserves momentum but not angular momentum. Morris, Fox & Zhu 1997, JCP 136,
-   214, (22). */
+/* Physical viscosity of Morris: the coefficient B <= 0 of a_i = sum_j m_j B v_ij,
+       B = (mu_i + mu_j) / (rho_i rho_j) F r^2 / (r^2 + eta^2 h^2).
+   Exact for linear velocities in the interior. It conserves momentum, but not angular momentum.
+   Morris, Fox & Zhu 1997, JCP 136, 214, (22). Of the pair e, r and h are read; eta is taken as it is
+   (0: no softening). */
 SPH_FN sph_real sph_viscosity_mu_pair_morris(sph_fluid_side i, sph_fluid_side j, sph_encounter e,
                                              sph_real f_ij, sph_real eta)
 {
     return (i.mu + j.mu) / (i.rho * j.rho) * f_ij *
            (e.r * e.r / (e.r * e.r + eta * eta * e.h * e.h + SPHI_TINY));
 }
-/* Monaghan & Cleary: the coefficient B of a_i = sum_j m_j B x_ij, B = 2 (dim + 2) 2 mu_i mu_j / (mu_i + mu_j)
-   / (rho_i rho_j) vx / (r^2 + eta^2 h^2) F: along the line between the particles, so that angular momentum is
-   conserved, too; takes jumps of mu. Cleary & Monaghan 1999, JCP 148, 227; Monaghan 2005, (4.13); the factor
-   2 (dim + 2) makes it div(mu grad v) for incompressible flow. */
+/* Physical viscosity of Monaghan & Cleary: the coefficient B of a_i = sum_j m_j B x_ij,
+       B = 2 (dim + 2) [2 mu_i mu_j / (mu_i + mu_j)] / (rho_i rho_j) vx / (r^2 + eta^2 h^2) F,
+   positive for particles that approach. The force acts along the line between the particles, so that
+   angular momentum is conserved, too. Valid where mu jumps. Cleary & Monaghan 1999, JCP 148, 227; Monaghan
+   2005, (4.13). The factor 2 (dim + 2) makes it div(mu grad v) / rho for incompressible flow. */
 SPH_FN sph_real sph_viscosity_mu_pair_monaghan_cleary(int dim, sph_fluid_side i, sph_fluid_side j,
                                                       sph_encounter e, sph_real f_ij, sph_real eta)
 {
@@ -3670,31 +3887,33 @@ SPH_FN sph_real sph_viscosity_mu_pair_monaghan_cleary(int dim, sph_fluid_side i,
            (e.r * e.r + eta * eta * e.h * e.h + SPHI_TINY) * f_ij;
 }
 
-/* F of a pair, but 0 for particles that coincide (closer than 1e-12 h): a direction that is made of rounding
-   errors is none. Written with a sign, because a comparison would keep loops from vectorising. */
+/* F of a pair, but 0 for particles that coincide (closer than 1e-12 h): their direction consists of
+   rounding errors. It is written with copysign, because a comparison would keep loops from vectorising. */
 SPH_FN sph_real sph_kernel_f_apart(sph_kernel k, int dim, sph_real r, sph_real h)
 {
     return sph_kernel_f(k, dim, r, h) * (SPH_R(0.5) + SPHI_COPYSIGN(SPH_R(0.5), r - SPH_R(1e-12) * h));
 }
-/* What j adds to the density rate of i: m_j v_ij . grad_i W_ij, the rate of the summation density; vx = v_ij
-   . x_ij. (2.2) of Korzilius, Schilders & Anthonissen; Monaghan 1992, (2.16). */
+/* What j adds to drho_i/dt: m_j v_ij . grad_i W_ij = m_j vx F_ij, the rate of the summation density.
+   (2.2); Monaghan 1992, (2.16). */
 SPH_FN sph_real sph_density_rate_pair_mass(sph_fluid_side j, sph_real vx, sph_real f_ij)
 {
     return j.m * vx * f_ij;
 }
-/* The same in volumes, for density jumps: rho_i (m_j / rho_j) v_ij . grad_i W_ij. (5.23) there. */
+/* The same in volumes, valid where the density jumps: rho_i (m_j / rho_j) v_ij . grad_i W_ij. (5.23). */
 SPH_FN sph_real sph_density_rate_pair_volume(sph_fluid_side i, sph_fluid_side j, sph_real vx, sph_real f_ij)
 {
     return j.m * i.rho / j.rho * vx * f_ij;
 }
 
-/* What j adds to i in all: acceleration, rate of density, and viscous heating per mass. */
+/* What j adds to i, or a sum of such contributions: the acceleration, the density rate drho_i/dt, and the
+   heating du_i/dt of viscosity, u being the thermal energy per mass. */
 typedef struct sph_fluid_change {
     sph_vec acceleration;
     sph_real rate, heating;
 } sph_fluid_change;
 
-/* acceleration -m_j (P_ij + Pi_ij) F x_ij, heating m_j Pi_ij v_ij . x_ij F / 2; push = P_ij + Pi_ij */
+/* Acceleration -m_j (P_ij + Pi_ij) F x_ij and heating m_j Pi_ij v_ij . x_ij F / 2. push = P_ij + Pi_ij,
+   viscosity = Pi_ij. */
 SPH_FN sph_fluid_change sphi_fluid_change(sph_real m_j, sph_real push, sph_real viscosity, sph_vec x_ij,
                                           sph_real vx, sph_real f_ij, sph_real rate)
 {
@@ -3704,20 +3923,24 @@ SPH_FN sph_fluid_change sphi_fluid_change(sph_real m_j, sph_real push, sph_real 
     c.heating = SPH_R(0.5) * viscosity * (m_j * vx * f_ij);
     return c;
 }
-/* Whole interactions, of which sph_fluid_rates_... are the sums. vx = v_ij . x_ij, f_ij by
-   sph_kernel_f_apart, viscosity: Pi_ij, or 0. */
+/* A whole interaction: what j adds to i. The sweep sph_fluid_rates_monaghan is the sum of these.
+   vx = v_ij . x_ij; f_ij comes from sph_kernel_f_apart; viscosity is Pi_ij, or 0. The density rate is that
+   of sph_density_rate_pair_mass. */
 SPH_FN sph_fluid_change sph_fluid_pair_monaghan(sph_fluid_side i, sph_fluid_side j, sph_vec x_ij, sph_real vx,
                                                 sph_real f_ij, sph_real viscosity)
 {
     return sphi_fluid_change(j.m, sph_pressure_pair_monaghan(i, j) + viscosity, viscosity, x_ij, vx, f_ij,
                              sph_density_rate_pair_mass(j, vx, f_ij));
 }
+/* The same with the pressure term of Colagrossi & Landrini and the density rate
+   sph_density_rate_pair_volume. */
 SPH_FN sph_fluid_change sph_fluid_pair_colagrossi(sph_fluid_side i, sph_fluid_side j, sph_vec x_ij,
                                                   sph_real vx, sph_real f_ij, sph_real viscosity)
 {
     return sphi_fluid_change(j.m, sph_pressure_pair_colagrossi(i, j) + viscosity, viscosity, x_ij, vx, f_ij,
                              sph_density_rate_pair_volume(i, j, vx, f_ij));
 }
+/* The same with the pressure term of Hu & Adams and the density rate sph_density_rate_pair_volume. */
 SPH_FN sph_fluid_change sph_fluid_pair_hu_adams(sph_fluid_side i, sph_fluid_side j, sph_vec x_ij, sph_real vx,
                                                 sph_real f_ij, sph_real viscosity)
 {
@@ -3725,20 +3948,22 @@ SPH_FN sph_fluid_change sph_fluid_pair_hu_adams(sph_fluid_side i, sph_fluid_side
                              sph_density_rate_pair_volume(i, j, vx, f_ij));
 }
 
-/* XSPH: weight of (v_j - v_i) in what is added to the velocity that moves i, without epsilon: 2 m_j / (rho_i
-   + rho_j) W_ij. Monaghan 1989, JCP 82, 1. */
+/* XSPH: 2 m_j / (rho_i + rho_j) W_ij, the weight of (v_j - v_i). Epsilon times the sum is added to the
+   velocity that moves particle i. Monaghan 1989, JCP 82, 1. */
 SPH_FN sph_real sph_velocity_pair_xsph(sph_fluid_side i, sph_fluid_side j, sph_real w_ij)
 {
     return SPH_R(2) * j.m / (i.rho + j.rho) * w_ij;
 }
 
-/* Sums over the fluid in front of a wall particle: W, (p_j + (g - a_w) . rho_j x_wj) W, and v_j W. */
+/* Sums over the fluid particles j in front of a wall particle w: weight is the sum of W, p that of
+   (p_j + rho_j (g - a_w) . x_wj) W, and v that of v_j W. */
 typedef struct sph_wall_sums {
     sph_real weight, p;
     sph_vec v;
 } sph_wall_sums;
-/* What the fluid particle j adds, x_ij from it to the wall particle, gravity: g - a_w. Adami, Hu & Adams
-   2012, JCP 231, 7057, (22), (27). */
+/* What the fluid particle j adds to these sums. i is the wall particle: x_ij points from j to the wall
+   particle. gravity = g - a_w, gravity less the acceleration of the wall. Adami, Hu & Adams 2012, JCP 231,
+   7057, (22), (27). */
 SPH_FN sph_wall_sums sph_wall_pair_adami(int dim, sph_fluid_side j, sph_vec v_j, sph_vec x_ij,
                                          sph_vec gravity, sph_real w_ij)
 {
@@ -3748,8 +3973,9 @@ SPH_FN sph_wall_sums sph_wall_pair_adami(int dim, sph_fluid_side j, sph_vec v_j,
     c.v = sph_scale(w_ij, v_j);
     return c;
 }
-/* The sums over that of W: the pressure of the wall particle, and the velocity of the fluid in front. */
+/* The pressure of the wall particle: the sum p over that of W. Only where weight > 0. */
 SPH_FN sph_real sph_wall_pressure(sph_wall_sums s) { return s.p / s.weight; }
+/* The mean velocity of the fluid in front of the wall: the sum v over that of W. Only where weight > 0. */
 SPH_FN sph_vec sph_wall_fluid_velocity(sph_wall_sums s)
 {
     sph_vec mean;
@@ -3758,12 +3984,15 @@ SPH_FN sph_vec sph_wall_fluid_velocity(sph_wall_sums s)
     mean.z = s.v.z / s.weight;
     return mean;
 }
-/* Velocity of the wall particle, (23): 2 u - mean (no slip), or mean with its part along the normal turned
-   round against the wall's own velocity u (free slip; the normal need not have unit length). */
+/* The velocity of a wall particle with no slip, (23): 2 u - mean. u (`wall`) is the wall's own velocity,
+   mean comes from sph_wall_fluid_velocity. */
 SPH_FN sph_vec sph_wall_velocity_no_slip(int dim, sph_vec mean, sph_vec wall)
 {
     return sph_subtract(dim, sph_scale(SPH_R(2), wall), mean);
 }
+/* The velocity of a wall particle with free slip: the mean, of which the part along the normal is
+   reversed relative to the wall, mean - 2 ((mean - u) . n) n / n^2. The length of n does not matter.
+   If n = 0, it is the mean. */
 SPH_FN sph_vec sph_wall_velocity_free_slip(int dim, sph_vec mean, sph_vec wall, sph_vec normal)
 {
     const sph_real nn = sph_dot(dim, normal, normal),
@@ -3771,41 +4000,48 @@ SPH_FN sph_vec sph_wall_velocity_free_slip(int dim, sph_vec mean, sph_vec wall, 
     return sph_subtract(dim, mean, sph_scale(nn > SPH_R(0) ? SPH_R(2) * along / nn : SPH_R(0), normal));
 }
 
-/* p = p0 + rho0 c^2 / gamma ((rho / rho0)^gamma - 1), its inverse, and the sound speed sqrt(dp/drho): the
-   equation of state called after Tait, in Macdonald's form (2.4). gamma = 1: p0 + c^2 (rho - rho0); 7: water.
-   p0 is the pressure at rho0, a background where it is not 0. Cole 1948; Macdonald 1966, Rev. Mod. Phys. 38,
-   669; Monaghan 1994, JCP 110, 399. The inverse is 0 where no density has that pressure. */
+/* p = p0 + rho0 c^2 / gamma ((rho / rho0)^gamma - 1), the equation of state that is called after Tait, in
+   Macdonald's form (2.4). For gamma = 1 it is p0 + c^2 (rho - rho0); gamma = 7 is usual for water. p0 is
+   the pressure at rho0, 0 or a background pressure. Cole 1948; Macdonald 1966, Rev. Mod. Phys. 38, 669;
+   Monaghan 1994, JCP 110, 399. */
 SPH_FN sph_real sph_pressure_tait(sph_real rho, sph_tait t)
 {
     const sph_real e = rho / t.rho0, stiffness = t.rho0 * t.c * t.c / t.gamma;
     return t.p0 + stiffness * (t.gamma == SPH_R(1) ? e - SPH_R(1) : SPHI_POW(e, t.gamma) - SPH_R(1));
 }
+/* The density at the pressure p, the inverse of sph_pressure_tait. It is 0 where no density
+   has this pressure. */
 SPH_FN sph_real sph_density_tait(sph_real p, sph_tait t)
 {
     const sph_real e = SPH_R(1) + t.gamma * (p - t.p0) / (t.rho0 * t.c * t.c);
     if (!(e > SPH_R(0))) return SPH_R(0);
     return t.rho0 * (t.gamma == SPH_R(1) ? e : SPHI_POW(e, SPH_R(1) / t.gamma));
 }
+/* The sound speed sqrt(dp/drho) = c (rho / rho0)^((gamma - 1) / 2). */
 SPH_FN sph_real sph_sound_speed_tait(sph_real rho, sph_tait t)
 {
     return t.gamma == SPH_R(1) ? t.c : t.c * SPHI_POW(rho / t.rho0, SPH_R(0.5) * (t.gamma - SPH_R(1)));
 }
 
-/* Longest steps of explicit schemes, one particle: sound (Courant), 0.25 h / (c + |v|); force, 0.25 sqrt(h /
-   |a|); viscosity, 0.125 h^2 / nu. Monaghan 1992; Morris et al. 1997, (33)-(35). Take the least over all
-   particles. What limits nothing gives 1/SPHI_TINY. */
+/* a / b, or 1/SPHI_TINY if b is so small that nothing is limited. */
 SPH_FN sph_real sphi_limit(sph_real a, sph_real b)
 {
     return b > SPHI_TINY * a ? a / b : SPH_R(1) / SPHI_TINY;
 }
+/* The longest step of an explicit scheme for one particle, by sound (Courant): 0.25 h / (c + |v|);
+   speed = |v|. Source of this and the next two functions: Monaghan 1992; Morris, Fox & Zhu 1997,
+   (33)-(35). Take the least of all particles. Where nothing limits the step the answer is 1/SPHI_TINY, or
+   for the force 0.25 sqrt(1/SPHI_TINY). */
 SPH_FN sph_real sph_time_step_sound(sph_real h, sph_real c, sph_real speed)
 {
     return sphi_limit(SPH_R(0.25) * h, c + speed);
 }
+/* The longest step by the force: 0.25 sqrt(h / |a|); acceleration = |a|. */
 SPH_FN sph_real sph_time_step_force(sph_real h, sph_real acceleration)
 {
     return SPH_R(0.25) * SPHI_SQRT(sphi_limit(h, acceleration));
 }
+/* The longest step by viscosity: 0.125 h^2 / nu, with the kinematic viscosity nu. */
 SPH_FN sph_real sph_time_step_viscous_nu(sph_real h, sph_real nu)
 {
     return sphi_limit(SPH_R(0.125) * h * h, nu);
@@ -3813,9 +4049,10 @@ SPH_FN sph_real sph_time_step_viscous_nu(sph_real h, sph_real nu)
 
 /* -------- fluid: sweeps */
 
-/* rho_i = m_i sum_j W_ij, the particle itself included: the number density times the own mass, so that a
-   light particle beside heavy ones keeps its density. Hu & Adams 2006, JCP 213, 844, (15). m: of the targets.
-   V_i = m_i / rho_i is 1 / sum_j W_ij. */
+/* rho_i = m_i sum_j W_ij(h_i) with the particle itself: the number density times the particle's own mass,
+   so that a light particle beside heavy ones keeps its density. V_i = m_i / rho_i is then 1 / sum_j W_ij.
+   Hu & Adams 2006, JCP 213, 844, (15). The m of the targets is used, and that of all particles is checked.
+   Returns the number of targets whose density overflowed (it is 0 then), or a negative sph_error. */
 SPH_FN sph_index sph_density_number(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_scalar_out out)
 {
     int error = sphi_check_sweep(k, dim, cloud, "m", m);
@@ -3838,37 +4075,40 @@ SPH_FN sph_index sph_density_number(sph_kernel k, int dim, sph_cloud cloud, sph_
     return failed;
 }
 
+/* Which artificial viscosity Pi_ij. */
 typedef enum sph_viscosity {
     SPH_VISCOSITY_NONE,
-    SPH_VISCOSITY_MONAGHAN, /* sph_viscosity_pair_monaghan: approaching pairs */
+    SPH_VISCOSITY_MONAGHAN, /* sph_viscosity_pair_monaghan: pairs that approach */
     SPH_VISCOSITY_LINEAR,   /* sph_viscosity_pair_linear: all pairs */
-    SPH_VISCOSITY_SIGNAL    /* sph_viscosity_pair_signal: by signal speed */
+    SPH_VISCOSITY_SIGNAL    /* sph_viscosity_pair_signal: pairs that approach, by the signal speed */
 } sph_viscosity;
 
-/* What moves a fluid; n numbers each, all sources. One h for a pair, (h_i + h_j) / 2: lists by SPH_MEAN, or
-   by any criterion where h is one for all. */
+/* The state of a fluid, one number for each particle, all sources. A pair uses (h_i + h_j) / 2: lists by
+   SPH_MEAN, or by any criterion if all particles have the same h. */
 typedef struct sph_fluid {
-    sph_scalars m, rho, p, c; /* c is read for artificial viscosity only */
-    sph_vectors v;
-    int viscosity; /* an sph_viscosity */
-    sph_real alpha, beta;
-    sph_real eta; /* softens r^2 to r^2 + eta^2 h^2 in viscosities; 0: 0.1, the usual one; negative: not */
+    sph_scalars m, rho, p, c; /* mass, density, pressure, sound speed (for artificial viscosity) */
+    sph_vectors v;            /* velocity */
+    int viscosity;            /* the artificial viscosity: an sph_viscosity */
+    sph_real alpha, beta;     /* its coefficients, pure numbers */
+    sph_real eta; /* softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none */
 } sph_fluid;
 
-/* Where rates go; rate, heating and status may be null. The stride is that of rate and heating. */
+/* Where rates go. rate, heating and status may be null. The stride is that of rate and
+   heating, in sph_real. */
 typedef struct sph_fluid_out {
     sph_vector_out acceleration;
-    SPH_GLOBAL sph_real *rate, *heating; /* of density, and of the thermal energy per mass by viscosity */
+    SPH_GLOBAL sph_real *rate, *heating; /* drho/dt, and du/dt by viscosity (u: thermal energy per mass) */
     size_t stride;
     SPH_GLOBAL unsigned char *status;
 } sph_fluid_out;
 
 enum { SPHI_MONAGHAN, SPHI_COLAGROSSI, SPHI_HU_ADAMS };
+/* The eta of sph_fluid as it is used: 0 means 0.1, a negative number means 0. */
 SPH_FN sph_real sphi_softening(sph_real eta)
 {
     return eta == SPH_R(0) ? SPH_R(0.1) : eta < SPH_R(0) ? SPH_R(0) : eta;
 }
-/* The values of particle i; those that a sweep does not read are 0. */
+/* The values of particle i. Those that a sweep does not read are 0. */
 enum { SPHI_READ_M = 1, SPHI_READ_RHO = 2, SPHI_READ_P = 4, SPHI_READ_MU = 8 };
 SPH_FN sph_fluid_side sphi_fluid_side(int reads, const sph_fluid *f, sph_scalars mu, sph_index i)
 {
@@ -3962,14 +4202,18 @@ SPH_FN sph_index sphi_fluid_rates(int form, sph_kernel k, int dim, sph_cloud clo
 }
 
 /* Acceleration, density rate and viscous heating of the targets, in one pass:
-       a_i = -sum_j m_j (P_ij + Pi_ij) grad_i W_ij,   the rate of density that belongs to it,   du_i/dt =
-       sum_j m_j Pi_ij v_ij . grad_i W_ij / 2.
-   monaghan: (2.2), (2.3) of Korzilius, Schilders & Anthonissen; drho_i/dt = sum_j m_j v_ij . grad W.
-   colagrossi: (5.23), (5.24); drho_i/dt = rho_i sum_j m_j/rho_j v_ij . grad W. hu_adams: volume-weighted;
-   with sph_density_number, or the rate of (5.23).
-   Signs: F <= 0, so pressure pushes apart; no gravity. rate, heating may be null. Pairs closer than 1e-12 h
-   exert no force on each other (sph_coincident_count finds them). Errors as of all sweeps, and
-   SPH_ERROR_VALUE for densities or masses that are not positive. */
+       a_i      = -sum_j m_j (P_ij + Pi_ij) grad_i W_ij,
+       du_i/dt  = sum_j m_j Pi_ij v_ij . grad_i W_ij / 2,
+       drho_i/dt by sph_density_rate_pair_mass or sph_density_rate_pair_volume.
+     monaghan    (2.2), (2.3): drho_i/dt = sum_j m_j v_ij . grad_i W_ij.
+     colagrossi  (5.23), (5.24): drho_i/dt = rho_i sum_j m_j / rho_j v_ij . grad_i W_ij.
+     hu_adams    weighted by volumes. The density comes from sph_density_number, or from the rate (5.23),
+                 which is the one that this sweep writes.
+   Signs: F <= 0, so that pressure pushes particles apart. Gravity and the work of the pressure on u
+   are not contained. out.rate and out.heating may be null. Pairs closer than 1e-12 h exert no force on
+   each other (sph_coincident_count finds them). Returns the number of targets of which a result
+   overflowed (it is 0 then), or a negative sph_error: SPH_ERROR_VALUE also for densities and masses
+   that are not positive. */
 SPH_FN sph_index sph_fluid_rates_monaghan(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                           sph_fluid_out out)
 {
@@ -4037,13 +4281,15 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, 
     }
     return failed;
 }
-/* a_i = (1 / rho) div(mu grad v) by physical viscosity, mu (dynamic, = nu rho) of each particle; see the pair
-   tier for the two forms. */
+/* a_i = (1 / rho) div(mu grad v), physical viscosity by sph_viscosity_mu_pair_morris. mu is the dynamic
+   viscosity (nu rho) of each particle. Of fluid, the members m, rho, v and eta are read. Returns the
+   number of targets whose result overflowed (it is 0 then), or a negative sph_error. */
 SPH_FN sph_index sph_viscosity_mu_morris(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                          sph_scalars mu, sph_vector_out acceleration)
 {
     return sphi_viscous(SPHI_MORRIS, k, dim, cloud, fluid, mu, acceleration);
 }
+/* The same by sph_viscosity_mu_pair_monaghan_cleary. */
 SPH_FN sph_index sph_viscosity_mu_monaghan_cleary(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                                   sph_scalars mu, sph_vector_out acceleration)
 {
@@ -4051,7 +4297,9 @@ SPH_FN sph_index sph_viscosity_mu_monaghan_cleary(sph_kernel k, int dim, sph_clo
 }
 
 /* What XSPH adds to the velocity that moves a particle: epsilon sum_j 2 m_j / (rho_i + rho_j) (v_j - v_i)
-   W_ij. Monaghan 1989, JCP 82, 1. epsilon = 0.5 is usual. Keeps linear and angular momentum. */
+   W_ij. Monaghan 1989, JCP 82, 1. epsilon = 0.5 is usual. It conserves linear and angular momentum. Of
+   fluid, the members m, rho and v are read. Returns the number of targets whose result overflowed (it is 0
+   then), or a negative sph_error. */
 SPH_FN sph_index sph_velocity_xsph(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid, sph_real epsilon,
                                    sph_vector_out change)
 {
@@ -4092,13 +4340,16 @@ SPH_FN sph_index sph_velocity_xsph(sph_kernel k, int dim, sph_cloud cloud, sph_f
     return failed;
 }
 
-/* share: 1 for fluid particles, 0 for all others. velocity: of the wall itself. gravity: less the wall's
-   acceleration. normal: of the wall, for free slip; null: no slip. */
+/* The fluid and the wall. One number for each particle, all sources. */
 typedef struct sph_wall {
+    /* share: 1 for fluid particles, 0 for all others. rho and p: density and pressure of the fluid. */
     sph_scalars share, rho, p;
+    /* v: velocity of the fluid. velocity: the wall's own velocity u. normal: normal of the wall, of any
+       length, for free slip; null arrays mean no slip. */
     sph_vectors v, velocity, normal;
-    sph_vec gravity;
+    sph_vec gravity; /* g - a_w: gravity less the acceleration of the wall */
 } sph_wall;
+/* Where pressure and velocity of the wall particles go. */
 typedef struct sph_wall_out {
     SPH_GLOBAL sph_real *p;
     sph_vector_out v;
@@ -4106,13 +4357,16 @@ typedef struct sph_wall_out {
     SPH_GLOBAL unsigned char *status; /* may be null */
 } sph_wall_out;
 
-/* Pressure and velocity of wall particles from the fluid in front of them, so that walls push and drag as a
-   fluid would: over the neighbours j of a wall particle w that are fluid (share[j] = 1, walls 0)
-       p_w = (sum p_j W + (g - a_w) . sum rho_j x_wj W) / sum W,   v_w = 2 u_w - sum v_j W / sum W (no-slip;
-       free slip: only the part along the normal is turned round),
-   u_w, a_w: the wall's own velocity and acceleration. Adami, Hu & Adams 2012, JCP 231, 7057, (22), (23),
-   (27). normal (may have null arrays): free slip. Without fluid in reach: p = 0, v = u, SPH_TOO_FEW, and the
-   particle pushes nobody. status may be null. */
+/* Pressure and velocity of wall particles from the fluid in front of them, so that walls push and drag as
+   a fluid would. The targets are the wall particles w; the sums run over their neighbours j that are
+   fluid (share[j] = 1):
+       p_w = sum (p_j + rho_j (g - a_w) . x_wj) W / sum W,
+       v_w = 2 u_w - sum v_j W / sum W   for no slip.
+   For free slip only the part along the normal is reversed (sph_wall_velocity_free_slip). u_w and a_w are
+   the wall's own velocity and acceleration. Adami, Hu & Adams 2012, JCP 231, 7057, (22), (23), (27). A
+   pair uses (h_i + h_j) / 2 (lists by SPH_MEAN).
+   Without fluid inside the support the answer is p = 0, v = u and SPH_TOO_FEW; such a particle pushes
+   nothing. Returns the number of targets that are not SPH_OK, or a negative sph_error. */
 SPH_FN sph_index sph_wall_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall wall, sph_wall_out out)
 {
     const sph_scalars share = wall.share, rho = wall.rho, p = wall.p;
@@ -4179,23 +4433,30 @@ SPH_FN sph_index sph_wall_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall
 
 /* ================================================================ collisions
  *
- * Two particles that are closer than a collision distance exchange an impulse along the line between them, as
- * two balls of restitution C_R do: 0 inelastic, 1 elastic. Korzilius, Schilders & Anthonissen, section IV. In
- * inverse masses w = 1/m, so that a wall is w = 0: the velocity of i changes by
- *     dv_i = -(1 + C_R) w_i / (w_i + w_j) (v_ij . e) e,   e = x_ij / r,
- * and m_i dv_i = -m_j dv_j: momentum and angular momentum are kept exactly, a single pair loses mu (1 -
- * C_R^2) (v_ij . e)^2 / 2, mu = 1 / (w_i + w_j). (4.20) there sums this over all pairs at once, receding
- * ones, too: particles then stick and energy grows without bounds (tests/test_collisions.c). Only approaching
- * pairs collide here, one after the other (sequential) or at once with the weight 1 / max(n_i, n_j), n:
- * number of collisions of a particle; both never gain energy for C_R <= 1.
+ * Two particles that are closer than a collision distance exchange an impulse along the line between them,
+ * as two balls of restitution C_R do (0 inelastic, 1 elastic). With the inverse masses w = 1/m, so that a
+ * wall has w = 0, the velocity of i changes by
+ *     dv_i = -(1 + C_R) w_i / (w_i + w_j) (v_ij . e) e,   e = x_ij / r.
+ * m_i dv_i = -m_j dv_j, so that momentum and angular momentum are conserved exactly. A single pair loses
+ * the energy mu (1 - C_R^2) (v_ij . e)^2 / 2 with mu = 1 / (w_i + w_j).
+ *
+ * Source: Korzilius, Schilders & Anthonissen, section IV. Their (4.20) sums this over all pairs at once,
+ * also over those that recede. Particles then stick together, and the energy grows without bounds
+ * (tests/test_collisions.c). Here, only pairs that approach collide: one after the other (sequential), or
+ * at once with the weight 1 / max(n_i, n_j), where n is the number of collisions of a particle. Neither
+ * form gains energy for C_R <= 1.
  */
 
-/* Inverse masses (0: a wall), vx = v_ij . x_ij < 0, and the square of the distance. */
+/* -------- collisions: types and pair functions */
+
+/* Two particles that collide: their inverse masses (0: a wall), vx = v_ij . x_ij < 0, and the square
+   of their distance. */
 typedef struct sph_impact {
     sph_real w_i, w_j, vx, r2;
 } sph_impact;
 
-/* dv_i = coefficient x_ij: -(1 + C_R) w_i / (w_i + w_j) vx / r^2. Undefined at r = 0 and for two walls. */
+/* The coefficient -(1 + C_R) w_i / (w_i + w_j) vx / r^2 of dv_i = coefficient x_ij. It is positive where
+   particles approach, and undefined for r = 0 and for two walls. */
 SPH_FN sph_real sph_collision_pair(sph_real restitution, sph_impact c)
 {
     return -(SPH_R(1) + restitution) * (c.w_i / (c.w_i + c.w_j)) * c.vx / c.r2;
@@ -4203,13 +4464,12 @@ SPH_FN sph_real sph_collision_pair(sph_real restitution, sph_impact c)
 
 /* -------- collisions: sweeps */
 
-/* What collides: positions, lists that reach as far as the collision distance (rows for the targets; walls
-   may be sources only), inverse masses (0: a wall), velocities. */
-/* Particles nearer than `distance` that approach collide. inverse_mass: 0 for walls. restitution: 0 plastic,
-   1 elastic. */
+/* Which particles collide, and how. Lists must reach as far as the collision distance. Walls may be mere
+   sources, not targets. */
 typedef struct sph_collision {
+    /* Particles that approach within `distance` collide. restitution: C_R (0 inelastic, 1 elastic). */
     sph_real distance, restitution;
-    sph_scalars inverse_mass;
+    sph_scalars inverse_mass; /* 1/m of each particle; 0 for walls */
 } sph_collision;
 SPH_FN sph_impact sphi_impact(sph_real w_i, sph_real w_j, sph_real vx, sph_real r2)
 {
@@ -4231,7 +4491,8 @@ SPH_FN int sphi_check_collisions(int dim, sph_cloud cloud, sph_collision collisi
     error = sphi_check_list(dim, cloud, distance);
     return error ? error : sphi_check_not_negative("inverse_mass", inverse_mass, cloud.points.n);
 }
-/* Do these two collide? 0 no, 1 yes, -1 they coincide (closer than 1e-12 of the distance): no direction. */
+/* Do two particles collide? 0: no; 1: yes; -1: they coincide (closer than 1e-12 of the distance), and
+   there is no direction. */
 SPH_FN int sphi_collides(sph_real r2, sph_real distance, sph_real vx)
 {
     if (!(r2 < distance * distance)) return 0;
@@ -4240,16 +4501,19 @@ SPH_FN int sphi_collides(sph_real r2, sph_real distance, sph_real vx)
 }
 
 #if !SPH_OPENCL
+/* What happened in a sequence of collisions. */
 typedef struct sph_collision_report {
-    int64_t collisions, coincident; /* pairs; coincident ones exchange nothing */
-    sph_real energy; /* change of the kinetic energy, <= 0 for restitution <= 1 (walls have none) */
+    int64_t collisions, coincident; /* numbers of pairs; coincident pairs exchange nothing */
+    sph_real energy; /* change of the kinetic energy (walls have none); <= 0 for restitution <= 1 */
 } sph_collision_report;
 
-/* Collisions one after the other, in the order of rows and lists, each with the velocities that the one
-   before left: changes v (stride as given) of sources, too, if they are not walls; the one sweep that writes
-   beyond its targets, so never on two ranges at once. Each pair once, also if both rows name it. Momentum and
-   angular momentum to round-off; energy never grows for restitution <= 1. Returns 0, the number of pairs
-   whose velocities or energy would overflow (they exchange nothing), or an error; out may be null. */
+/* Collisions one after the other, in the order of rows and lists. Each takes the velocities that the one
+   before left. This is the only sweep that writes beyond its targets: it changes the velocities of
+   sources, too, if they are not walls. So never run it on two ranges at once. Each pair collides once,
+   also if both rows name it. Full lists, or lists with j > i only. Momentum and angular momentum are
+   conserved to round-off, and the energy never grows for restitution <= 1. out may be null. Returns the
+   number of pairs whose velocities or energy would overflow (they exchange nothing; 0: none), or a
+   negative sph_error. */
 SPH_FN sph_index sph_collision_sequential(int dim, sph_cloud cloud, sph_collision collision,
                                           sph_vector_out velocity, sph_collision_report *out)
 {
@@ -4283,7 +4547,7 @@ SPH_FN sph_index sph_collision_sequential(int dim, sph_cloud cloud, sph_collisio
             const sph_real r2 = sph_dot(dim, x_ij, x_ij);
             sph_real c, d, energy, v = (vx[a] - vx[b]) * x_ij.x;
             int what;
-            if (j < i && j >= cloud.first) continue; /* its own row has had it */
+            if (j < i && j >= cloud.first) continue; /* the row of j has treated this pair */
             if (dim > 1) v += (vy[a] - vy[b]) * x_ij.y;
             if (dim > 2) v += (vz[a] - vz[b]) * x_ij.z;
             what = w_i + w_j > SPH_R(0) ? sphi_collides(r2, distance, v) : 0;
@@ -4319,9 +4583,9 @@ SPH_FN sph_index sph_collision_sequential(int dim, sph_cloud cloud, sph_collisio
 }
 #endif
 
-/* How many collisions each target is in: the first half of the simultaneous form. Full lists. Returns how
-   many targets coincide with a neighbour (they do not collide with it), or an error. A host with halo
-   particles exchanges the counts before the second half. */
+/* The number of collisions of each target: the first half of the simultaneous form. Full lists. A host
+   with halo particles exchanges these numbers before the second half. Returns the number of targets that
+   coincide with a neighbour (they do not collide with it), or a negative sph_error. */
 SPH_FN sph_index sph_collision_count(int dim, sph_cloud cloud, sph_collision collision, sph_vectors v,
                                      SPH_GLOBAL sph_index *count)
 {
@@ -4352,9 +4616,11 @@ SPH_FN sph_index sph_collision_count(int dim, sph_cloud cloud, sph_collision col
 }
 
 /* The change of velocity of each target by all its collisions at once, each with the weight 1 / max(n_i,
-   n_j); count: from sph_collision_count, for the targets and the sources that are no walls. Full lists;
-   order-independent, any ranges in parallel; momentum and angular momentum to round-off, and energy never
-   grows for restitution <= 1 (a particle in n > 1 collisions loses some also at 1). The host adds it to v. */
+   n_j): the second half. The host adds it to v. count comes from sph_collision_count, for the targets and
+   for the sources that are not walls. Full lists. The result does not depend on the order, and ranges may
+   run in parallel. Momentum and angular momentum are conserved to round-off, and the energy never grows
+   for restitution <= 1 (a particle in n > 1 collisions loses some energy also at 1). Returns the number of
+   targets whose result overflowed (it is 0 then), or a negative sph_error. */
 SPH_FN sph_index sph_collision_change_weighted(int dim, sph_cloud cloud, sph_collision collision,
                                                sph_vectors v, const SPH_GLOBAL sph_index *count,
                                                sph_vector_out change)
@@ -4380,7 +4646,7 @@ SPH_FN sph_index sph_collision_change_weighted(int dim, sph_cloud cloud, sph_col
             sph_index n_i, n_j;
             sph_real c;
             if (!(w_i + w_j > SPH_R(0)) || sphi_collides(r2, distance, vx) <= 0) continue;
-            n_i = w_i > SPH_R(0) ? count[i] : 1; /* a wall takes any number of impulses, whatever its count */
+            n_i = w_i > SPH_R(0) ? count[i] : 1; /* a wall takes any number of impulses */
             n_j = w_j > SPH_R(0) ? count[j] : 1;
             c = sph_collision_pair(restitution, sphi_impact(w_i, w_j, vx, r2));
             c /= (sph_real)(n_i > n_j ? n_i : n_j > 1 ? n_j : 1);
@@ -4391,26 +4657,37 @@ SPH_FN sph_index sph_collision_change_weighted(int dim, sph_cloud cloud, sph_col
     return failed;
 }
 
-/* ================================================================ magnetohydrodynamics and divergence
- * cleaning
+/* ================================================================ magnetohydrodynamics and cleaning
  *
- * Units with mu_0 = 1 (divide B of other units by sqrt(mu_0)). With grad_i W_ij = F x_ij, F_i = F(r, h_i),
- * and the factors
- *     g_i = F_i / (Omega_i rho_i^2),   g_j = F_j / (Omega_j rho_j^2),   G = (F_i / Omega_i + F_j / Omega_j) /
- *     2.
- * Tricco & Price 2012, 7th SPHERIC workshop, equations in brackets; J. Comput. Phys. 231, 7214. Price 2012,
- * JCP 231, 759 (SPMHD as a whole). Conjugate operators: the difference form of div and the symmetric form of
- * grad are adjoint, sum V psi (div B) = -sum V B . (grad psi) with V = m / rho, for any B and psi, also with
- * an h of each particle's own. So what the cleaning wave takes from the magnetic energy it gives to that of
- * psi, sum m psi^2 / (2 rho ch^2), and back: (2), (12), (23). Damping only takes. The pair of difference
- * forms has no such balance: at edges and density jumps energy grows without bounds (tests/test_cleaning.c);
- * examples/papers/cleaning_forms.h has it, to compare with. Misprints that are corrected here: (6)
- * has grad_b in its second term, for grad_a; (8) has + B^2/2 for -(P + B^2/2); (10) needs the square of the
- * mean density; (28) a plus sign; (38) a minus sign.
+ * Units with mu_0 = 1: divide a field B of other units by sqrt(mu_0). With grad_i W_ij = F x_ij and
+ * F_i = F(r, h_i) we write
+ *     g_i = F_i / (Omega_i rho_i^2),   g_j = F_j / (Omega_j rho_j^2),
+ *     G   = (F_i / Omega_i + F_j / Omega_j) / 2.
+ * All of them are <= 0, because F <= 0. Omega is that of sph_density_adaptive, and 1 for a constant h.
+ *
+ * Sources: Tricco & Price 2012, 7th SPHERIC workshop (equation numbers without a name are those of this
+ * paper); Tricco & Price 2012, JCP 231, 7214. Price 2012, JCP 231, 759, for the whole of SPMHD.
+ *
+ * Conjugate operators: the difference form of div and the symmetric form of grad are adjoint,
+ *     sum V psi (div B) = -sum V B . (grad psi)   with V = m / rho,
+ * for any B and psi, also with an h of each particle. The energy that the cleaning wave takes from the
+ * magnetic field is therefore exactly what the energy of psi, sum m psi^2 / (2 rho ch^2), receives, and
+ * vice versa: (2), (12), (23). Damping only takes energy away. The pair of two difference forms has no
+ * such balance: at edges and density jumps the energy grows without bounds (tests/test_cleaning.c;
+ * examples/papers/cleaning_forms.h has that pair for comparison).
+ *
+ * Misprints that are corrected here:
+ *   - (6) has grad_b in its second term, where grad_a is right.
+ *   - (8) has + B^2/2, where -(P + B^2/2) is right.
+ *   - (10) needs the square of the mean density.
+ *   - (28) needs a plus sign, (38) a minus sign.
  */
 
-/* (M_i . x_ij) of the Maxwell stress M = B B - (P + B^2/2) 1. Force of a pair, (6): m_j (M_i . x_ij g_i + M_j
-   . x_ij g_j). */
+/* -------- magnetohydrodynamics and cleaning: stress, speeds, cleaning waves, switches */
+
+/* M . x_ij of the stress M = B B - (P + B^2/2) 1 (Maxwell stress and pressure), with Bx = B .
+   x_ij. The acceleration of i by j is m_j (M_i . x_ij g_i + M_j . x_ij g_j), (6). All three
+   components of field are read. */
 SPH_FN sph_vec sph_mhd_traction(sph_vec field, sph_real pressure, sph_real Bx, sph_vec x_ij)
 {
     const sph_real p = pressure + SPH_R(0.5) * sph_dot(3, field, field);
@@ -4420,59 +4697,71 @@ SPH_FN sph_vec sph_mhd_traction(sph_vec field, sph_real pressure, sph_real Bx, s
     t.z = field.z * Bx - p * x_ij.z;
     return t;
 }
-/* the same from squares: of the speed of sound, of the Alfven speed and of its part along the pair */
+/* The fast speed from the squares of the sound speed, of the Alfven speed, and of its part along the pair. */
 SPH_FN sph_real sphi_fast_speed(sph_real sound2, sph_real alfven2, sph_real along2)
 {
     const sph_real s = sound2 + alfven2, d = s * s - SPH_R(4) * sound2 * along2;
     return SPHI_SQRT(SPH_R(0.5) * (s + SPHI_SQRT(SPH_R(0.5) * (d + SPHI_ABS(d)))));
 }
-/* The fast magnetosonic speed along the pair: v^2 = (cs^2 + vA^2 + sqrt((cs^2 + vA^2)^2 - 4 cs^2 (B . x/r)^2
-   / rho)) / 2 */
+/* The fast magnetosonic speed v along the pair, with vA^2 = B^2 / rho and B_along = B . x_ij / r:
+       v^2 = (cs^2 + vA^2 + sqrt((cs^2 + vA^2)^2 - 4 cs^2 B_along^2 / rho)) / 2.
+   All three components of field are read. With B_along = 0 it is the largest speed, that across the field. */
 SPH_FN sph_real sph_mhd_fast_speed(sph_real cs, sph_vec field, sph_real rho, sph_real B_along)
 {
     const sph_real per_rho = SPH_R(1) / rho;
     return sphi_fast_speed(cs * cs, sph_dot(3, field, field) * per_rho, B_along * B_along * per_rho);
 }
-/* Speed of sound along which conductivity equalises: sqrt(|P_i - P_j| / rho), of the mean rho. Price 2008,
-   JCP 227, 10040. */
+/* The signal speed of the artificial conductivity: sqrt(|P_i - P_j| / rho). per_rho is 1 over the mean
+   density. Price 2008, JCP 227, 10040. */
 SPH_FN sph_real sph_conductivity_speed(sph_real P_i, sph_real P_j, sph_real per_rho)
 {
     return SPHI_SQRT(SPHI_ABS(P_i - P_j) * per_rho);
 }
 
-/* speed of the cleaning waves, damping, smoothing length */
+/* The cleaning wave at a particle: its speed ch, its damping sigma (a pure number), and the
+   smoothing length. */
 typedef struct sph_cleaning_wave {
     sph_real ch, sigma, h;
     SPHI_TCC_PAD
 } sph_cleaning_wave;
 
-/* dpsi/dt = -ch^2 div B - sigma ch psi / h - psi div v / 2: (2) with 1/tau = sigma ch / h, (19). sigma: 0.2
-   to 0.3 in 2D, 0.8 to 1.2 in 3D (Tricco & Price 2012); see sph_cleaning_sigma. */
+/* dpsi/dt = -ch^2 div B - sigma ch psi / h - psi div v / 2: (2) and (25), with 1/tau = sigma ch / h, (19).
+   psi has the unit of B times a velocity. sigma: 0.2 to 0.3 in 2D, 0.8 to 1.2 in 3D (Tricco & Price 2012);
+   see sph_cleaning_sigma. */
 SPH_FN sph_real sph_cleaning_rate(sph_cleaning_wave w, sph_real psi, sph_real div_B, sph_real div_v)
 {
     return -w.ch * w.ch * div_B - (w.sigma * w.ch / w.h + SPH_R(0.5) * div_v) * psi;
 }
-/* The same for psi / ch as what evolves, for a ch that changes with time: its energy, sum m (psi/ch)^2 / (2
-   rho), then does not. Tricco, Price & Bate 2016, JCP 322, 326. Where grad psi is wanted, psi = ch times it.
-   */
+/* The same for psi / ch: d(psi/ch)/dt = -ch div B - sigma ch (psi/ch) / h - (psi/ch) div v / 2. For a ch
+   that changes with time; the energy sum m (psi/ch)^2 / (2 rho) then does not change with ch. Tricco,
+   Price & Bate 2016, JCP 322, 326. Where grad psi is needed, take psi = ch (psi/ch). */
 SPH_FN sph_real sph_cleaning_rate_scaled(sph_cleaning_wave w, sph_real psi_over_ch, sph_real div_B,
                                          sph_real div_v)
 {
     return -w.ch * div_B - (w.sigma * w.ch / w.h + SPH_R(0.5) * div_v) * psi_over_ch;
 }
+/* A usual damping sigma of cleaning waves: 0.3 in 1D and 2D, 1 in 3D. */
 SPH_FN sph_real sph_cleaning_sigma(int dim) { return dim < 3 ? SPH_R(0.3) : SPH_R(1); }
-/* Velocity cleaning (29)-(39): psi is a pressure. Accelerations: p + psi for p in sph_fluid_rates_monaghan,
-   whose density rate (28) then gives
+/* Velocity cleaning, (29)-(39), in which psi is a pressure. The acceleration is that of
+   sph_fluid_rates_monaghan with p + psi in the place of p. Its density rate, (28), then gives
        dpsi/dt = ch^2 drho/dt - sigma ch psi / h.
-   Conserves linear and angular momentum and (rho frozen, undamped) sum m (v^2/2 + psi^2 / (2 ch^2 rho^2)).
-   The Courant limit takes sqrt(cs^2 + ch^2). */
+   It conserves linear and angular momentum and, without damping and with a fixed rho, the energy sum m
+   (v^2/2 + psi^2 / (2 ch^2 rho^2)). The Courant limit takes the speed sqrt(cs^2 + ch^2). */
 SPH_FN sph_real sph_cleaning_rate_velocity(sph_cleaning_wave w, sph_real psi, sph_real density_rate)
 {
     return w.ch * w.ch * density_rate - w.sigma * w.ch / w.h * psi;
 }
 
-/* B = grad alpha x grad beta (Euler potentials; in 2D alpha = A_z, beta = z: B = (dA/dy, -dA/dx)). Gradients
-   by sph_gradient_cspm, exact for linear potentials. Windings beyond one turn cannot be represented. */
+/* B = grad alpha x grad beta, with the Euler potentials alpha and beta. In 2D alpha = A_z and beta = z:
+   B = (dA_z/dy, -dA_z/dx). With gradients by sph_gradient_cspm it is exact for linear potentials. div B is
+   0 in the continuum. The potentials move with the particles, without change: Rosswog & Price 2007, MNRAS
+   379, 915; Price 2012, JCP 231, 759.
+   What they cannot represent: with A = alpha grad beta we have A . B = 0. A field whose lines are linked
+   or knotted, so that its helicity (the integral of A . B) is not 0, therefore has no single-valued
+   potentials. Potentials that do not change along the motion also exclude resistivity and reconnection.
+   And motion that winds a field up brings particles together whose potentials differ more and more, until
+   their gradients are no longer resolved: with n layers of particles half of the field is lost after about
+   0.075 n windings (examples/papers/cleaning_euler_potentials.c). */
 SPH_FN sph_vec sph_euler_potentials(sph_vec grad_alpha, sph_vec grad_beta)
 {
     sph_vec field;
@@ -4481,46 +4770,49 @@ SPH_FN sph_vec sph_euler_potentials(sph_vec grad_alpha, sph_vec grad_beta)
     field.z = grad_alpha.x * grad_beta.y - grad_alpha.y * grad_beta.x;
     return field;
 }
-/* the value of a switch, and its bounds */
+/* The present value of a switch, and its bounds. */
 typedef struct sph_switch {
     sph_real alpha, least, most;
 } sph_switch;
 
-/* dalpha/dt of the viscosity switch: (alpha_min - alpha) decay + max(-div v, 0) (alpha_max - alpha), decay =
-   0.1 v_sig / h. Morris & Monaghan 1997, JCP 136, 41. */
+/* dalpha/dt of the viscosity switch: (least - alpha) 0.1 v_sig / h + max(-div v, 0) (most - alpha). Morris
+   & Monaghan 1997, JCP 136, 41. */
 SPH_FN sph_real sph_viscosity_switch_rate(sph_switch s, sph_real v_sig, sph_real h, sph_real div_v)
 {
     return (s.least - s.alpha) * SPH_R(0.1) * v_sig / h +
            SPH_R(0.5) * (SPHI_ABS(div_v) - div_v) * (s.most - s.alpha);
 }
-/* alpha_B / alpha_max = min(1, h change / B): resistivity only where the field changes within h. B = |B|;
-   change: |grad B|, the root of the squares of all its components (Tricco & Price 2013, MNRAS 436, 2810, with
-   alpha_max = 1), or |curl B|, which leaves the divergence to the cleaning. 0 where nothing changes,
-   1 where only B is 0. */
+/* alpha_B / alpha_max = min(1, h change / B), which lets resistivity act only where the field changes
+   within h. strength: B = |B|. change: |grad B|, the root of the sum of the squares of all its components
+   (Tricco & Price 2013, MNRAS 436, 2810, with alpha_max = 1), or |curl B|, which leaves the divergence to
+   the cleaning. It is 0 where nothing changes, and 1 where B = 0 but change is not. */
 SPH_FN sph_real sph_resistivity_switch(sph_real h, sph_real change, sph_real strength)
 {
     return strength > h * change ? h * change / strength : change > SPH_R(0) ? SPH_R(1) : SPH_R(0);
 }
 
-/* -------- gradient, divergence and curl of a medium: pair functions */
+/* -------- magnetohydrodynamics and cleaning: gradient, divergence, curl; pair functions */
 
-/* Mass, density and Omega of one particle. */
+/* Mass, density and Omega of one particle. Omega is a pure number, 1 for a constant h. */
 typedef struct sph_medium_side {
     sph_real m, rho, omega;
     SPHI_TCC_PAD
 } sph_medium_side;
-/* The kernel between two particles: their distance, and F with the h of either. */
+/* The kernel between two particles: their distance r, and F with the h of either, f_i = F(r, h_i) and
+   f_j = F(r, h_j). */
 typedef struct sph_pair_kernel {
     sph_real r, f_i, f_j;
     SPHI_TCC_PAD
 } sph_pair_kernel;
-/* What the symmetric forms weigh the two sides with: m_j g_i and m_j g_j, g = F / (Omega rho^2). */
+/* The weights of the two sides in the symmetric forms: i = m_j g_i and j = m_j g_j with
+   g = F / (Omega rho^2). */
 typedef struct sph_pair_weights {
     sph_real i, j;
 } sph_pair_weights;
 
-/* 1 / (Omega rho^2): g is F times this. */
+/* 1 / (Omega rho^2), so that g is F times it. */
 SPH_FN sph_real sph_medium_weight(sph_medium_side a) { return SPH_R(1) / (a.omega * a.rho * a.rho); }
+/* The weights m_j g_i and m_j g_j; weight_i and weight_j come from sph_medium_weight. */
 SPH_FN sph_pair_weights sph_pair_weights_of(sph_real m_j, sph_pair_kernel f, sph_real weight_i,
                                             sph_real weight_j)
 {
@@ -4530,14 +4822,15 @@ SPH_FN sph_pair_weights sph_pair_weights_of(sph_real m_j, sph_pair_kernel f, sph
     return w;
 }
 
-/* Difference forms, exact for constants. weight = m_j F_i; a_ij = A_i - A_j:
-       div A_i = sph_medium_difference(i, sum of weight a_ij . x_ij), (20),
-       curl A_i = -sph_medium_difference(i, each component of the sum of weight a_ij x x_ij), Price 2012,
-       (79). */
+/* What j adds to the difference form of the divergence: weight a_ij . x_ij with weight = m_j F_i and
+   a_ij = A_i - A_j. Of the sum, div A_i = sph_medium_difference(i, sum), (20). Exact for constants. */
 SPH_FN sph_real sph_divergence_pair_difference(int dim, sph_real weight, sph_vec a_ij, sph_vec x_ij)
 {
     return weight * sph_dot(dim, a_ij, x_ij);
 }
+/* What j adds to the difference form of the curl: weight a_ij x x_ij (a cross product) with
+   weight = m_j F_i and a_ij = A_i - A_j. Of the sum, curl A_i = -sph_medium_difference(i, component) for
+   each component: note the sign. Price 2012, (79). Exact for constants. */
 SPH_FN sph_vec sph_curl_pair_difference(sph_real weight, sph_vec a_ij, sph_vec x_ij)
 {
     const sph_vec d = sph_scale(weight, a_ij);
@@ -4547,58 +4840,73 @@ SPH_FN sph_vec sph_curl_pair_difference(sph_real weight, sph_vec a_ij, sph_vec x
     c.z = d.x * x_ij.y - d.y * x_ij.x;
     return c;
 }
+/* Makes the derivative at i of a sum of difference forms with the weights m_j F_i: -sum / (Omega_i rho_i). */
 SPH_FN sph_real sph_medium_difference(sph_medium_side i, sph_real sum) { return -sum / (i.omega * i.rho); }
 
-/* Symmetric forms, which are rho_i times the sums of these: the conjugates of the difference forms, not 0 for
-   constants. div: what (9) subtracts; grad: (23). */
+/* What j adds to the symmetric form of the divergence: A_i . x_ij m_j g_i + A_j . x_ij m_j g_j. div A_i is
+   rho_i times the sum. It is what (9) subtracts. Not 0 for constants. This form and the difference form of
+   the gradient are conjugate. */
 SPH_FN sph_real sph_divergence_pair_symmetric(int dim, sph_pair_weights w, sph_vec a_i, sph_vec a_j,
                                               sph_vec x_ij)
 {
     return sph_dot(dim, a_i, x_ij) * w.i + sph_dot(dim, a_j, x_ij) * w.j;
 }
+/* What j adds to the symmetric form of the gradient: (f_i m_j g_i + f_j m_j g_j) x_ij, (23).
+   grad f_i is rho_i times the sum. Not 0 for constants. This form and the difference form of the
+   divergence are conjugate. */
 SPH_FN sph_vec sph_gradient_pair_symmetric(sph_pair_weights w, sph_real f_i, sph_real f_j, sph_vec x_ij)
 {
     return sph_scale(f_i * w.i + f_j * w.j, x_ij);
 }
 
-/* -------- magnetohydrodynamics: pair functions */
+/* -------- magnetohydrodynamics and cleaning: magnetised gas; pair functions */
 
-/* Stretching of the field, (7): weight (B_i . x_ij) v_ij, weight = m_j F_i. With div v in difference form
+/* Stretching of the field, (7): weight (B_i . x_ij) v_ij with weight = m_j F_i and Bx_i = B_i . x_ij. With
+   div v in difference form,
        dB_i/dt = sph_medium_difference(i, each component of the sum) - B_i div v_i. */
 SPH_FN sph_vec sph_induction_pair(sph_real weight, sph_real Bx_i, sph_vec v_ij)
 {
     return sph_scale(weight * Bx_i, v_ij);
 }
-/* Artificial resistivity, (10): dB_i/dt has rho_i sum_j weight B_ij of it, weight = m_j eta G r, eta =
-   alpha_B v_sig / rho^2 with the mean density (its square: a misprint of (10)). */
+/* Artificial resistivity, (10): weight alpha_speed per_rho^2 <= 0, the coefficient b of B_ij in dB_i/dt =
+   rho_i sum_j b B_ij. Here weight = m_j G r, alpha_speed = alpha_B v_sig, and per_rho is 1 over the mean
+   density. (Its square is what (10) lacks.) */
 SPH_FN sph_real sph_resistivity_pair(sph_real weight, sph_real alpha_speed, sph_real per_rho)
 {
     return weight * alpha_speed * per_rho * per_rho;
 }
 
-/* The values of one particle; psi is not read without cleaning. */
+/* The values of one particle. Components of v and field beyond sph_mhd_terms.parts must be 0. */
 typedef struct sph_mhd_side {
     sph_medium_side medium;
+    /* pressure, thermal energy per mass, sound speed, coefficients of viscosity and resistivity, cleaning
+       field. Without cleaning psi must be 0: sph_mhd_pair does not read it then, but sph_mhd_value does. */
     sph_real p, u, cs, alpha, alpha_B, psi;
-    sph_vec v, field;
+    sph_vec v, field; /* velocity and B */
 } sph_mhd_side;
-/* parts: 3 where v and field have three components, else the dimension. cleans: 1: there is a psi. */
+/* What is the same for all pairs. */
 typedef struct sph_mhd_terms {
-    sph_real beta, alpha_u;
+    sph_real beta, alpha_u; /* of the signal speed, and of conductivity; pure numbers, usually 2 and 1 */
+    /* parts: 3 where v and field have three components, else the dimension. cleans: 1 if there is a psi. */
     int parts, cleans;
 } sph_mhd_terms;
-/* What j adds to the sums of i, and the sums. */
+/* What j adds to the sums of particle i, or these sums. sph_mhd_value makes rates of them. */
 typedef struct sph_mhd_sums {
+    /* force: the acceleration by (6) and viscosity, without (9). stretching: of sph_induction_pair. cleaning:
+       (grad psi) / rho_i. resistivity: dB/dt by (10) over rho_i. */
     sph_vec force, stretching, cleaning, resistivity;
+    /* tension: (div B) / rho_i in symmetric form. div_v, div_B: sums of the difference form, before
+       sph_medium_difference. heat: du/dt by viscosity, conductivity and resistivity. */
     sph_real tension, div_v, div_B, heat;
-    sph_real speed; /* of signals between the two; of a sum: the largest */
+    sph_real speed; /* the signal speed of the pair; of the sums, the largest. Not read by sph_mhd_value */
 } sph_mhd_sums;
 
-/* The whole interaction: (6), (7), (10), (23), artificial viscosity and conductivity; see sph_mhd_rates. */
+/* The whole interaction of a pair: what j adds to i by (6), (7), (10), (23), artificial viscosity and
+   conductivity. See sph_mhd_rates. */
 SPH_FN sph_mhd_sums sph_mhd_pair(int dim, sph_mhd_terms terms, sph_mhd_side i, sph_mhd_side j,
                                  sph_pair_kernel f, sph_vec x_ij)
 {
-    /* of either side one division serves rho and Omega */
+    /* One division for each side gives 1 / rho and 1 / Omega. */
     const sph_real both_i = SPH_R(1) / (i.medium.omega * i.medium.rho),
                    both_j = SPH_R(1) / (j.medium.omega * j.medium.rho), per_rho_i = i.medium.omega * both_i,
                    per_rho_j = j.medium.omega * both_j, m_j = j.medium.m;
@@ -4641,11 +4949,13 @@ SPH_FN sph_mhd_sums sph_mhd_pair(int dim, sph_mhd_terms terms, sph_mhd_side i, s
     return c;
 }
 
-/* What the sums make: the rates of particle i. tensile: see sph_mhd; wave: ch = 0 without cleaning. */
+/* The rates of a particle: dv/dt, dB/dt, du/dt and dpsi/dt, and div B and div v in difference form. */
 typedef struct sph_mhd_change {
     sph_vec acceleration, rate_B;
     sph_real rate_u, rate_psi, div_B, div_v;
 } sph_mhd_change;
+/* The rates of particle i from its sums. tensile: see sph_mhd. wave: with the h of the particle, which
+   must not be 0; ch = 0 without cleaning. */
 SPH_FN sph_mhd_change sph_mhd_value(sph_mhd_side i, sph_mhd_sums s, sph_real tensile, sph_cleaning_wave wave)
 {
     const sph_real per = SPH_R(1) / (i.medium.omega * i.medium.rho), rho = i.medium.rho;
@@ -4661,12 +4971,13 @@ SPH_FN sph_mhd_change sph_mhd_value(sph_mhd_side i, sph_mhd_sums s, sph_real ten
     return c;
 }
 
-/* -------- magnetohydrodynamics and divergence cleaning: sweeps
-   Lists of all pairs with r < support * max(h_i, h_j) (SPH_LARGER). rho and Omega: from sph_density_adaptive,
-   or any density and sph_scalars_same(&one) for an h that is constant. Vectors may have a third component in
-   two dimensions: it is there if its array is. */
+/* -------- magnetohydrodynamics and cleaning: sweeps
+   Lists must hold all pairs with r < support ratio * max(h_i, h_j) (SPH_LARGER). rho and Omega come from
+   sph_density_adaptive; with a constant h take any density, and sph_scalars_same(&one) for Omega. In two
+   dimensions vectors may have a third component: it is there if its array is there. Sweeps return the
+   number of targets of which a result overflowed (it is 0 then), or a negative sph_error. */
 
-/* m, rho, Omega of all sources */
+/* Mass, density and Omega of all sources. */
 typedef struct sph_medium {
     sph_scalars m, rho, omega;
 } sph_medium;
@@ -4685,7 +4996,7 @@ SPH_FN int sphi_check_medium(sph_kernel k, int dim, sph_cloud cloud, sph_medium 
     if (!error) error = sphi_check_positive("rho", g.rho, cloud.points.n);
     return error ? error : sphi_check_positive("omega", g.omega, cloud.points.n);
 }
-/* three components where there are three arrays, else dim */
+/* 3 where a vector has three arrays, else dim. */
 SPH_FN int sphi_components(int dim, sph_vectors v) { return v.z.p ? 3 : dim; }
 
 SPH_FN sph_medium_side sphi_medium_side(const sph_medium *g, sph_index i)
@@ -4706,8 +5017,8 @@ SPH_FN sph_pair_kernel sphi_pair_kernel(sph_kernel k, int dim, int uniform, sph_
     return f;
 }
 
-/* div A_i = -(1 / (Omega_i rho_i)) sum_j m_j (A_i - A_j) . grad_i W_ij(h_i): difference form, (20); exact for
-   constants, and -(drho/dt) / rho for A = v. */
+/* div A_i = -(1 / (Omega_i rho_i)) sum_j m_j (A_i - A_j) . grad_i W_ij(h_i), the difference form (20).
+   Exact for constants. For A = v it is -(drho/dt) / rho. */
 SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
                                            sph_vectors field, sph_scalar_out out)
 {
@@ -4732,8 +5043,8 @@ SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_cloud clou
     }
     return failed;
 }
-/* div A_i = rho_i sum_j m_j (A_i g_i + A_j g_j) . x_ij: symmetric form; what (9) subtracts. It measures the
-   disorder of the particles, too, and is not 0 for constant A. */
+/* div A_i = rho_i sum_j m_j (A_i g_i + A_j g_j) . x_ij, the symmetric form, which (9) subtracts. It also
+   measures the disorder of the particles, and is not 0 for constant A. */
 SPH_FN sph_index sph_divergence_symmetric(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
                                           sph_vectors field, sph_scalar_out out)
 {
@@ -4759,8 +5070,8 @@ SPH_FN sph_index sph_divergence_symmetric(sph_kernel k, int dim, sph_cloud cloud
     }
     return failed;
 }
-/* grad f_i = rho_i sum_j m_j (f_i g_i + f_j g_j) x_ij: the conjugate of the difference divergence, (23); not
-   0 for constant f. */
+/* grad f_i = rho_i sum_j m_j (f_i g_i + f_j g_j) x_ij, the symmetric form (23). It is the conjugate of the
+   difference form of the divergence, and not 0 for constant f. */
 SPH_FN sph_index sph_gradient_symmetric(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
                                         sph_scalars f, sph_vector_out out)
 {
@@ -4794,8 +5105,9 @@ SPH_FN sph_index sph_gradient_symmetric(sph_kernel k, int dim, sph_cloud cloud, 
     }
     return failed;
 }
-/* curl A_i = (1 / (Omega_i rho_i)) sum_j m_j (A_i - A_j) x grad_i W_ij(h_i): difference form, three
-   components (in 2D of A that has two: the third). Exact for constants. Price 2012, (79). */
+/* curl A_i = (1 / (Omega_i rho_i)) sum_j m_j (A_i - A_j) x grad_i W_ij(h_i), the difference form. Exact
+   for constants. Price 2012, (79). The result has three components, of which only the third is not 0 in 2D
+   if A has two components; `out` must have three arrays. */
 SPH_FN sph_index sph_curl_difference(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
                                      sph_vectors field, sph_vector_out out)
 {
@@ -4830,25 +5142,28 @@ SPH_FN sph_index sph_curl_difference(sph_kernel k, int dim, sph_cloud cloud, sph
     return failed;
 }
 
-/* div_v: null: 0. ch: speed of the cleaning waves. sigma: damping, see sph_cleaning_sigma. */
+/* The state of divergence cleaning, one number or vector for each particle, all sources. */
 typedef struct sph_cleaning {
     sph_medium medium;
-    sph_vectors field;
-    sph_scalars psi, div_v;
-    sph_real ch, sigma;
+    sph_vectors field;      /* B, of dim components */
+    sph_scalars psi, div_v; /* div_v = sph_scalars_none(): div v = 0 */
+    sph_real ch, sigma;     /* speed and damping of the cleaning waves; see sph_cleaning_sigma */
 } sph_cleaning;
+/* Where the rates of cleaning go. */
 typedef struct sph_cleaning_out {
     sph_vector_out rate_B;
     SPH_GLOBAL sph_real *rate_psi, *div_B; /* div_B may be null */
     size_t stride;                         /* of these two */
     SPH_GLOBAL unsigned char *status;      /* may be null */
 } sph_cleaning_out;
-/* Divergence cleaning alone, for a host that has the rest of its MHD: dB/dt = -grad psi in symmetric form
-   (23), dpsi/dt = -ch^2 div B - sigma ch psi / h - psi div v / 2 with div B in difference form (20), (25).
-   div_v: sph_scalars_array(0) where nothing moves. div_B may be null. ch: one speed for all particles, the
-   largest fast speed of the cloud (times an over-cleaning factor if the time step is divided by it); sigma:
-   sph_cleaning_sigma(dim). Conserves sum m (B^2 + psi^2/ch^2) / (2 rho) but for the damping, which only
-   takes, at any h and Omega; and sum m B / rho exactly. */
+/* Divergence cleaning alone, for a host that has the rest of its MHD:
+       dB/dt   = -grad psi   in symmetric form, (23),
+       dpsi/dt = -ch^2 div B - sigma ch psi / h - psi div v / 2   with div B in difference form, (20), (25).
+   ch is one speed for all particles: the largest fast speed of the cloud (times a factor of over-cleaning,
+   if the time step is divided by this factor). sigma is usually sph_cleaning_sigma(dim).
+   Cleaning conserves sum m (B^2 + psi^2/ch^2) / (2 rho) for any h and Omega, except for the damping, which
+   only takes energy away. Where rho changes, the term with div v is needed for this. It also conserves sum
+   m B / rho, to round-off. */
 SPH_FN sph_index sph_cleaning_rates(sph_kernel k, int dim, sph_cloud cloud, sph_cleaning state,
                                     sph_cleaning_out out)
 {
@@ -4891,7 +5206,7 @@ SPH_FN sph_index sph_cleaning_rates(sph_kernel k, int dim, sph_cloud cloud, sph_
         sum.x = rho_i * sx;
         sum.y = rho_i * sy;
         sum.z = rho_i * sz;
-        divergence *= rho_i; /* w.i has g_i, which is F_i / (Omega rho) over rho */
+        divergence *= rho_i; /* w.i contains g_i, which is F_i / (Omega rho) divided by rho */
         lost = sphi_store_vector(dim, out.rate_B, i, sum);
         lost |= sphi_put(out.rate_psi, stride, i,
                          sph_cleaning_rate(sphi_cleaning_wave(ch, sigma, h_i), psi_i, divergence,
@@ -4903,25 +5218,26 @@ SPH_FN sph_index sph_cleaning_rates(sph_kernel k, int dim, sph_cloud cloud, sph_
     return failed;
 }
 
-/* A magnetised gas; n numbers each, all sources. */
+/* The state of a magnetised gas, one number or vector for each particle, all sources. */
 typedef struct sph_mhd {
     sph_medium medium;
     sph_scalars p, u, cs; /* pressure, thermal energy per mass, sound speed */
-    sph_scalars alpha,
-        alpha_B; /* viscosity and resistivity of each particle, 0 ... 1 (0: none); a pair takes the mean */
-    sph_vectors v, field; /* three components each if v.z has an array, else dim */
-    sph_scalars psi;      /* null array: no cleaning */
-    sph_real ch, sigma;
-    sph_real beta, alpha_u; /* 2 and 1 are usual; alpha_u = 0: no conductivity */
-    /* the part of (9) that is subtracted: 1 all, 0 none (momentum is conserved then, and particles pair where
-       B^2/2 > P) */
+    /* Coefficients of viscosity and resistivity of each particle, 0 (none) to 1. A pair takes the mean. */
+    sph_scalars alpha, alpha_B;
+    sph_vectors v, field;   /* velocity and B: three components each if v.z has an array, else dim */
+    sph_scalars psi;        /* sph_scalars_none(): no cleaning */
+    sph_real ch, sigma;     /* speed and damping of the cleaning waves; see sph_cleaning_rates */
+    sph_real beta, alpha_u; /* of signal speed and conductivity; 2 and 1 are usual; alpha_u = 0: none */
+    /* The part of (9) that is subtracted. 1: all of it. 0: none; momentum is then conserved, but particles
+       attract each other and form pairs where B^2/2 > P. */
     sph_real tensile;
 } sph_mhd;
-/* Where rates go; null pointers are not wanted (accelerations and rate_B are). */
+/* Where rates go. acceleration and rate_B must be there; the other pointers may be null. */
 typedef struct sph_mhd_out {
     sph_vector_out acceleration, rate_B;
+    /* du/dt, dpsi/dt, div B and div v in difference form, and the largest signal speed */
     SPH_GLOBAL sph_real *rate_u, *rate_psi, *div_B, *div_v, *v_sig;
-    size_t stride; /* of these five */
+    size_t stride; /* of these five, in sph_real; 0 counts as 1 */
     SPH_GLOBAL unsigned char *status;
 } sph_mhd_out;
 
@@ -4992,7 +5308,7 @@ SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k
                 sv += c.div_v;
                 sB += c.div_B;
                 heat += c.heat;
-                /* 0 beyond both supports; no comparison, which would keep gcc from vectorising */
+                /* It is 0 beyond both supports. A comparison would keep gcc from vectorising. */
                 v_sig[p - tile] =
                     c.speed * (SPH_R(0.5) +
                                SPHI_COPYSIGN(SPH_R(0.5),
@@ -5031,7 +5347,7 @@ SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k
     }
     return failed;
 }
-/* with what the loop may know as constants */
+/* Chooses the loop, for which parts, cleans and the kind of h are constants. */
 SPH_FN sph_index sphi_mhd_some(int parts, int cleans, sph_kernel k, int dim, sph_cloud cloud,
                                const sph_mhd *s, const sph_mhd_out *out)
 {
@@ -5053,14 +5369,18 @@ SPH_FN int sphi_check_mhd(sph_kernel k, int dim, sph_cloud cloud, const sph_mhd 
     return error;
 }
 /* All rates of a magnetised gas in one pass:
-       dv/dt: (6), less `tensile` times (9); artificial viscosity alpha v_sig where particles approach
-       dB/dt: (7), of B itself; -grad psi (23); resistivity (10)
-       du/dt: P / (Omega rho^2) sum_j m_j v_ij . grad W, heating by viscosity, resistivity (both >= 0) and
-       conductivity dpsi/dt: (2), (25); div B: (20); div v.
-   Without (9) the sum m (v^2/2 + u + B^2 / (2 rho) + psi^2 / (2 rho ch^2)) changes by the damping of psi
-   only, to round-off, and momentum does not; with (9) momentum changes by sum m B (div B). Density from
-   sph_density_adaptive (its rate is -rho div v). v_sig: the largest of a target with its neighbours within
-   the larger support, for time steps and switches; without any, its own fast speed. */
+     dv/dt    (6), less `tensile` times (9); artificial viscosity alpha v_sig where particles approach.
+     dB/dt    (7), for B itself; -grad psi, (23); artificial resistivity, (10).
+     du/dt    P / (Omega rho^2) sum_j m_j v_ij . grad_i W_ij; heating by viscosity and resistivity (both >=
+              0); conductivity.
+     dpsi/dt  (2), (25).
+     div B    the difference form (20); so is div v.
+   The density comes from sph_density_adaptive; its rate is -rho div v. With tensile = 0 the energy sum m
+   (v^2/2 + u + B^2 / (2 rho) + psi^2 / (2 rho ch^2)) changes by the damping of psi only, and the momentum
+   does not change, both to round-off. With (9) the momentum changes at the rate -tensile sum (m / rho) B
+   (div B), with div B in symmetric form. v_sig is the largest signal speed of a target with its neighbours
+   within the larger of the two supports, for time steps and switches. It is not below the target's own
+   fast speed across the field. */
 SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_cloud cloud, sph_mhd state, sph_mhd_out out)
 {
     const int parts = sphi_components(dim, state.v), cleans = state.psi.p != 0;
@@ -5082,30 +5402,40 @@ SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_cloud cloud, sph_mhd s
 }
 
 /* ================================================================ gravity, three dimensions
-   E = G/2 sum_i sum_j m_i m_j (phi(r, h_i) + phi(r, h_j)) / 2, a particle with itself included. With an h
-   that follows the density E depends on it, too, and forces have a second part (sph_gravity_correction)
-   without which energy is not conserved. Price & Monaghan 2007, MNRAS 374, 1347. Kernels with
-   sph_kernel_has_gravity only (SPH_ERROR_KERNEL). */
+ *
+ * The gravitational energy is
+ *     E = G/2 sum_i sum_j m_i m_j (phi(r, h_i) + phi(r, h_j)) / 2,
+ * with the particle itself, where phi < 0 is the potential of a unit mass that is spread out like the kernel
+ * (chapter gravity of sph_kernels.h). If h follows the density, E depends on h, too. Forces then have a
+ * second part (sph_gravity_correction), without which energy is not conserved.
+ *
+ * Source: Price & Monaghan 2007, MNRAS 374, 1347. Only kernels with sph_kernel_has_gravity; the sweeps that
+ * need phi answer SPH_ERROR_KERNEL for others.
+ */
 
-/* (1/r) d/dr of the mean of two softenings: a_i = -G sum_j m_j sph_gravity_pair x_ij. Beyond both supports
-   Newton's 1/r^3; 0 between coincident particles, because x_ij is. */
+/* -------- gravity: pair functions */
+
+/* The mean of (1/r) dphi/dr with h_i and with h_j, >= 0: a_i = -G sum_j m_j sph_gravity_pair x_ij. Beyond
+   both supports it is Newton's 1/r^3. Coincident particles feel no force, because x_ij = 0. */
 SPH_FN sph_real sph_gravity_pair(sph_kernel k, sph_real r, sph_real h_i, sph_real h_j)
 {
     return SPH_R(0.5) * (sph_gravity_force(k, r, h_i) + sph_gravity_force(k, r, h_j));
 }
-/* What self-gravity adds where h follows the density: weight of -G m_j x_ij in the acceleration of i: (zeta_i
-   F_i / Omega_i + zeta_j F_j / Omega_j) / 2; scaled = zeta / Omega. Price & Monaghan 2007, MNRAS 374,
-   1347. */
+/* What gravity adds where h follows the density: (zeta_i F_i / Omega_i + zeta_j F_j / Omega_j) / 2, the
+   coefficient of -G m_j x_ij in the acceleration of i. scaled_i = zeta_i / Omega_i and scaled_j likewise;
+   zeta comes from sph_gravity_zeta_value. Price & Monaghan 2007, MNRAS 374, 1347. */
 SPH_FN sph_real sph_gravity_correction_pair(sph_pair_kernel f, sph_real scaled_i, sph_real scaled_j)
 {
     return SPH_R(0.5) * (scaled_i * f.f_i + scaled_j * f.f_j);
 }
-/* zeta_i = dh_i/drho_i sum_j m_j dphi/dh(r, h_i), the particle itself included, dh/drho = -h / (3 rho): (22)
-   there. */
+/* zeta_i = dh_i/drho_i sum_j m_j dphi/dh(r, h_i) with dh/drho = -h / (3 rho): Price & Monaghan 2007, (22).
+   The sum contains the particle itself. */
 SPH_FN sph_real sph_gravity_zeta_value(sph_real h, sph_real rho, sph_real sum)
 {
     return -h / (SPH_R(3) * rho) * sum;
 }
+
+/* -------- gravity: sweeps */
 
 SPH_FN int sphi_check_gravity(sph_kernel k, sph_cloud cloud, sph_scalars m, sph_real newton)
 {
@@ -5119,9 +5449,11 @@ SPH_FN int sphi_check_gravity(sph_kernel k, sph_cloud cloud, sph_scalars m, sph_
     if (!error && cloud.checked != 1) error = sphi_check_positions(3, cloud.points);
     return error ? error : sphi_check_field("m", m, cloud.points.n);
 }
-/* Acceleration and potential G sum_j m_j (phi(r, h_i) + phi(r, h_j)) / 2 (itself included; may be null) of
-   the targets, by all sources: n^2 steps, for small clouds and to measure trees against. Isolated: box
-   lengths are not looked at. Momentum is conserved to round-off. */
+/* Acceleration -G sum_j m_j sph_gravity_pair x_ij and potential G sum_j m_j (phi(r, h_i) + phi(r, h_j)) /
+   2 of the targets. newton is G. The sums run over all sources, with the particle itself: n^2 steps, for
+   small clouds and to measure trees against. No list is read. The cloud is isolated: the lengths of the
+   box are not used. Momentum is conserved to round-off. potential may be without an array. Returns the
+   number of targets of which a result overflowed (it is 0 then), or a negative sph_error. */
 SPH_FN sph_index sph_gravity_direct(sph_kernel k, sph_cloud cloud, sph_scalars m, sph_real newton,
                                     sph_vector_out acceleration, sph_scalar_out potential)
 {
@@ -5152,8 +5484,9 @@ SPH_FN sph_index sph_gravity_direct(sph_kernel k, sph_cloud cloud, sph_scalars m
     }
     return failed;
 }
-/* zeta_i = dh_i/drho_i sum_j m_j dphi/dh(r, h_i), itself included, dh/drho = -h / (3 rho): (22) there. Lists
-   as for the density. */
+/* zeta_i = dh_i/drho_i sum_j m_j dphi/dh(r, h_i) with dh/drho = -h / (3 rho): Price & Monaghan 2007, (22).
+   The sum contains the particle itself. Lists as for the density: r < support ratio * h_i. Returns the
+   number of targets whose result overflowed (it is 0 then), or a negative sph_error. */
 SPH_FN sph_index sph_gravity_zeta(sph_kernel k, sph_cloud cloud, sph_scalars m, sph_scalars rho,
                                   sph_scalar_out out)
 {
@@ -5178,8 +5511,11 @@ SPH_FN sph_index sph_gravity_zeta(sph_kernel k, sph_cloud cloud, sph_scalars m, 
     }
     return failed;
 }
-/* What self-gravity adds where h follows the density: a_i = -(G/2) sum_j m_j (zeta_i F_i / Omega_i + zeta_j
-   F_j / Omega_j) x_ij, pairwise antisymmetric. Lists of all pairs within the larger support (SPH_LARGER). */
+/* What gravity adds to the acceleration where h follows the density:
+       -(G/2) sum_j m_j (zeta_i F_i / Omega_i + zeta_j F_j / Omega_j) x_ij,
+   antisymmetric for each pair. newton is G; zeta comes from sph_gravity_zeta. Lists of all pairs within
+   the larger support (SPH_LARGER). Returns the number of targets whose result overflowed (it is 0 then),
+   or a negative sph_error. */
 SPH_FN sph_index sph_gravity_correction(sph_kernel k, sph_cloud cloud, sph_medium medium, sph_scalars zeta,
                                         sph_real newton, sph_vector_out acceleration)
 {
@@ -5214,12 +5550,16 @@ SPH_FN sph_index sph_gravity_correction(sph_kernel k, sph_cloud cloud, sph_mediu
     return failed;
 }
 
-/* ================================================================ measures of a cloud: how the particles
-   lie, and what they conserve */
+/* ================================================================ measures of a cloud
+ *
+ * How the particles lie, and what they conserve. Each function has its own formula and source.
+ */
 
-/* The distance from each target to its nearest source in the list; 0 and SPH_TOO_FEW where the list is empty.
-   targets and sources may be the same points, or probes and particles (lists by SPH_LIST_FOREIGN): then the
-   share of probes with none within a distance is the void fraction. The box is that of the sources. */
+/* The distance from each target to its nearest source in the list. Where the list is empty it is 0, with
+   SPH_TOO_FEW. Targets and sources may be the same points, or probes and particles (lists by
+   SPH_LIST_FOREIGN). In the second case the fraction of probes without a particle within some distance is
+   the void fraction. The box is that of the sources. Returns the number of targets that are not SPH_OK, or
+   a negative sph_error. */
 SPH_FN sph_index sph_nearest_distance(int dim, sph_cloud targets_of, sph_points sources, sph_scalar_out out)
 {
     const sph_index first = targets_of.first, last = targets_of.last;
@@ -5258,9 +5598,10 @@ SPH_FN sph_index sph_nearest_distance(int dim, sph_cloud targets_of, sph_points 
     return failed;
 }
 
-/* The hexatic order |sum exp(6 i theta)| / 6 over the six nearest neighbours, 2D: 1 on a hexagonal lattice,
-   about 0.36 for random particles. 0 and SPH_TOO_FEW where there are fewer than six. Nelson & Halperin 1979,
-   PRB 19, 2457. */
+/* The hexatic order in 2D: |sum exp(6 i theta)| / 6 over the six nearest neighbours in the list. It is 1
+   on a hexagonal lattice, and about 0.36 for random particles. Nelson & Halperin 1979, PRB 19, 2457. Where
+   there are fewer than six neighbours (coincident ones do not count), it is 0, with SPH_TOO_FEW. Returns
+   the number of targets that are not SPH_OK, or a negative sph_error. */
 SPH_FN sph_index sph_hexatic_order(sph_cloud cloud, sph_scalar_out out)
 {
     int error = sphi_check_list(2, cloud, SPH_R(0));
@@ -5278,7 +5619,7 @@ SPH_FN sph_index sph_hexatic_order(sph_cloud cloud, sph_scalar_out out)
             sph_real u, v, uu;
             if (!(d > SPH_R(0)) || (n == 6 && !(d < r2[5]))) continue;
             if (n < 6) n++;
-            u = e.x * e.x / d, v = e.y * e.x / d; /* cos^2, cos sin: angles doubled and tripled from them */
+            u = e.x * e.x / d, v = e.y * e.x / d; /* cos^2 and cos sin, which give 2 theta and 6 theta */
             u = SPH_R(2) * u - SPH_R(1);
             v = SPH_R(2) * v;
             uu = u * u - SPH_R(3) * v * v;
@@ -5303,10 +5644,11 @@ SPH_FN sph_index sph_hexatic_order(sph_cloud cloud, sph_scalar_out out)
     return failed;
 }
 
-/* The radial distribution function: g[b] for r between b and b + 1 times farthest / bins: pairs found in a
-   shell per target over those expected at the number density (particles per volume). 1 far from a particle in
-   a large cloud. Full lists that hold every pair within farthest. Returns how many shells are so small or
-   large that g overflows (it is 0 there), or an error. Without targets g is not touched. */
+/* The radial distribution function: g[b] is the number of pairs with b <= r / width < b + 1, width =
+   farthest / bins, divided by the number that is expected at the number density (particles per
+   length^dim). In a large cloud it is 1 far from a particle. Full lists that hold every pair with r <
+   farthest. Without targets g is not changed. Returns the number of shells that are so small or large that
+   g overflows (it is 0 there), or a negative sph_error. */
 SPH_FN sph_index sph_radial_distribution(int dim, sph_cloud cloud, sph_real farthest, sph_real number_density,
                                          int bins, SPH_GLOBAL sph_real *g)
 {
@@ -5342,8 +5684,8 @@ SPH_FN sph_index sph_radial_distribution(int dim, sph_cloud cloud, sph_real fart
     return failed;
 }
 
-/* Coincident pairs: targets that have a source within `distance` (1e-12 h: what the forces leave alone).
-   Returns their number. */
+/* The number of targets that have another source within `distance`. With 1e-12 h these are the particles
+   that exert no force on each other. Returns this number, or a negative sph_error. */
 SPH_FN sph_index sph_coincident_count(int dim, sph_cloud cloud, sph_real distance)
 {
     sph_index i, p, found = 0;
@@ -5363,10 +5705,12 @@ SPH_FN sph_index sph_coincident_count(int dim, sph_cloud cloud, sph_real distanc
     }
     return found;
 }
-/* Where to put target i so that it leaves those that it coincides with: a step of `distance` in a direction
-   that depends on its index only (the golden angle, so that no two nearby indices get the same): no force has
-   a direction there, and neither kernels nor collisions separate such a pair. Writes the new position; those
-   who coincide with nobody keep theirs. Returns how many were moved. The host wraps and stores them. */
+/* Separates targets from the sources that they coincide with, within the distance `within`: neither
+   forces, nor kernels, nor collisions do so, because such a pair has no direction. A target that coincides
+   with another moves by `distance` in a direction that depends on its index only (by the golden angle, so
+   that close indices get different directions). The new positions of all targets are written; those that
+   coincide with none keep theirs. The host wraps and stores them. Returns the number of targets that
+   coincide, or a negative sph_error. */
 SPH_FN sph_index sph_coincident_separate(int dim, sph_cloud cloud, sph_real within, sph_real distance,
                                          sph_vector_out position)
 {
@@ -5398,7 +5742,7 @@ SPH_FN sph_index sph_coincident_separate(int dim, sph_cloud cloud, sph_real with
                 if (dim > 2) at.z += distance * up;
             }
             if (!sphi_finite(at.x) || !sphi_finite(at.y) || !sphi_finite(at.z))
-                at = was; /* there is no number for where it would be */
+                at = was; /* the new position would overflow */
             moved++;
         }
         sphi_store_vector(dim, position, i, at);
@@ -5406,20 +5750,21 @@ SPH_FN sph_index sph_coincident_separate(int dim, sph_cloud cloud, sph_real with
     return moved;
 }
 
-/* Mass, momentum, angular momentum about the origin and kinetic energy of particles first ... last - 1; sums
-   of compensated rounding (Kahan), for the last digits of what ought not to change. */
+/* Mass, momentum, angular momentum about the origin and kinetic energy of the targets. */
 typedef struct sph_conserved {
     sph_real mass, kinetic_energy;
-    sph_vec momentum, angular_momentum; /* in 2D the z component only */
+    sph_vec momentum, angular_momentum; /* of the second, only z is not 0 in 2D, and none in 1D */
 } sph_conserved;
+/* Adds with compensated rounding (Kahan), because changes of conserved sums show in the last digits. */
 SPH_FN void sphi_add_compensated(sph_real *sum, sph_real *lost, sph_real value)
 {
     const sph_real a = value - *lost, b = *sum + a;
     *lost = (b - *sum) - a;
     *sum = b;
 }
-/* Returns 0, 1 if a sum overflowed (*out then 0), or an error. x, v as they are: positions of a periodic box
-   must be those that were not wrapped for the angular momentum to mean anything. */
+/* Mass, momentum, angular momentum and kinetic energy of the targets first ... last - 1. x and v are taken
+   as they are: the angular momentum has a meaning only if the positions of a periodic box were never
+   wrapped. Returns 0; or 1 if a sum overflowed (all sums are 0 then); or a negative sph_error. */
 SPH_FN sph_index sph_conserved_sums(int dim, sph_cloud cloud, sph_scalars m, sph_vectors v,
                                     sph_conserved *out)
 {
@@ -5462,8 +5807,8 @@ SPH_FN sph_index sph_conserved_sums(int dim, sph_cloud cloud, sph_scalars m, sph
 
 /* ================================================================ likely mistakes
  *
- * Some mistakes pass every check of a sweep: it answers 0, and its numbers are nonsense. sph_cloud_examine
- * looks for them. Call it once on a new cloud, and always in a test suite:
+ * Some mistakes pass every check of a sweep: it answers 0, but its numbers are meaningless.
+ * sph_cloud_examine looks for such mistakes. Call it once on a new cloud, and always in a test suite:
  *
  *     sph_findings found;
  *     if (sph_cloud_examine(SPH_WENDLAND_C2, 3, cloud, 0, 0, &found) > 0)
@@ -5472,74 +5817,83 @@ SPH_FN sph_index sph_conserved_sums(int dim, sph_cloud cloud, sph_scalars m, sph
  *                 printf("particle %d: %s\n", (int)found.at[i].particle, sph_finding_text(i));
  */
 
-/* What may be wrong. sph_finding_text says it in words. */
+/* -------- likely mistakes: types */
+
+/* What may be wrong. sph_finding_text explains each in words. */
 typedef enum sph_finding {
     SPH_FINDING_LIST_SHORT,     /* every row ends before the support does */
-    SPH_FINDING_LIST_SUPPORT,   /* every row ends at h: h and the support radius are mixed up */
-    SPH_FINDING_LIST_HALF,      /* each pair stands in one of its two rows only */
-    SPH_FINDING_LIST_ONE_SIDED, /* pairs are missing that lie between the supports of their two particles */
-    SPH_FINDING_LIST_STALE,     /* rows lack what is nearer than what they hold: a list of other positions */
+    SPH_FINDING_LIST_SUPPORT,   /* every row ends at h: h and the support are mixed up */
+    SPH_FINDING_LIST_HALF,      /* each pair is in one of its two rows only */
+    SPH_FINDING_LIST_ONE_SIDED, /* pairs are missing that are inside the support of one particle only */
+    SPH_FINDING_LIST_STALE,     /* rows lack particles that are nearer than others they hold: an old list */
     SPH_FINDING_LIST_FROM_ONE,  /* indices or starts count from 1 */
     SPH_FINDING_BOX,            /* positions and list do not have the same periodic box */
     SPH_FINDING_VOLUME_ZERO,    /* a volume is negative, or more than half of them are 0 */
-    SPH_FINDING_VOLUME_SUM,     /* sum_j V_j W_ij in the interior is far from 1: masses, perhaps */
+    SPH_FINDING_VOLUME_SUM,     /* sum_j V_j W_ij in the interior is far from 1: perhaps masses were given */
     SPH_FINDING_DIM_HIGH,       /* a coordinate is the same for all particles: dim is too high */
     SPH_FINDING_DIM_LOW,        /* particles differ in a coordinate beyond dim: dim is too low */
-    SPH_FINDING_STRIDE,         /* positions: a stride in bytes, or components that share memory */
+    SPH_FINDING_STRIDE,         /* the stride of positions is in bytes, or two components share memory */
     SPH_FINDING_COUNT
 } sph_finding;
 
-/* Where it shows first: a particle, a neighbour (-1: none) and the number that tells:
-     LIST_*, BOX    distance / support radius that decides for this pair
-     LIST_FROM_ONE  0; neighbour is the entry as it stands in the list
+/* The first place where a mistake shows: a particle, a neighbour (-1: none), and a number, `ratio`:
+     LIST_*, BOX    distance / support, with the support that decides for this pair
+     LIST_FROM_ONE  0; neighbour is the entry as it is in the list
      VOLUME_ZERO    the volume
      VOLUME_SUM     the sum
      DIM_HIGH       0
-     DIM_LOW        the difference of the two particles / support radius
-     STRIDE         the distance of the pointers of two components that share memory, in sph_real;
-                    else given stride / likely stride */
+     DIM_LOW        the difference of the coordinates of the two particles / support
+     STRIDE         if two components share memory, the distance of their pointers in sph_real;
+                    else the given stride / the likely stride */
 typedef struct sph_offender {
     sph_index particle, neighbour;
     sph_real ratio;
     SPHI_TCC_PAD
 } sph_offender;
 
+/* All findings. */
 typedef struct sph_findings {
-    unsigned set;                       /* 1u << finding for each that was made */
-    sph_offender at[SPH_FINDING_COUNT]; /* particle -1 where there is no finding */
-    sph_index sampled;                  /* targets that were compared with all particles */
-    sph_index interior; /* of these, those that have particles on all sides; 0 without volumes */
-    /* sum_j V_j W_ij of these: near 1 in a healthy cloud; 0 if interior is 0 */
+    unsigned set;                       /* has the bit 1u << finding for each finding */
+    sph_offender at[SPH_FINDING_COUNT]; /* particle = -1 where there is no finding */
+    sph_index sampled;                  /* number of targets that were compared with all particles */
+    sph_index interior;                 /* how many of them have particles on all sides; 0 without volumes */
+    /* The least and the largest sum_j V_j W_ij of the latter: near 1 in a healthy cloud, and 0
+       if interior is 0. */
     sph_real sum_lowest, sum_highest;
 } sph_findings;
 
-/* what is asked: the cloud as it is, or as it would be if a guess were right */
+/* -------- likely mistakes: functions */
+
+/* What is examined: the cloud as it is, or as it would be if a guess were right. */
 typedef struct sphi_case {
     sph_cloud cloud;
     sph_vec extent;                    /* of all positions */
-    sph_real support_ratio, largest;   /* support / h, and the largest support radius */
-    sph_index start_base, index_base;  /* what the list counts from */
-    int dim, both_sides, with_volumes; /* with_volumes: sums, too */
+    sph_real support_ratio, largest;   /* support / h, and the largest support */
+    sph_index start_base, index_base;  /* 0 or 1, the number that the list counts from */
+    int dim, both_sides, with_volumes; /* with_volumes: also compute the sums */
 } sphi_case;
 
-/* what the sampled rows show */
+/* What the sampled rows show. */
 typedef struct sphi_tally {
-    size_t rows, needed, listed, outside,
-        self; /* pairs needed; entries listed, no particle, the particle itself */
+    /* Numbers of rows, of pairs that are needed, and of entries: all that are listed, those that are no
+       particle, those that are the particle itself. */
+    size_t rows, needed, listed, outside, self;
+    /* Numbers of pairs that are missing: all, through the box, beyond the smaller of both supports. */
     size_t missing, missing_across, missing_between;
-    size_t pairs_both, pairs_one,
-        pairs_none; /* pairs of two targets that need each other: in how many of the two rows */
+    /* Numbers of pairs of two targets that need each other: in both rows, in one, in none. */
+    size_t pairs_both, pairs_one, pairs_none;
+    /* Numbers of rows with a particle that is too far away, and of targets with particles on all sides. */
     size_t wide, interior;
-    int ends_by_distance, ends_by_ratio;    /* 1: each row holds what is nearer, and lacks what is farther */
-    sph_real own_listed, own_missing;       /* r / h_i: largest listed, smallest missing */
+    int ends_by_distance, ends_by_ratio;    /* 1: each row holds all that is nearer, none that is farther */
+    sph_real own_listed, own_missing;       /* r / h_i: the largest listed, the smallest missing */
     sph_real larger_listed, larger_missing; /* r / max(h_i, h_j) */
     sph_real sum_lowest, sum_highest;       /* sum_j V_j W_ij */
-    sph_offender lacking, distant, sum_low,
-        sum_high; /* the first that lacks a neighbour, or has a wide one */
+    /* The first particle that lacks a neighbour, the first with one too far away, and the extreme sums. */
+    sph_offender lacking, distant, sum_low, sum_high;
 } sphi_tally;
 
-/* Distances within 1e-3 of a radius count as on either side of it: rounding, and lattices with a shell
-   there. */
+/* Distances within 1e-3 of a radius count as on either side of it, because of rounding, and of lattices
+   that have a shell there. */
 #define SPHI_SLACK SPH_R(1e-3)
 
 SPH_FN sph_offender sphi_offender(sph_index particle, sph_index neighbour, sph_real ratio)
@@ -5555,7 +5909,7 @@ SPH_FN void sphi_find(sph_findings *f, int finding, sph_offender where)
     f->set |= 1u << finding;
     f->at[finding] = where;
 }
-/* the row of target i: 1 if it holds j */
+/* 1 if the row of target i holds j. */
 SPH_FN int sphi_row_holds(const sphi_case *c, sph_index i, sph_index j)
 {
     const sph_list list = c->cloud.list;
@@ -5565,11 +5919,12 @@ SPH_FN int sphi_row_holds(const sphi_case *c, sph_index i, sph_index j)
         if (list.index[p] - c->index_base == j) return 1;
     return 0;
 }
-/* one pair: its distance (nearest image), and that distance by the larger of both support radii */
+/* A pair: the vector d from i to j between nearest images, r = |d|, and q = r / the larger
+   of both supports. */
 typedef struct sphi_measure {
     sph_vec d;
-    sph_real r, q, own, other; /* own, other: support radii of i and j */
-    int across;                /* through the box */
+    sph_real r, q, own, other; /* own, other: the supports of i and j */
+    int across;                /* 1: through the periodic box */
 } sphi_measure;
 SPH_FN sphi_measure sphi_measure_pair(const sphi_case *c, sph_index i, sph_index j)
 {
@@ -5586,16 +5941,17 @@ SPH_FN sphi_measure sphi_measure_pair(const sphi_case *c, sph_index i, sph_index
     s.q = s.r / (s.own > s.other ? s.own : s.other);
     return s;
 }
-/* the radius within which target i must have j, less the slack; and the same seen from j */
+/* The radius within which the row of i must hold j, less the slack. */
 SPH_FN sph_real sphi_reach_own(const sphi_case *c, sphi_measure s)
 {
     return (SPH_R(1) - SPHI_SLACK) * (c->both_sides && s.other > s.own ? s.other : s.own);
 }
+/* The radius within which the row of j must hold i, less the slack. */
 SPH_FN sph_real sphi_reach_other(const sphi_case *c, sphi_measure s)
 {
     return (SPH_R(1) - SPHI_SLACK) * (c->both_sides && s.own > s.other ? s.own : s.other);
 }
-/* particle `i` lacks `j`; h_i is its own */
+/* Counts that the row of i lacks j; own is the support of i, reach the radius within which it needs j. */
 SPH_FN void sphi_tally_missing(const sphi_case *c, sphi_tally *t, sph_index i, sph_index j, sphi_measure s,
                                sph_real own, sph_real reach)
 {
@@ -5618,8 +5974,8 @@ SPH_FN void sphi_tally_zero(sphi_tally *t)
     t->sum_lowest = t->sum_highest = SPH_R(0);
     t->lacking = t->distant = t->sum_low = t->sum_high = sphi_offender(-1, -1, SPH_R(0));
 }
-/* 1: the particle has others on all sides. From the sums of the vectors to them, of their lengths and
-   products. */
+/* 1 if the particle has others on all sides. offset, distances and m are the sums of the vectors to them,
+   of their lengths, and of their products. */
 SPH_FN int sphi_surrounded(int dim, sph_vec offset, sph_real distances, sph_sym m)
 {
     sph_real trace = m.xx, det = m.xx;
@@ -5637,7 +5993,7 @@ SPH_FN int sphi_surrounded(int dim, sph_vec offset, sph_real distances, sph_sym 
     return det > SPH_R(0.3) * sphi_power(trace, dim);
 }
 
-/* Target i: its row against all particles. Cost n + (neighbours)^2. */
+/* Compares the row of target i with all particles. The cost is n + (neighbours)^2. */
 SPH_FN void sphi_tally_target(sph_kernel k, const sphi_case *c, sph_index i, sphi_tally *t)
 {
     const sph_list list = c->cloud.list;
@@ -5674,7 +6030,8 @@ SPH_FN void sphi_tally_target(sph_kernel k, const sphi_case *c, sph_index i, sph
         }
         if (s.q > farthest_q) farthest_q = s.q;
     }
-    /* A hole: not listed, but much nearer than something that is. Not 1.5: pairs of a lattice lie there. */
+    /* A hole: a particle that is not listed, but much nearer than one that is. The factor is not 1.5, because
+       there are pairs of lattices with this ratio. */
     limit_r = farthest_r / SPH_R(1.53);
     limit_q = farthest_q / SPH_R(1.53);
     for (p = begin; p < end; p++) {
@@ -5755,9 +6112,9 @@ SPH_FN void sphi_tally_target(sph_kernel k, const sphi_case *c, sph_index i, sph
     }
 }
 
-/* The targets to look at: `samples` of them (1 to the length of the range), one in each of as many equal
-   parts of the range, and up to 8 that stand out. The place within a part varies: else all may be of one
-   column of a lattice. */
+/* Examines `samples` targets (1 to the length of the range), one in each of as many equal parts of the
+   range, and up to 8 extreme ones. The place within a part varies, because all of them could else belong
+   to one column of a lattice. */
 SPH_FN void sphi_tally_rows(sph_kernel k, const sphi_case *c, sph_index samples, const sph_index *extra,
                             sphi_tally *t)
 {
@@ -5781,12 +6138,12 @@ SPH_FN void sphi_tally_rows(sph_kernel k, const sphi_case *c, sph_index samples,
         if (extra[s] >= 0) sphi_tally_target(k, c, extra[s], t);
 }
 
-/* All pairs of the list, those through the box apart from the others: the lengths r, and r / larger
-   support. */
+/* The lengths of all pairs of the list, r and q = r / the larger support. Pairs through the periodic box
+   are separated from the others. */
 typedef struct sphi_lengths {
-    size_t inside, across;                           /* pairs */
-    sph_real inside_r, inside_q, across_r, across_q; /* the largest */
-    sph_real inside_lowest, across_lowest;           /* the smallest r / larger support */
+    size_t inside, across;                           /* numbers of pairs */
+    sph_real inside_r, inside_q, across_r, across_q; /* the largest r and q */
+    sph_real inside_lowest, across_lowest;           /* the smallest q */
     sph_offender across_longest, across_shortest;
 } sphi_lengths;
 SPH_FN sphi_lengths sphi_list_lengths(const sphi_case *c)
@@ -5817,8 +6174,8 @@ SPH_FN sphi_lengths sphi_list_lengths(const sphi_case *c)
     return v;
 }
 
-/* Pointers to two components of n particles: 1 if the one of some particle is the other of some other.
-   *apart: their distance in sph_real. */
+/* Pointers to two components of n particles: 1 if the components share memory, so that one component of a
+   particle is the other component of some particle. *apart is the distance of the pointers in sph_real. */
 SPH_FN int sphi_same_memory(const SPH_GLOBAL sph_real *a, const SPH_GLOBAL sph_real *b, size_t stride,
                             sph_index n, sph_real *apart)
 {
@@ -5827,7 +6184,7 @@ SPH_FN int sphi_same_memory(const SPH_GLOBAL sph_real *a, const SPH_GLOBAL sph_r
     *apart = SPH_R(bytes / sizeof(sph_real));
     return bytes % width == 0 && bytes / width < (size_t)n;
 }
-/* A component that dim does not read: the first particle that differs in it from particle 0, or -1. */
+/* The first particle that differs from particle 0 in a component that dim does not read, or -1. */
 SPH_FN sph_index sphi_differs(sph_points x, const SPH_GLOBAL sph_real *component, sph_real tolerance)
 {
     sph_real apart;
@@ -5839,8 +6196,8 @@ SPH_FN sph_index sphi_differs(sph_points x, const SPH_GLOBAL sph_real *component
     }
     return -1;
 }
-/* Smallest and largest of a component over all particles; extra[0], extra[1] get the targets where it is
-   smallest and largest. Answers 0 if a value is not finite. */
+/* The smallest and largest value of a component over all particles. extra[0] and extra[1] become the
+   targets where it is smallest and largest. Returns 0 if a value is not finite, else 1. */
 SPH_FN int sphi_extremes(sph_cloud c, const SPH_GLOBAL sph_real *x, sph_real *lowest, sph_real *highest,
                          sph_index *extra)
 {
@@ -5858,14 +6215,15 @@ SPH_FN int sphi_extremes(sph_cloud c, const SPH_GLOBAL sph_real *x, sph_real *lo
     return 1;
 }
 
-/* What the rows say about list and box. At most one finding: the one that explains all that is missing. */
+/* What the rows say about list and box. It makes at most one finding, the one that explains all
+   that is missing. */
 SPH_FN void sphi_judge_list(const sphi_case *c, const sphi_tally *t, sph_findings *f)
 {
     const sph_real low = SPH_R(1) - SPHI_SLACK, high = SPH_R(1) + SPHI_SLACK;
     const sphi_lengths v = sphi_list_lengths(c);
     if (!t->missing) {
-        /* Pairs through the box are longer than all others, or the only ones that coincide: a wrong
-           length. */
+        /* A box with a wrong length: pairs through it are longer than all others, or they are the only
+           ones that coincide. */
         const sph_real longest_r = v.inside_r > c->largest ? v.inside_r : c->largest,
                        longest_q = v.inside_q > SPH_R(1) ? v.inside_q : SPH_R(1);
         if (t->wide) sphi_find(f, SPH_FINDING_BOX, t->distant);
@@ -5876,7 +6234,7 @@ SPH_FN void sphi_judge_list(const sphi_case *c, const sphi_tally *t, sph_finding
                  v.inside_lowest > SPH_R(100) * SPHI_SLACK)
             sphi_find(f, SPH_FINDING_BOX, v.across_shortest);
     } else if (t->missing_across == t->missing && c->support_ratio * v.inside_q > low * t->larger_missing) {
-        sphi_find(f, SPH_FINDING_BOX, t->lacking); /* as far inside the list is complete */
+        sphi_find(f, SPH_FINDING_BOX, t->lacking); /* pairs inside are listed as far as that, or farther */
     } else if (t->missing_between == t->missing) {
         sphi_find(f, SPH_FINDING_LIST_ONE_SIDED, t->lacking);
     } else if (t->pairs_one && !t->pairs_both && !t->pairs_none) {
@@ -5891,28 +6249,28 @@ SPH_FN void sphi_judge_list(const sphi_case *c, const sphi_tally *t, sph_finding
     }
 }
 
-/* Looks for the likely mistakes in a cloud (enum sph_finding), and reports of each kind the first particle
+/* Looks for the likely mistakes in a cloud (enum sph_finding). For each kind it reports the first particle
    and neighbour that show it.
-   both_sides    0: the operator needs all r < support * h_i (gather);
-                 1: it sums over pairs and needs all r < support * max(h_i, h_j)
-   samples       how many targets are compared with all particles; <= 0: 16. To these come those with
-                 extreme coordinates and h, up to 8
-   volume        sph_scalars_none(): not looked at. A volume of 0 is a probe; more than half of all
-                 particles cannot be probes
-   y, z          beyond dim are read here (and nowhere else) if they are not null, to find a dim that is
-                 too low
-   Assumed: arrays are as long as n and the strides say, list.index as long as the starts say (one less, if
-   these count from 1).
-   Answers the number of findings, 0 for a healthy or an empty cloud; or a negative sph_error, and then
+     both_sides  0: the operator needs all r < support ratio * h_i (SPH_GATHER). 1: it sums over pairs, and
+                 needs all r < support ratio * max(h_i, h_j) (SPH_LARGER).
+     samples     how many targets are compared with all particles; <= 0 means 16. Up to 8 targets with
+                 extreme coordinates and h are added.
+     volume      not examined if it is sph_scalars_none(). A volume of 0 belongs to a probe, but more than
+                 half of all particles cannot be probes.
+     y, z        beyond dim they are read here (and nowhere else) if they are not null, to find a dim
+                 that is too low.
+   It is assumed that arrays are as long as n and the strides say, and list.index as long as the starts say
+   (one less if these count from 1).
+   Returns the number of findings (0 for a healthy or an empty cloud), or a negative sph_error, and then
    nothing was written. What a sweep would refuse is such an error, but a finding that explains it comes
    first: LIST_FROM_ONE instead of SPH_ERROR_LIST or SPH_ERROR_SELF. Findings that only follow from another
-   are left out: put right what was found, and ask again.
+   are left out: correct what was found, and call it again.
    Cost: (samples + 8) * (n + neighbours^2), up to 4 times that where something is wrong, and one or two
-   passes over the list. The same whatever SPH_CHECK is.
-   What it cannot see: what no sampled target sees; masses where densities are within 0.67 ... 1.5; h too
-   large, with volumes and a list that fit; most boxes that are wrong by less than a spacing; starts that
-   count from 1, in a range that does not begin at 0 (the last entry of its last row is then read one place
-   too far). */
+   passes over the list. SPH_CHECK makes no difference.
+   It does not see: what no sampled target sees; masses instead of volumes where densities are within 0.67
+   ... 1.5; a too large h with volumes and a list that fit it; most boxes whose length is wrong by less
+   than a spacing; starts that count from 1 in a range that does not begin at 0 (the last entry of its last
+   row is then read one place too far). */
 SPH_FN sph_index sph_cloud_examine(sph_kernel k, int dim, sph_cloud cloud, int both_sides, sph_index samples,
                                    sph_findings *out)
 {
@@ -5948,7 +6306,7 @@ SPH_FN sph_index sph_cloud_examine(sph_kernel k, int dim, sph_cloud cloud, int b
     if (!list.start) return sphi_refuse("list", -1, SPH_ERROR_NULL);
     if (!cloud.h.p) return sphi_refuse("h", -1, SPH_ERROR_NULL);
 
-    /* numbers: positions, h, volumes */
+    /* The numbers: positions, h, volumes. */
     for (i = 0; i < 8; i++) extra[i] = -1;
     low.x = low.y = low.z = high.x = high.y = high.z = SPH_R(0);
     if (!sphi_extremes(cloud, x.x, &low.x, &high.x, extra)) return sphi_refuse("x", -1, SPH_ERROR_POSITION);
@@ -6003,7 +6361,7 @@ SPH_FN sph_index sph_cloud_examine(sph_kernel k, int dim, sph_cloud cloud, int b
         if (f.set) given.with_volumes = 0;
     }
 
-    /* the list: starts that ascend, entries that are particles */
+    /* The list: do starts ascend, and are entries particles? */
     given.start_base = given.index_base = 0;
     if (cloud.first < cloud.last) {
         if (cloud.first == 0 && list.start[0] == 1) given.start_base = 1;
@@ -6025,7 +6383,7 @@ SPH_FN sph_index sph_cloud_examine(sph_kernel k, int dim, sph_cloud cloud, int b
     if (self) error = SPH_ERROR_SELF;
     if (outside) error = SPH_ERROR_LIST;
 
-    /* positions: memory shared by two components, dim */
+    /* The positions: do two components share memory, and is dim right? */
     if (dim > 1 && sphi_same_memory(x.x, x.y, x.stride, x.n, &apart)) geometry = 0;
     else if (dim > 2 && sphi_same_memory(x.x, x.z, x.stride, x.n, &apart)) geometry = 0;
     else if (dim > 2 && sphi_same_memory(x.y, x.z, x.stride, x.n, &apart)) geometry = 0;
@@ -6053,7 +6411,7 @@ SPH_FN sph_index sph_cloud_examine(sph_kernel k, int dim, sph_cloud cloud, int b
         }
     }
 
-    /* rows against all particles: as given; and if that is not well, as if entries, or entries and starts,
+    /* Rows against all particles: as given; and if something is wrong, as if entries, or entries and starts,
        counted from 1, or as if the stride were in bytes. A guess is right if nothing is missing then. */
     given.cloud = cloud;
     given.dim = dim;
@@ -6111,7 +6469,7 @@ SPH_FN sph_index sph_cloud_examine(sph_kernel k, int dim, sph_cloud cloud, int b
 }
 
 #if !SPH_OPENCL
-/* what an sph_finding means, and what to do */
+/* The meaning of an sph_finding, and what to do, in words. */
 SPH_FN const char *sph_finding_text(int finding)
 {
     switch (finding) {
