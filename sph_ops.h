@@ -52,9 +52,9 @@
  *
  * ANSWERS of sweeps: how many targets are not ok (0: all well), or a negative sph_error, and then nothing was
  *   written. `status` says more about each target. Outputs of a target that is SPH_TOO_FEW, SPH_SINGULAR,
- *   SPH_NOT_AVAILABLE or SPH_NOT_FINITE are 0, never a NaN (of several outputs, those that are not finite; h of
- *   sph_density_adaptive, which is input and output, stays positive). SPH_REFUSED tells which argument was at
- *   fault. With SPH_CHECK = 1 a sweep first scans all that it reads: positions, h, lists, values.
+ *   SPH_NOT_AVAILABLE or SPH_NOT_FINITE are 0, never a NaN (of several outputs, those that are not finite; h
+ *   of sph_density_adaptive, which is input and output, stays positive). SPH_REFUSED tells which argument was
+ *   at fault. With SPH_CHECK = 1 a sweep first scans all that it reads: positions, h, lists, values.
  *   sph_cloud_checked does that once for a cloud.
  *
  * INDEX   (k: kernel, dim: dimension; a name alone: a pair function, or a sibling of the one above)
@@ -866,12 +866,14 @@ SPH_FN int sphi_check_vectors(SPHI_TEXT *name, int dim, sph_vectors v, sph_index
 SPH_FN int sphi_check_positive(SPHI_TEXT *name, sph_scalars a, sph_index n)
 {
     const int error = sphi_check_field(name, a, n);
-    return error || !SPH_CHECK ? error : sphi_scan_positive(name, a, n);
+    if (error) return error;
+    return SPH_CHECK ? sphi_scan_positive(name, a, n) : 0;
 }
 SPH_FN int sphi_check_not_negative(SPHI_TEXT *name, sph_scalars a, sph_index n)
 {
     const int error = sphi_check_field(name, a, n);
-    return error || !SPH_CHECK ? error : sphi_scan_not_negative(name, a, n);
+    if (error) return error;
+    return SPH_CHECK ? sphi_scan_not_negative(name, a, n) : 0;
 }
 
 /* ================================================================ small systems

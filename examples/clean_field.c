@@ -33,14 +33,14 @@ static void need(sph_index failed) /* what a sweep returns: 0, or how many parti
     if (failed) fprintf(stderr, "clean_field: %s\n", why), exit(1);
 }
 
-static void examine(sph_cloud cloud) /* with both sides of pairs: the operators are symmetric */
+static void examine(sph_cloud given) /* with both sides of pairs: the operators are symmetric */
 {
-    sph_findings f = {0}; /* stays so if there is an error, which the sweeps tell */
-    sph_cloud_examine(KERNEL, DIM, cloud, 1, 0, &f);
+    sph_findings found = {0}; /* stays so if there is an error, which the sweeps tell */
+    sph_cloud_examine(KERNEL, DIM, given, 1, 0, &found);
     for (int i = 0; i < SPH_FINDING_COUNT; i++)
-        if (f.set >> i & 1)
-            fprintf(stderr, "particle %d, neighbour %d, ratio %g: %s\n", (int)f.at[i].particle,
-                    (int)f.at[i].neighbour, f.at[i].ratio, sph_finding_text(i));
+        if (found.set >> i & 1)
+            fprintf(stderr, "particle %d, neighbour %d, ratio %g: %s\n", (int)found.at[i].particle,
+                    (int)found.at[i].neighbour, found.at[i].ratio, sph_finding_text(i));
 }
 
 /* a hexagonal lattice, slightly in disorder, its density, and the field */

@@ -34,14 +34,14 @@ static void need(sph_index answer) /* what a sweep returns: below 0 an error */
     fprintf(stderr, "density_cloud: %s\n", sph_status_text((int)answer));
     exit(1);
 }
-static void examine(sph_cloud cloud) /* the density of a particle asks for no more than its own support */
+static void examine(sph_cloud given) /* the density of a particle asks for no more than its own support */
 {
-    sph_findings f = {0}; /* stays so if there is an error, which the sweeps tell */
-    sph_cloud_examine(KERNEL, DIM, cloud, 0, 0, &f);
+    sph_findings found = {0}; /* stays so if there is an error, which the sweeps tell */
+    sph_cloud_examine(KERNEL, DIM, given, 0, 0, &found);
     for (int i = 0; i < SPH_FINDING_COUNT; i++)
-        if (f.set >> i & 1)
-            fprintf(stderr, "particle %d, neighbour %d, ratio %g: %s\n", (int)f.at[i].particle,
-                    (int)f.at[i].neighbour, f.at[i].ratio, sph_finding_text(i));
+        if (found.set >> i & 1)
+            fprintf(stderr, "particle %d, neighbour %d, ratio %g: %s\n", (int)found.at[i].particle,
+                    (int)found.at[i].neighbour, found.at[i].ratio, sph_finding_text(i));
 }
 
 static double uniform(void) /* within (0, 1) */

@@ -27,19 +27,19 @@ static sph_cloud drop;
 static double dx, h, dt, t, m, x[DIM][MOST], v[DIM][MOST], a[DIM][MOST], rho[MOST], p[MOST];
 static double axis[2] = {1, 1}, speed[2] = {1, -2}; /* A, C of the solution */
 
-static void need(sph_index failed) /* what a sweep returns: 0, or how many particles failed, or an error */
+static void need(sph_index answer) /* what a sweep returns: 0, or how many particles failed, or an error */
 {
-    const char *const why = failed < 0 ? sph_status_text((int)failed) : "a result overflowed";
-    if (failed) fprintf(stderr, "drop_3d: t = %g: %s\n", t, why), exit(1);
+    const char *const why = answer < 0 ? sph_status_text((int)answer) : "a result overflowed";
+    if (answer) fprintf(stderr, "drop_3d: t = %g: %s\n", t, why), exit(1);
 }
-static void examine(sph_cloud cloud) /* with both sides of pairs: forces are symmetric */
+static void examine(sph_cloud given) /* with both sides of pairs: forces are symmetric */
 {
-    sph_findings f = {0}; /* stays so if there is an error, which the sweeps tell */
-    sph_cloud_examine(KERNEL, DIM, cloud, 1, 0, &f);
+    sph_findings found = {0}; /* stays so if there is an error, which the sweeps tell */
+    sph_cloud_examine(KERNEL, DIM, given, 1, 0, &found);
     for (int i = 0; i < SPH_FINDING_COUNT; i++)
-        if (f.set >> i & 1)
-            fprintf(stderr, "particle %d, neighbour %d, ratio %g: %s\n", (int)f.at[i].particle,
-                    (int)f.at[i].neighbour, f.at[i].ratio, sph_finding_text(i));
+        if (found.set >> i & 1)
+            fprintf(stderr, "particle %d, neighbour %d, ratio %g: %s\n", (int)found.at[i].particle,
+                    (int)found.at[i].neighbour, found.at[i].ratio, sph_finding_text(i));
 }
 
 static void rates(void) /* continuity for the density, then pressures, then forces */

@@ -24,19 +24,19 @@ static const double pi = 3.14159265358979324;
 static int n;
 static double x[MOST], y[MOST], V, h, f[MOST], plain_x[MOST], plain_y[MOST], cspm_x[MOST], cspm_y[MOST];
 
-static void need(sph_index failed) /* what a sweep returns: 0, or how many particles failed, or an error */
+static void need(sph_index answer) /* what a sweep returns: 0, or how many particles failed, or an error */
 {
-    const char *const why = failed < 0 ? sph_status_text((int)failed) : "particles without a gradient";
-    if (failed) fprintf(stderr, "gradient_correction: %s\n", why), exit(1);
+    const char *const why = answer < 0 ? sph_status_text((int)answer) : "particles without a gradient";
+    if (answer) fprintf(stderr, "gradient_correction: %s\n", why), exit(1);
 }
-static void examine(sph_cloud cloud) /* a gradient asks for no more than the support of its own particle */
+static void examine(sph_cloud given) /* a gradient asks for no more than the support of its own particle */
 {
-    sph_findings f = {0}; /* stays so if there is an error, which the sweeps tell */
-    sph_cloud_examine(KERNEL, DIM, cloud, 0, 0, &f);
+    sph_findings found = {0}; /* stays so if there is an error, which the sweeps tell */
+    sph_cloud_examine(KERNEL, DIM, given, 0, 0, &found);
     for (int i = 0; i < SPH_FINDING_COUNT; i++)
-        if (f.set >> i & 1)
-            fprintf(stderr, "particle %d, neighbour %d, ratio %g: %s\n", (int)f.at[i].particle,
-                    (int)f.at[i].neighbour, f.at[i].ratio, sph_finding_text(i));
+        if (found.set >> i & 1)
+            fprintf(stderr, "particle %d, neighbour %d, ratio %g: %s\n", (int)found.at[i].particle,
+                    (int)found.at[i].neighbour, found.at[i].ratio, sph_finding_text(i));
 }
 
 /* side x side particles in the unit square, each displaced at random by up to a fifth of the spacing */

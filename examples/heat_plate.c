@@ -26,19 +26,19 @@ static double x[N], y[N], temperature[N], rate[N], dt, t;
 static double *row;     /* one weight for each pair */
 static sph_cloud cloud; /* nothing moves: checked once, for all steps */
 
-static void need(sph_index failed) /* what a sweep returns: 0, or how many particles failed, or an error */
+static void need(sph_index answer) /* what a sweep returns: 0, or how many particles failed, or an error */
 {
-    const char *const why = failed < 0 ? sph_status_text((int)failed) : "particles without an answer";
-    if (failed) fprintf(stderr, "heat_plate: %s\n", why), exit(1);
+    const char *const why = answer < 0 ? sph_status_text((int)answer) : "particles without an answer";
+    if (answer) fprintf(stderr, "heat_plate: %s\n", why), exit(1);
 }
-static void examine(sph_cloud cloud) /* M-SPH sums over pairs: both sides */
+static void examine(sph_cloud given) /* M-SPH sums over pairs: both sides */
 {
-    sph_findings f = {0}; /* stays so if there is an error, which the sweeps tell */
-    sph_cloud_examine(KERNEL, DIM, cloud, 1, 0, &f);
+    sph_findings found = {0}; /* stays so if there is an error, which the sweeps tell */
+    sph_cloud_examine(KERNEL, DIM, given, 1, 0, &found);
     for (int i = 0; i < SPH_FINDING_COUNT; i++)
-        if (f.set >> i & 1)
-            fprintf(stderr, "particle %d, neighbour %d, ratio %g: %s\n", (int)f.at[i].particle,
-                    (int)f.at[i].neighbour, f.at[i].ratio, sph_finding_text(i));
+        if (found.set >> i & 1)
+            fprintf(stderr, "particle %d, neighbour %d, ratio %g: %s\n", (int)found.at[i].particle,
+                    (int)found.at[i].neighbour, found.at[i].ratio, sph_finding_text(i));
 }
 
 static int on_edge(int i)

@@ -38,14 +38,14 @@ static void need(
 {
     if (answer < 0) fprintf(stderr, "host_structs: %s\n", sph_status_text((int)answer)), exit(1);
 }
-static void examine(sph_cloud cloud) /* derivatives ask for no more than the support of their own particle */
+static void examine(sph_cloud given) /* derivatives ask for no more than the support of their own particle */
 {
-    sph_findings f = {0}; /* stays so if there is an error, which the sweeps tell */
-    sph_cloud_examine(KERNEL, DIM, cloud, 0, 0, &f);
+    sph_findings found = {0}; /* stays so if there is an error, which the sweeps tell */
+    sph_cloud_examine(KERNEL, DIM, given, 0, 0, &found);
     for (int i = 0; i < SPH_FINDING_COUNT; i++)
-        if (f.set >> i & 1)
-            fprintf(stderr, "particle %d, neighbour %d, ratio %g: %s\n", (int)f.at[i].particle,
-                    (int)f.at[i].neighbour, f.at[i].ratio, sph_finding_text(i));
+        if (found.set >> i & 1)
+            fprintf(stderr, "particle %d, neighbour %d, ratio %g: %s\n", (int)found.at[i].particle,
+                    (int)found.at[i].neighbour, found.at[i].ratio, sph_finding_text(i));
 }
 
 /* stations about a tenth of the spacing off a lattice, in random order */

@@ -146,18 +146,18 @@ static sph_index cleaning(const setup *s, sph_scalars div_v)
 
 /* ---- marks ---- */
 
-static sph_index shepard(const setup *s, sph_cloud cloud)
+static sph_index shepard(const setup *s, sph_cloud given)
 {
     refusal.count = 0;
-    return sph_shepard_sum(KERNEL, s->c.dim, cloud, scalar_out(s));
+    return sph_shepard_sum(KERNEL, s->c.dim, given, scalar_out(s));
 }
 /* the mark of a cloud with a fault, and what any sweep answers then, also on a part of the cloud */
-static void check_mark(const char *fault, const setup *s, int dim, sph_cloud cloud, int error)
+static void check_mark(const char *fault, const setup *s, int dim, sph_cloud given, int error)
 {
     sph_cloud marked;
     sph_index whole, part;
     refusal.count = 0;
-    marked = sph_cloud_checked(dim, cloud);
+    marked = sph_cloud_checked(dim, given);
     whole = sph_shepard_sum(KERNEL, dim, marked, scalar_out(s));
     part = sph_shepard_sum(KERNEL, dim, sph_cloud_range(marked, 3, 5), scalar_out(s));
     if (!check_count(marked.checked == error && whole == error && part == error))

@@ -10,6 +10,7 @@
 
 #include <cstdio>
 
+#define EXAMINE 0 // 1: prints what is likely wrong with the cloud
 #define SPH_REFUSED(argument, particle, error) \
     std::printf("%s: %s, first at particle %d\n", argument, sph_status_text(error), int(particle))
 #include "sph.h"
@@ -38,7 +39,7 @@ void expect(const char *what, double value, double exact, double tolerance)
     failures += !right;
 }
 
-// the doctor: what is likely wrong with a new cloud; M-SPH sums over pairs, and asks for both of their
+// the doctor of a new cloud; M-SPH sums over pairs, and asks for both of their
 // supports
 void examine(sph_cloud cloud)
 {
@@ -102,7 +103,7 @@ int main(int argc, char **argv)
     if (answer != 0) return std::puts(sph_status_text(answer)), 1;
 
     const sph_cloud cloud = sph_cloud_checked(dim, sph_cloud_of(points, found.list, H, V));
-    examine(cloud);
+    if (EXAMINE) examine(cloud);
 
     std::vector<double> gx(n), gy(n);
     sph_derivatives_out gradient = {};

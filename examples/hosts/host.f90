@@ -4,7 +4,8 @@
 ! place.
 !
 !     cc -O2 -c -I. examples/hosts/sph_shim.c
-!     gfortran -O2 examples/hosts/sph.f90 examples/hosts/host.f90 sph_shim.o -o host -lm && ./host           (from the repository's root)
+!     gfortran -O2 examples/hosts/sph.f90 examples/hosts/host.f90 sph_shim.o -o host -lm && ./host
+!                                                                                (from the repository's root)
 !
 ! A corrected gradient of a linear field and a row of the M-SPH Laplacian, both exact on a disordered cloud;
 ! and the kernels against the known answers. Exit status 0 if all is right.
@@ -53,12 +54,14 @@ program host
     square = 0
     do p = cloud%start(middle) + 1, cloud%start(middle + 1)
         j = cloud%index(p) + 1
-        square = square + row(p) * (particle(j)%x**2 + particle(j)%y**2 - particle(middle)%x**2 - particle(middle)%y**2)
+        square = square + row(p) * (particle(j)%x**2 + particle(j)%y**2 &
+                                    - particle(middle)%x**2 - particle(middle)%y**2)
     end do
     associate (first => cloud%start(middle) + 1, last => cloud%start(middle + 1))
         print '(a, i0, a, i0, a, f0.6)', 'M-SPH row of particle ', middle, ': ', last - first + 1, &
             ' neighbours, diagonal ', diagonal(middle)
-        call expect('M-SPH, sum of the row', diagonal(middle) + sum(row(first:last)), 0.0_sph_real, 1e-9_sph_real)
+        call expect('M-SPH, sum of the row', diagonal(middle) + sum(row(first:last)), 0.0_sph_real, &
+                    1e-9_sph_real)
     end associate
     call expect('M-SPH, div(m grad u) of a linear u', Lu(middle), 0.0_sph_real, 1e-9_sph_real)
     call expect('M-SPH, div(m grad u) of u = x^2 + y^2', square, 4 * mobility, 1e-9_sph_real)
@@ -85,7 +88,8 @@ contains
         if (.not. right) failures = failures + 1
     end subroutine
 
-    ! W and F of every kernel; the rows of a kernel, dimension and h stand together, and what is allowed is relative to the largest of them
+    ! W and F of every kernel; the rows of a kernel, dimension and h stand together, and what is allowed is
+    ! relative to the largest of them
     subroutine known_answers(path)
         character(*), intent(in) :: path
         integer, parameter :: most = 4096
@@ -116,8 +120,10 @@ contains
                                gotW(first:last), gotF(first:last), status)
             call all_well(status)
             allowed = 8 * epsilon(1.0_sph_real)
-            off = off + count(.not. abs(gotW(first:last) - W(first:last)) <= allowed * maxval(abs(W(first:last))))
-            off = off + count(.not. abs(gotF(first:last) - F(first:last)) <= allowed * maxval(abs(F(first:last))))
+            off = off + count(.not. abs(gotW(first:last) - W(first:last)) <= &
+                              allowed * maxval(abs(W(first:last))))
+            off = off + count(.not. abs(gotF(first:last) - F(first:last)) <= &
+                              allowed * maxval(abs(F(first:last))))
             first = last + 1
         end do
         print '(a, i0, a, i0, a)', 'known answers: ', rows, ' rows, ', off, ' off'

@@ -3,7 +3,7 @@
 ! sph.f90 - the operators of sph.h for Fortran (2018), through the shim (sph_shim.h).
 !
 !     cc -O2 -c -I. examples/hosts/sph_shim.c
-!     gfortran -O2 examples/hosts/sph.f90 your_code.f90 sph_shim.o -lm             (from the repository's root)
+!     gfortran -O2 examples/hosts/sph.f90 your_code.f90 sph_shim.o -lm          (from the repository's root)
 !
 !     use sph
 !     type(sph_cloud) :: cloud
@@ -14,16 +14,18 @@
 !
 ! An sph_field is where the numbers of the particles are; nothing is copied:
 !     sph_field(a)                  an array, or a section of it; it may be empty
-!     sph_field(p(1)%a, p(2)%a)     a component of an array of a derived type, by its first two (p%a itself would
-!                                   be copied, and the copy gone after the call)
+!     sph_field(p(1)%a, p(2)%a)     a component of an array of a derived type, by its first two (p%a itself
+!                                   would be copied, and the copy gone after the call)
 !     sph_field(h)                  a scalar: one value for all
 ! Give them the attribute target, and keep them as long as the cloud, which must not be copied (its copy would
-! look at the lists of the first). not_ok: the number of targets that are not ok (0: all well), or a negative
-! error, which sph_error_text(error) puts in words, with the argument and the first particle at fault. A
-! status, or an error alone, is sph_status_text(status). Lists begin with 0, as in C: the neighbours of
-! particle i are cloud%index(p) + 1 for p = cloud%start(i) + 1, cloud%start(i + 1). What is computed, and what
-! it is exact for: sph_ops.h, under the C names of the interfaces below. Double precision; for a shim that is
-! compiled with -DSPH_SINGLE=1 change sph_real.
+! look at the lists of the first).
+! not_ok: the number of targets that are not ok (0: all well), or a negative error, which
+! sph_error_text(error) puts in words, with the argument and the first particle at fault;
+! sph_status_text(status) has those of a status.
+! Lists begin with 0, as in C: the neighbours of particle i are cloud%index(p) + 1
+! for p = cloud%start(i) + 1, cloud%start(i + 1).
+! What is computed, and what it is exact for: sph_ops.h, under the C names of the interfaces below. Double
+! precision; for a shim that is compiled with -DSPH_SINGLE=1 change sph_real.
 
 module sph
     use, intrinsic :: iso_c_binding
@@ -102,7 +104,8 @@ module sph
             import
             integer(c_size_t) :: size
         end function
-        function c_cloud_init(c, kernel, dim, n, x, y, z, stride) bind(c, name='sph_shim_cloud_init') result(error)
+        function c_cloud_init(c, kernel, dim, n, x, y, z, stride) &
+            bind(c, name='sph_shim_cloud_init') result(error)
             import
             integer(c_int64_t), intent(inout) :: c(*)
             integer(c_int), value :: kernel, dim
@@ -138,7 +141,8 @@ module sph
             integer(sph_index), value :: n
             integer(c_size_t) :: size
         end function
-        function c_grid_lists(c, criterion, radius, radius_stride, work, work_size, start, index, capacity, pairs) &
+        function c_grid_lists(c, criterion, radius, radius_stride, work, work_size, start, index, capacity, &
+                              pairs) &
             bind(c, name='sph_shim_grid_lists') result(error)
             import
             integer(c_int64_t), intent(in) :: c(*)
@@ -151,7 +155,8 @@ module sph
             integer(c_int64_t), intent(out) :: pairs
             integer(sph_index) :: error
         end function
-        function c_density_summation(c, m, m_stride, rho) bind(c, name='sph_shim_density_summation') result(not_ok)
+        function c_density_summation(c, m, m_stride, rho) &
+            bind(c, name='sph_shim_density_summation') result(not_ok)
             import
             integer(c_int64_t), intent(in) :: c(*)
             type(c_ptr), value :: m
@@ -159,7 +164,8 @@ module sph
             real(sph_real), intent(inout) :: rho(*)
             integer(sph_index) :: not_ok
         end function
-        function c_gradient_cspm(c, f, f_stride, gx, gy, gz, status) bind(c, name='sph_shim_gradient_cspm') result(not_ok)
+        function c_gradient_cspm(c, f, f_stride, gx, gy, gz, status) &
+            bind(c, name='sph_shim_gradient_cspm') result(not_ok)
             import
             integer(c_int64_t), intent(in) :: c(*)
             type(c_ptr), value :: f, status
@@ -168,7 +174,8 @@ module sph
             real(sph_real), intent(inout), optional :: gy(*), gz(*)
             integer(sph_index) :: not_ok
         end function
-        function c_laplacian_brookshaw(c, f, f_stride, out) bind(c, name='sph_shim_laplacian_brookshaw') result(not_ok)
+        function c_laplacian_brookshaw(c, f, f_stride, out) &
+            bind(c, name='sph_shim_laplacian_brookshaw') result(not_ok)
             import
             integer(c_int64_t), intent(in) :: c(*)
             type(c_ptr), value :: f
@@ -197,7 +204,8 @@ module sph
             real(sph_real), intent(inout) :: row(*), diagonal(*)
             integer(sph_index) :: not_ok
         end function
-        function c_rows_apply(c, row, diagonal, u, u_stride, out) bind(c, name='sph_shim_rows_apply') result(not_ok)
+        function c_rows_apply(c, row, diagonal, u, u_stride, out) &
+            bind(c, name='sph_shim_rows_apply') result(not_ok)
             import
             integer(c_int64_t), intent(in) :: c(*)
             real(sph_real), intent(in) :: row(*), diagonal(*)
@@ -217,7 +225,9 @@ contains
         real(sph_real), intent(in) :: r(:), h
         real(sph_real), intent(out) :: w(size(r)), f(size(r))
         integer, intent(out) :: error
-        error = c_kernel_wf(c_kernel_from_name(trim(kernel)//c_null_char), dim, size(r, kind=sph_index), r, h, w, f)
+        integer(sph_index) :: n
+        n = size(r, kind=sph_index)
+        error = c_kernel_wf(c_kernel_from_name(trim(kernel)//c_null_char), dim, n, r, h, w, f)
     end subroutine
 
     function text_of(address) result(text)
@@ -238,7 +248,8 @@ contains
         text = text_of(c_status_text(status))
     end function
 
-    ! The error that was just answered: 'h: h must be finite and positive, first at particle 18', counted from 1.
+    ! The error that was just answered: 'h: h must be finite and positive, first at particle 18', which counts
+    ! from 1.
     function sph_error_text(error) result(text)
         integer, intent(in) :: error
         character(:), allocatable :: text
@@ -262,7 +273,8 @@ contains
         real(sph_real), intent(in), target :: a, b
         type(sph_field) :: field
         field%p = c_loc(a)
-        field%stride = (transfer(c_loc(b), field%stride) - transfer(c_loc(a), field%stride)) / (storage_size(a) / 8)
+        field%stride = transfer(c_loc(b), field%stride) - transfer(c_loc(a), field%stride)
+        field%stride = field%stride / (storage_size(a) / 8)
     end function
     function field_of_scalar(a) result(field)
         real(sph_real), intent(in), target :: a
@@ -279,7 +291,8 @@ contains
         type(sph_field), intent(in), optional :: y, z
         integer, intent(out) :: not_ok
         type(c_ptr) :: py, pz
-        if (c_real_size() /= storage_size(1.0_sph_real) / 8) error stop 'sph.f90 and the shim are of different precision'
+        if (c_real_size() /= storage_size(1.0_sph_real) / 8) &
+            error stop 'sph.f90 and the shim are of different precision'
         self%dim = 1
         py = c_null_ptr
         pz = c_null_ptr
@@ -343,8 +356,8 @@ contains
         if (not_ok /= 0) pairs = 0
         allocate (self%index(max(pairs, 1_c_int64_t)))
         if (not_ok /= 0) return
-        not_ok = c_grid_lists(self%c, 0, radius, radius_stride, work, work_size, self%start, c_loc(self%index), &
-                              size(self%index, kind=c_size_t), pairs)
+        not_ok = c_grid_lists(self%c, 0, radius, radius_stride, work, work_size, self%start, &
+                              c_loc(self%index), size(self%index, kind=c_size_t), pairs)
         call c_cloud_lists(self%c, c_loc(self%start), c_loc(self%index))
     end subroutine
 
@@ -389,8 +402,8 @@ contains
         not_ok = c_laplacian_brookshaw(self%c, f%p, f%stride, out)
     end subroutine
 
-    ! sph_derivatives_icspm; out(:, i): gx, xx in 1D; gx, gy, xx, xy, yy in 2D; gx, gy, gz, xx, xy, yy, xz, yz, zz
-    ! in 3D
+    ! sph_derivatives_icspm; out(:, i): gx, xx in 1D; gx, gy, xx, xy, yy in 2D;
+    ! gx, gy, gz, xx, xy, yy, xz, yz, zz in 3D
     subroutine derivatives(self, f, conditioning_min, out, not_ok)
         class(sph_cloud), intent(in) :: self
         type(sph_field), intent(in) :: f

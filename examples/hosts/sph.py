@@ -2,7 +2,7 @@
 """sph.py - the operators of sph.h on Python's arrays, through the shim (sph_shim.h). Needs nothing but the
 standard library; numpy's arrays if numpy is there.
 
-    cc -O2 -shared -fPIC -I. examples/hosts/sph_shim.c -o libsph_shim.so -lm        (from the repository's root)
+    cc -O2 -shared -fPIC -I. examples/hosts/sph_shim.c -o libsph_shim.so -lm     (from the repository's root)
 
     import sph
     sph.load("./libsph_shim.so")

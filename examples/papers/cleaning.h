@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: MIT
  *
- * cleaning.h - what the drivers of the divergence-cleaning paper (Tricco & Price 2012, 7th SPHERIC workshop) with a free boundary share: the disc of 1976 particles, neighbour lists that are built again
- * and again, an end with a name for a state that is no number any more, and rows for the values of an independent trial.
+ * cleaning.h - what the drivers of the divergence-cleaning paper (Tricco & Price 2012, 7th SPHERIC workshop)
+ * with a free boundary share: the disc of 1976 particles, an end with a name for a state that is no number any
+ * more, and rows for the values of an independent trial.
  */
 #ifndef CLEANING_H
 #define CLEANING_H
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
-#include "../../sph.h"
 #include "../common/figure.h"
+#include "../common/host.h"
 #include "../common/options.h"
 #include "../common/progress.h"
 #include "../common/random.h"
@@ -21,29 +20,10 @@
 #define CLEANING_SPACING 0.04 /* of the lattice: the unit disc then has 1976 particles */
 #define CLEANING_ETA 1.2      /* h in spacings */
 
-/* count zeros */
-static inline void *cleaning_memory(size_t count, size_t size)
-{
-    void *const p = calloc(count ? count : 1, size);
-    if (!p) {
-        fprintf(stderr, "cleaning: out of memory (%lu x %lu bytes)\n", (unsigned long)count, (unsigned long)size);
-        exit(2);
-    }
-    return p;
-}
-
-/* All particles of a sweep must be well. */
-static inline void cleaning_expect(sph_index answer)
-{
-    if (answer == 0) return;
-    fflush(stdout);
-    if (answer < 0) fprintf(stderr, "cleaning: %s\n", sph_status_text((int)answer));
-    else fprintf(stderr, "cleaning: %ld particles without a finite result\n", (long)answer);
-    exit(1);
-}
-
-/* The same in a run, at the time t: the first particle whose value is no number is named. state: arrays of x.n values, with their names. */
-static inline void cleaning_well(sph_index answer, const char *run, double t, double *const *state, const char *const *name, int arrays, sph_points x)
+/* expect_all in a run, at the time t: the first particle whose value is no number is named. state: arrays of
+   x.n values, with their names. */
+static inline void cleaning_well(sph_index answer, const char *run, double t, double *const *state,
+                                 const char *const *name, int arrays, sph_points x)
 {
     sph_index i;
     int a;
@@ -53,10 +33,11 @@ static inline void cleaning_well(sph_index answer, const char *run, double t, do
     for (a = 0; a < arrays; a++)
         for (i = 0; i < x.n; i++)
             if (!isfinite(state[a][i])) {
-                fprintf(stderr, "%s of particle %ld at (%g, %g) is %g\n", name[a], (long)i, x.x[i], x.y[i], state[a][i]);
+                fprintf(stderr, "%s of particle %ld at (%g, %g) is %g\n", name[a], (long)i, x.x[i], x.y[i],
+                        state[a][i]);
                 exit(1);
             }
-    cleaning_expect(answer);
+    expect_all(answer);
 }
 
 /* The nodes of a lattice, in the middle of its cells, within the unit disc or sphere; counts only where p[0] is null. */
@@ -73,52 +54,6 @@ static inline int cleaning_ball(int dim, double dx, double *const p[3])
         n++;
     }
     return n;
-}
-
-/* Lists on memory that grows; all zeros to begin with. */
-typedef struct cleaning_lists {
-    sph_index *start, *index;
-    int64_t capacity;
-    void *work;
-    size_t work_size;
-} cleaning_lists;
-
-/* All pairs nearer than the larger of both radii, none of which exceeds reach. */
-static inline void cleaning_neighbours(cleaning_lists *l, int dim, sph_points x, sph_scalars radius, double reach)
-{
-    const size_t size = sph_grid_workspace(dim, x.n);
-    sph_grid grid;
-    int64_t pairs = 0;
-    sph_index answer;
-    if (size > l->work_size) {
-        free(l->work);
-        free(l->start);
-        l->work = cleaning_memory(size, 1);
-        l->start = (sph_index *)cleaning_memory((size_t)x.n + 1, sizeof *l->start);
-        l->work_size = size;
-    }
-    cleaning_expect(sph_grid_build(dim, x, reach, l->work, l->work_size, &grid));
-    answer = sph_grid_lists(dim, &grid, sph_query_of(x, SPH_LARGER, radius, 0), l->start, l->index, l->index ? l->capacity : 0, &pairs);
-    if (!l->index || answer == SPH_ERROR_CAPACITY) {
-        free(l->index);
-        l->capacity = pairs + pairs / 8; /* room to spare: counting costs as much as filling */
-        l->index = (sph_index *)cleaning_memory((size_t)l->capacity, sizeof *l->index);
-        answer = sph_grid_lists(dim, &grid, sph_query_of(x, SPH_LARGER, radius, 0), l->start, l->index, l->capacity, &pairs);
-    }
-    cleaning_expect(answer);
-}
-static inline sph_list cleaning_list(const cleaning_lists *l)
-{
-    sph_list list;
-    list.start = l->start;
-    list.index = l->index;
-    return list;
-}
-static inline void cleaning_lists_close(cleaning_lists *l)
-{
-    free(l->start);
-    free(l->index);
-    free(l->work);
 }
 
 /* A value of an independent implementation with the same settings (the trial) beside ours, which may differ by a factor: the paper prints none. */

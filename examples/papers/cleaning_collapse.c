@@ -214,7 +214,7 @@ static void add_sample(outcome *o, const collapse *g, double dt)
     int c;
     if (o->r.samples == o->r.room) {
         o->r.room = 2 * o->r.room + 1024;
-        o->at = (sample *)tree_memory(o->at, (size_t)o->r.room, sizeof *o->at);
+        o->at = (sample *)need(o->at, (size_t)o->r.room, sizeof *o->at);
     }
     x = &o->at[o->r.samples++];
     collapse_momentum(g, p);
@@ -243,7 +243,8 @@ static void write_columns(const setting *s, const collapse *g, const char *name,
 {
     const column_table table = column_table_of(COLLAPSE_KERNEL);
     const size_t pixels = (size_t)SIDE * SIDE;
-    double *const pixel = (double *)cleaning_memory(2 * pixels, sizeof *pixel), *const x = (double *)cleaning_memory(2 * (size_t)g->s.n, sizeof *x),
+    double *const pixel = (double *)need_zeros(2 * pixels, sizeof *pixel),
+                  *const x = (double *)need_zeros(2 * (size_t)g->s.n, sizeof *x),
                   *const z = x + g->s.n, middle[3] = {g->s.core.x[0], g->s.core.x[1], g->s.core.x[2]};
     char file[128];
     FILE *to;
@@ -292,7 +293,7 @@ static void save(const setting *s, collapse *g, const outcome *o)
     record r = o->r;
     char *more;
     if (o->ended[0]) r.samples--;
-    more = (char *)tree_memory(NULL, sizeof r + (size_t)o->r.samples * sizeof *o->at, 1);
+    more = (char *)need(NULL, sizeof r + (size_t)o->r.samples * sizeof *o->at, 1);
     memcpy(more, &r, sizeof r);
     memcpy(more + sizeof r, o->at, (size_t)r.samples * sizeof *o->at);
     if (!collapse_save(g, s->out, o->name, more, sizeof r + (size_t)r.samples * sizeof *o->at)) fail("%s", g->trouble);
@@ -311,7 +312,7 @@ static int load(const setting *s, collapse *g, outcome *o)
     if (!found) return 0;
     memcpy(&o->r, more, sizeof o->r);
     o->r.room = o->r.samples;
-    o->at = (sample *)tree_memory(NULL, (size_t)o->r.room + 1, sizeof *o->at);
+    o->at = (sample *)need(NULL, (size_t)o->r.room + 1, sizeof *o->at);
     memcpy(o->at, (char *)more + sizeof o->r, (size_t)o->r.samples * sizeof *o->at);
     free(more);
     return 1;

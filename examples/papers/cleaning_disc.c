@@ -46,7 +46,7 @@ typedef struct state {
     sph_kernel k;
     double ch, sigma, box;
     double *a[ARRAYS];
-    cleaning_lists lists;
+    search near;
     const char *run; /* what it is called, and its time: for messages */
     double t;
 } state;
@@ -60,53 +60,40 @@ static state state_new(int dim, int n)
     s.k = SPH_CUBIC_SPLINE;
     s.ch = 1;
     s.run = "a state";
-    s.a[0] = (double *)cleaning_memory((size_t)ARRAYS * (size_t)n, sizeof(double));
+    s.a[0] = (double *)need_zeros((size_t)ARRAYS * (size_t)n, sizeof(double));
     for (k = 1; k < ARRAYS; k++) s.a[k] = s.a[0] + k * n;
     return s;
 }
 static void state_close(state *s)
 {
     free(s->a[0]);
-    cleaning_lists_close(&s->lists);
+    search_close(&s->near);
 }
 static sph_points points(const state *s)
 {
     return sph_points_periodic(sph_points_separate(s->n, s->a[X], s->a[Y], s->a[Z]), s->box, s->box, s->box);
 }
-static sph_scalars field(const state *s, int which) { return sph_scalars_array(s->a[which]); }
-/* the third component of a plane field is not cleaned */
-static sph_vectors vectors(const state *s, int first)
-{
-    return sph_vectors_separate(s->a[first], s->a[first + 1], s->dim > 2 ? s->a[first + 2] : NULL);
-}
-static sph_vector_out vectors_out(const state *s, int first)
-{
-    return sph_vector_out_separate(s->a[first], s->a[first + 1], s->a[first + 2]);
-}
 static sph_medium gas(const state *s)
 {
     sph_medium g;
-    g.m = field(s, M);
-    g.rho = field(s, RHO);
-    g.omega = field(s, OMEGA);
+    g.m = sph_scalars_array(s->a[M]);
+    g.rho = sph_scalars_array(s->a[RHO]);
+    g.omega = sph_scalars_array(s->a[OMEGA]);
     return g;
 }
 static sph_cloud cloud(const state *s)
 {
-    return sph_cloud_of(points(s), cleaning_list(&s->lists), field(s, H), sph_scalars_none());
+    return sph_cloud_of(points(s), s->near.found.list, sph_scalars_array(s->a[H]), sph_scalars_none());
 }
 
 /* ---------------------------------------------------------------- clouds */
 
 static void neighbours(state *s)
 {
-    double *const R = s->a[MEAN], reach = 0;
+    double *const R = s->a[MEAN];
     int i;
-    for (i = 0; i < s->n; i++) {
-        R[i] = sph_kernel_support_ratio(s->k) * s->a[H][i];
-        reach = fmax(reach, R[i]);
-    }
-    cleaning_neighbours(&s->lists, s->dim, points(s), sph_scalars_array(R), reach);
+    for (i = 0; i < s->n; i++) R[i] = sph_kernel_support_ratio(s->k) * s->a[H][i];
+    search_all(&s->near, s->dim, points(s), sph_scalars_array(R), SPH_LARGER);
 }
 /* one h for all, and a density of rho */
 static void settle(state *s, double dx, double rho)
@@ -126,12 +113,11 @@ static void settle_adaptive(state *s, double widest)
     const double reach = 2 * CLEANING_ETA * widest * sph_kernel_support_ratio(s->k);
     const sph_density_options options = {sph_scalars_same(&reach), CLEANING_ETA, 1e-12};
     const sph_density_out out = {.h = s->a[H], .rho = s->a[RHO], .omega = s->a[OMEGA]};
+    const sph_scalars m = sph_scalars_array(s->a[M]);
     int i;
-    cleaning_neighbours(&s->lists, s->dim, points(s), sph_scalars_same(&reach), reach);
+    search_all(&s->near, s->dim, points(s), sph_scalars_same(&reach), SPH_LARGER);
     for (i = 0; i < s->n; i++) s->a[H][i] = CLEANING_ETA * widest;
-    cleaning_expect(s->dim == 2
-                        ? sph_density_adaptive(SPH_CUBIC_SPLINE, 2, cloud(s), field(s, M), options, out)
-                        : sph_density_adaptive(SPH_CUBIC_SPLINE, 3, cloud(s), field(s, M), options, out));
+    expect_all(WITH_DIM_2_3(sph_density_adaptive, SPH_CUBIC_SPLINE, s->dim, cloud(s), m, options, out));
     neighbours(s);
 }
 /* (40) about (x, y), and the uniform Bz of the disc */
@@ -197,12 +183,13 @@ static state jump(double dx, int ratio)
 SPH_FN sph_index rates_in(sph_kernel k, int dim, state *s)
 {
     const sph_cleaning of = {.medium = gas(s),
-                             .field = vectors(s, BX),
-                             .psi = field(s, PSI),
-                             .div_v = s->moving ? field(s, DIVV) : sph_scalars_none(),
+                             .field = vectors_of(s->a + BX, s->dim), /* in the plane, Bz is not cleaned */
+                             .psi = sph_scalars_array(s->a[PSI]),
+                             .div_v = s->moving ? sph_scalars_array(s->a[DIVV]) : sph_scalars_none(),
                              .ch = s->ch,
                              .sigma = s->sigma};
-    const sph_cleaning_out to = {.rate_B = vectors_out(s, RBX), .rate_psi = s->a[RPSI], .div_B = s->a[DIVB]};
+    const sph_cleaning_out to = {
+        .rate_B = vectors_into(s->a + RBX, 3), .rate_psi = s->a[RPSI], .div_B = s->a[DIVB]};
     if (s->form == DIFFERENCES) return cleaning_rates_nonconservative(k, dim, cloud(s), of, to);
     if (s->form == OTHER) return cleaning_rates_symmetric(k, dim, cloud(s), of, to);
     return sph_cleaning_rates(k, dim, cloud(s), of, to);
@@ -212,8 +199,7 @@ static void rates(state *s)
 {
     static const char *const name[FIELDS] = {"Bx", "By", "Bz", "psi"};
     const sph_index answer = s->k == SPH_QUINTIC_SPLINE ? rates_in(SPH_QUINTIC_SPLINE, 2, s)
-                             : s->dim == 2              ? rates_in(SPH_CUBIC_SPLINE, 2, s)
-                                                        : rates_in(SPH_CUBIC_SPLINE, 3, s);
+                                                        : WITH_DIM_2_3(rates_in, SPH_CUBIC_SPLINE, s->dim, s);
     cleaning_well(answer, s->run, s->t, s->a + BX, name, FIELDS, points(s));
 }
 
@@ -325,7 +311,7 @@ static outcome integrate(state *s, int scheme, double courant, double t_end, con
     per_half = (int)ceil(0.5 / (courant * h / s->ch) - 1e-9);
     dt = 0.5 / per_half;
     steps = (int)(2 * t_end * per_half + 0.5);
-    when = (double *)cleaning_memory(2 * ((size_t)steps + 1), sizeof *when);
+    when = (double *)need_zeros(2 * ((size_t)steps + 1), sizeof *when);
     height = when + steps + 1;
     unit = energy_of_B(s);
     o.turn = o.thousand = o.end = o.growth = (double)NAN;
@@ -492,8 +478,8 @@ static void identities(report *r)
     s.sigma = 0;
     for (i = 0; i < s.n; i++)
         for (k = 0; k < 2; k++) s.a[SAVED + k][i] = -s.a[X + k][i];
-    cleaning_expect(
-        sph_divergence_difference(SPH_CUBIC_SPLINE, 2, cloud(&s), gas(&s), vectors(&s, SAVED), sph_scalar_out_array(s.a[DIVV], 0)));
+    expect_all(sph_divergence_difference(SPH_CUBIC_SPLINE, 2, cloud(&s), gas(&s), vectors_of(s.a + SAVED, 2),
+                                         sph_scalar_out_array(s.a[DIVV], 0)));
     for (s.moving = 0; s.moving < 2; s.moving++) {
         double rate = 0, size = 0;
         rates(&s);
@@ -787,18 +773,19 @@ static void resistivity(report *r)
                       amplitude = 0, dt;
         sph_mhd m = {0};
         const sph_cloud same_h =
-            sph_cloud_of(points(&s), cleaning_list(&s.lists), sph_scalars_same(s.a[H]), sph_scalars_none());
-        const sph_mhd_out out = {.acceleration = vectors_out(&s, SAVED), .rate_B = vectors_out(&s, RBX)};
+            sph_cloud_of(points(&s), s.near.found.list, sph_scalars_same(s.a[H]), sph_scalars_none());
+        const sph_mhd_out out = {.acceleration = vectors_into(s.a + SAVED, 3),
+                                 .rate_B = vectors_into(s.a + RBX, 3)};
         m.medium = gas(&s);
         m.p = m.u = m.cs = sph_scalars_same(&one);
         m.alpha = m.v.x = m.v.y = sph_scalars_same(&nought);
-        m.field = vectors(&s, BX);
+        m.field = vectors_of(s.a + BX, 2);
         m.alpha_B = sph_scalars_same(&one);
         m.beta = 1;
         eta = 0.75 * mean_r * s.a[H][0];
         lattice = 0;
-        for (p = s.lists.start[0]; p < s.lists.start[1]; p++) {
-            const sph_index j = s.lists.index[p];
+        for (p = s.near.found.list.start[0]; p < s.near.found.list.start[1]; p++) {
+            const sph_index j = s.near.found.list.index[p];
             double x = s.a[X][0] - s.a[X][j], y = s.a[Y][0] - s.a[Y][j], d;
             x -= floor(x + 0.5);
             y -= floor(y + 0.5);
@@ -809,12 +796,12 @@ static void resistivity(report *r)
         dt = 1 / (lattice * STEPS);
         for (i = 0; i < s.n; i++) B[i] = 1e-4 * sin(k * s.a[X][i]);
         for (step = 0; step < STEPS; step++) { /* midpoint rule, to 1/e */
-            cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 2, same_h, m, out));
+            expect_all(sph_mhd_rates(SPH_CUBIC_SPLINE, 2, same_h, m, out));
             for (i = 0; i < s.n; i++) {
                 s.a[MEAN][i] = B[i];
                 B[i] += 0.5 * dt * change[i];
             }
-            cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 2, same_h, m, out));
+            expect_all(sph_mhd_rates(SPH_CUBIC_SPLINE, 2, same_h, m, out));
             for (i = 0; i < s.n; i++) B[i] = s.a[MEAN][i] + dt * change[i];
         }
         for (i = 0; i < s.n; i++) amplitude += 2e4 * B[i] * sin(k * s.a[X][i]) / s.n;

@@ -25,14 +25,12 @@ typedef struct drop {
     int n, cleans, viscosity;
     double alpha, m, ch;
     double *a[ARRAYS];
-    cleaning_lists lists;
+    search near;
     const char *run; /* what it is called, and its time: for messages */
     double t;
 } drop;
 
 static sph_points points(const drop *d) { return sph_points_separate(d->n, d->a[X], d->a[Y], NULL); }
-static sph_scalars field(const drop *d, int which) { return sph_scalars_array(d->a[which]); }
-static sph_vectors velocities(const drop *d) { return sph_vectors_separate(d->a[VX], d->a[VY], NULL); }
 
 /* The sweeps find a state that is no number. */
 static void well(const drop *d, sph_index answer)
@@ -47,12 +45,12 @@ static void neighbours(drop *d)
     const double radius = sph_kernel_support_ratio(SPH_CUBIC_SPLINE) * h + skin;
     int i;
     int due = 1;
-    if (d->lists.start)
+    if (d->near.found.list.start)
         due = sph_rebuild_due(2, points(d), sph_points_separate(d->n, d->a[LISTED_X], d->a[LISTED_Y], NULL),
                               skin);
     if (due < 0) well(d, due);
     if (due == 0) return;
-    cleaning_neighbours(&d->lists, 2, points(d), sph_scalars_same(&radius), radius);
+    search_all(&d->near, 2, points(d), sph_scalars_same(&radius), SPH_LARGER);
     for (i = 0; i < d->n; i++) {
         d->a[LISTED_X][i] = d->a[X][i];
         d->a[LISTED_Y][i] = d->a[Y][i];
@@ -61,24 +59,25 @@ static void neighbours(drop *d)
 
 static sph_cloud cloud(const drop *d)
 {
-    return sph_cloud_of(points(d), cleaning_list(&d->lists), sph_scalars_same(&h), sph_scalars_none());
+    return sph_cloud_of(points(d), d->near.found.list, sph_scalars_same(&h), sph_scalars_none());
 }
 /* (27), (39): accelerations by the pressure in P; artificial viscosity where wanted */
 SPH_FN sph_index accelerate_by(int viscosity, drop *d)
 {
     sph_fluid f = {0};
     f.m = sph_scalars_same(&d->m);
-    f.rho = field(d, RHO);
-    f.p = field(d, P);
+    f.rho = sph_scalars_array(d->a[RHO]);
+    f.p = sph_scalars_array(d->a[P]);
     f.c = sph_scalars_same(&cs);
-    f.v = velocities(d);
+    f.v = vectors_of(d->a + VX, 2);
     f.viscosity = viscosity;
     f.alpha = d->alpha;
     f.beta = viscosity == (int)SPH_VISCOSITY_MONAGHAN
                  ? 2 * d->alpha
                  : 2; /* of 1992: beside alpha; of 1997: within alpha v_sig */
     f.eta = 0.1;
-    return sph_fluid_rates_monaghan(SPH_CUBIC_SPLINE, 2, cloud(d), f, (sph_fluid_out){.acceleration = sph_vector_out_separate(d->a[AX], d->a[AY], NULL)});
+    return sph_fluid_rates_monaghan(SPH_CUBIC_SPLINE, 2, cloud(d), f,
+                                    (sph_fluid_out){.acceleration = vectors_into(d->a + AX, 2)});
 }
 /* The sweep folds for a constant viscosity, too. */
 static void accelerate(drop *d, int viscosity)
@@ -105,10 +104,11 @@ static void divergence(drop *d)
     static const double one = 1;
     sph_medium g;
     g.m = sph_scalars_same(&d->m);
-    g.rho = field(d, RHO);
+    g.rho = sph_scalars_array(d->a[RHO]);
     g.omega = sph_scalars_same(&one);
     neighbours(d);
-    well(d, sph_divergence_difference(SPH_CUBIC_SPLINE, 2, cloud(d), g, velocities(d), sph_scalar_out_array(d->a[DIVV], 0)));
+    well(d, sph_divergence_difference(SPH_CUBIC_SPLINE, 2, cloud(d), g, vectors_of(d->a + VX, 2),
+                                      sph_scalar_out_array(d->a[DIVV], 0)));
 }
 
 static drop drop_new(double alpha, int viscosity, int cleans)
@@ -124,7 +124,7 @@ static drop drop_new(double alpha, int viscosity, int cleans)
     d.cleans = cleans;
     d.run = "a drop";
     d.ch = cleans ? cs : 0;
-    d.a[0] = (double *)cleaning_memory((size_t)ARRAYS * (size_t)d.n, sizeof(double));
+    d.a[0] = (double *)need_zeros((size_t)ARRAYS * (size_t)d.n, sizeof(double));
     for (i = 1; i < ARRAYS; i++) d.a[i] = d.a[0] + i * d.n;
     place[0] = d.a[X];
     place[1] = d.a[Y];
@@ -140,7 +140,7 @@ static drop drop_new(double alpha, int viscosity, int cleans)
 static void drop_close(drop *d)
 {
     free(d->a[0]);
-    cleaning_lists_close(&d->lists);
+    search_close(&d->near);
 }
 
 /* Kick, half a drift, density and psi with the velocity and the places of the middle, half a drift, kick: reversible and of second order without viscosity and damping, and momentum and angular momentum
@@ -218,7 +218,7 @@ static sample measure(const drop *d)
 static void sums(const drop *d, double of[3])
 {
     sph_conserved c;
-    cleaning_expect(sph_conserved_sums(2, cloud(d), sph_scalars_same(&d->m), velocities(d), &c));
+    expect_all(sph_conserved_sums(2, cloud(d), sph_scalars_same(&d->m), vectors_of(d->a + VX, 2), &c));
     of[0] = c.momentum.x;
     of[1] = c.momentum.y;
     of[2] = c.angular_momentum.z;

@@ -49,7 +49,7 @@ typedef struct cylinder {
     int n, layers;
     double dx, h, V;
     double *a[ARRAYS];
-    cleaning_lists lists;
+    search near;
 } cylinder;
 
 static cylinder cylinder_new(int layers)
@@ -77,7 +77,7 @@ static cylinder cylinder_new(int layers)
         }
         c.n = n;
         if (!pass) {
-            c.a[0] = (double *)cleaning_memory((size_t)ARRAYS * (size_t)n, sizeof(double));
+            c.a[0] = (double *)need_zeros((size_t)ARRAYS * (size_t)n, sizeof(double));
             for (k = 1; k < ARRAYS; k++) c.a[k] = c.a[0] + k * n;
         }
     }
@@ -86,7 +86,7 @@ static cylinder cylinder_new(int layers)
 static void cylinder_close(cylinder *c)
 {
     free(c->a[0]);
-    cleaning_lists_close(&c->lists);
+    search_close(&c->near);
 }
 static sph_points points(const cylinder *c)
 {
@@ -94,18 +94,8 @@ static sph_points points(const cylinder *c)
 }
 static sph_cloud cloud(const cylinder *c)
 {
-    return sph_cloud_of(points(c), cleaning_list(&c->lists), sph_scalars_same(&c->h),
-                        sph_scalars_same(&c->V));
+    return sph_cloud_of(points(c), c->near.found.list, sph_scalars_same(&c->h), sph_scalars_same(&c->V));
 }
-static sph_vectors vectors(const cylinder *c, int first)
-{
-    return sph_vectors_separate(c->a[first], c->a[first + 1], c->a[first + 2]);
-}
-static sph_vector_out vectors_out(const cylinder *c, int first)
-{
-    return sph_vector_out_separate(c->a[first], c->a[first + 1], c->a[first + 2]);
-}
-
 /* Places and velocities where the layers have turned by turn * sin 2 pi z, and the lists */
 static void turn_to(cylinder *c, double turn)
 {
@@ -118,7 +108,7 @@ static void turn_to(cylinder *c, double turn)
         c->a[VX][i] = -rate * c->a[Y][i];
         c->a[VY][i] = rate * c->a[X][i];
     }
-    cleaning_neighbours(&c->lists, 3, points(c), sph_scalars_same(&reach), reach);
+    search_all(&c->near, 3, points(c), sph_scalars_same(&reach), SPH_LARGER);
 }
 /* (7), by all of SPMHD for a gas without pressure and dissipation; the time is the angle */
 static void induction(cylinder *c)
@@ -129,11 +119,11 @@ static void induction(cylinder *c)
     s.medium.m = sph_scalars_same(&c->V);
     s.medium.rho = s.medium.omega = s.cs = sph_scalars_same(&one);
     s.p = s.u = s.alpha = s.alpha_B = sph_scalars_same(&nought);
-    s.v = vectors(c, VX);
-    s.field = vectors(c, BX);
-    out.acceleration = vectors_out(c, AX);
-    out.rate_B = vectors_out(c, RBX);
-    cleaning_expect(sph_mhd_rates(SPH_CUBIC_SPLINE, 3, cloud(c), s, out));
+    s.v = vectors_of(c->a + VX, 3);
+    s.field = vectors_of(c->a + BX, 3);
+    out.acceleration = vectors_into(c->a + AX, 3);
+    out.rate_B = vectors_into(c->a + RBX, 3);
+    expect_all(sph_mhd_rates(SPH_CUBIC_SPLINE, 3, cloud(c), s, out));
 }
 static void step(cylinder *c, double turn, double change) /* midpoint rule */
 {
@@ -161,15 +151,15 @@ static const char *const way_name[WAYS] = {"Euler potentials", "induction equati
 static match compare(cylinder *c, int way, double turn)
 {
     const sph_derivatives_out of_alpha = {.gx = c->a[GX], .gy = c->a[GY], .gz = c->a[GZ]},
-                             of_beta = {.gx = c->a[QX], .gy = c->a[QY], .gz = c->a[QZ]};
+                              of_beta = {.gx = c->a[QX], .gy = c->a[QY], .gz = c->a[QZ]};
     double product = 0, square = 0, apart = 0;
     match m;
     int i;
     turn_to(c, turn);
     if (way == POTENTIALS) {
         const sph_scalars alpha = sph_scalars_array(c->a[ALPHA]), beta = sph_scalars_array(c->a[BETA]);
-        cleaning_expect(sph_gradient_cspm(SPH_CUBIC_SPLINE, 3, cloud(c), alpha, of_alpha));
-        cleaning_expect(sph_gradient_cspm(SPH_CUBIC_SPLINE, 3, cloud(c), beta, of_beta));
+        expect_all(sph_gradient_cspm(SPH_CUBIC_SPLINE, 3, cloud(c), alpha, of_alpha));
+        expect_all(sph_gradient_cspm(SPH_CUBIC_SPLINE, 3, cloud(c), beta, of_beta));
     }
     for (i = 0; i < c->n; i++) {
         const double x = c->a[X][i], y = c->a[Y][i], r = hypot(x, y),

@@ -52,7 +52,7 @@ typedef struct gas {
     int cleans, form;            /* form: CONJUGATE or DIFFERENCES */
     int still;                   /* -psi div v / 2, (25), is left out */
     double left;                 /* the rate of the energy that leaving it out makes */
-    cleaning_lists lists;
+    search near;
     double *a[ARRAYS], *rate[EVOLVED], *before[EVOLVED];
     unsigned char *status;
     double particle_steps; /* evaluations of rates times particles */
@@ -77,48 +77,32 @@ static inline gas gas_new(int dim, int parts, sph_index n, double gamma)
     g.alpha_u = g.tensile = g.overclean = 1;
     g.sigma = sph_cleaning_sigma(dim);
     g.run = "a gas";
-    g.a[0] = (double *)cleaning_memory((ARRAYS + 2 * EVOLVED) * count, sizeof(double));
+    g.a[0] = (double *)need_zeros((ARRAYS + 2 * EVOLVED) * count, sizeof(double));
     for (k = 1; k < ARRAYS; k++) g.a[k] = g.a[0] + (size_t)k * count;
     for (k = 0; k < EVOLVED; k++) {
         g.rate[k] = g.a[0] + (size_t)(ARRAYS + k) * count;
         g.before[k] = g.a[0] + (size_t)(ARRAYS + EVOLVED + k) * count;
     }
-    g.status = (unsigned char *)cleaning_memory(count, 1);
+    g.status = (unsigned char *)need_zeros(count, 1);
     return g;
 }
 static inline void gas_close(gas *g)
 {
     free(g->a[0]);
     free(g->status);
-    cleaning_lists_close(&g->lists);
+    search_close(&g->near);
 }
 static inline sph_points gas_points(const gas *g)
 {
     return sph_points_periodic(sph_points_separate(g->n, g->a[X], g->a[Y], g->a[Z]), g->box[0], g->box[1],
                                g->box[2]);
 }
-static inline sph_scalars gas_field(const gas *g, int which) { return sph_scalars_array(g->a[which]); }
-static inline sph_vectors gas_vectors(const gas *g, int first, int parts)
-{
-    return sph_vectors_separate(g->a[first], g->a[first + 1], parts > 2 ? g->a[first + 2] : NULL);
-}
-static inline sph_vector_out gas_out(double *const *first)
-{
-    return sph_vector_out_separate(first[0], first[1], first[2]);
-}
-static inline sph_medium gas_densities(const gas *g)
-{
-    sph_medium s;
-    s.m = gas_field(g, M);
-    s.rho = gas_field(g, RHO);
-    s.omega = gas_field(g, OMEGA);
-    return s;
-}
 /* the targets are the particles before `last` */
 static inline sph_cloud gas_cloud(const gas *g, sph_index last)
 {
     return sph_cloud_range(
-        sph_cloud_of(gas_points(g), cleaning_list(&g->lists), gas_field(g, H), sph_scalars_none()), 0, last);
+        sph_cloud_of(gas_points(g), g->near.found.list, sph_scalars_array(g->a[H]), sph_scalars_none()), 0,
+        last);
 }
 /* of the vector whose first component is array number `first` */
 static inline double gas_square(const gas *g, int first, sph_index i)
@@ -139,53 +123,52 @@ static inline void gas_well(const gas *g, sph_index answer)
 /* Lists for an h that grows by 4 % */
 static inline void gas_lists(gas *g)
 {
-    double widest = 0;
     sph_index i;
-    for (i = 0; i < g->n; i++) {
+    for (i = 0; i < g->n; i++)
         g->a[REACH][i] = 1.04 * sph_kernel_support_ratio(SPH_CUBIC_SPLINE) * g->a[H][i];
-        widest = fmax(widest, g->a[REACH][i]);
-    }
-    cleaning_neighbours(&g->lists, g->dim, gas_points(g), gas_field(g, REACH), widest);
-}
-SPH_FN sph_index gas_density_in(int dim, gas *g, sph_index last)
-{
-    const sph_density_options options = {gas_field(g, REACH), CLEANING_ETA, 1e-4};
-    const sph_density_out out = {.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status};
-    return sph_density_adaptive(SPH_CUBIC_SPLINE, dim, gas_cloud(g, last), gas_field(g, M), options, out);
+    search_all(&g->near, g->dim, gas_points(g), sph_scalars_array(g->a[REACH]), SPH_LARGER);
 }
 /* (4), (5) for the particles before `last` */
 static inline void gas_density(gas *g, sph_index last)
 {
-    sph_index i, failed;
-    gas_lists(g);
-    while ((failed = g->dim == 2 ? gas_density_in(2, g, last) : gas_density_in(3, g, last)) >
-           0) { /* an h outgrew its list */
-        for (i = 0; i < last; i++)
+    const sph_kernel k = SPH_CUBIC_SPLINE;
+    const sph_scalars m = sph_scalars_array(g->a[M]);
+    const sph_density_options options = {sph_scalars_array(g->a[REACH]), CLEANING_ETA, 1e-4};
+    const sph_density_out out = {.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status};
+    sph_index i, failed = 1;
+    while (failed > 0) { /* an h outgrew its list */
+        sph_cloud cloud;
+        gas_lists(g);
+        cloud = gas_cloud(g, last);
+        failed = WITH_DIM_2_3(sph_density_adaptive, k, g->dim, cloud, m, options, out);
+        expect(failed);
+        for (i = 0; i < last && failed > 0; i++)
             if (g->status[i] != SPH_OK && g->status[i] != SPH_LIST_TOO_SHORT) {
                 fprintf(stderr, "\n%s, t = %g: density of particle %ld at (%g, %g, %g): %s; the run stops\n",
                         g->run, g->t, (long)i, g->a[X][i], g->a[Y][i], g->a[Z][i],
                         sph_status_text(g->status[i]));
                 exit(1);
             }
-        gas_lists(g);
     }
-    cleaning_expect(failed);
 }
-SPH_FN sph_index gas_rates_in(int dim, gas *g)
+static inline sph_index gas_rates_of(gas *g)
 {
+    const sph_kernel k = SPH_CUBIC_SPLINE;
+    const int dim = g->dim;
     const sph_cloud cloud = gas_cloud(g, g->free);
     const int other = g->cleans && g->form == DIFFERENCES;
     sph_mhd s;
     sph_mhd_out out = {0};
     sph_index failed;
-    memset(&out, 0, sizeof out);
-    s.medium = gas_densities(g);
-    s.p = gas_field(g, P);
-    s.u = gas_field(g, U);
-    s.cs = gas_field(g, CS);
-    s.alpha = gas_field(g, ALPHA);
-    s.v = gas_vectors(g, VX, g->parts);
-    s.field = gas_vectors(g, BX, g->parts);
+    s.medium.m = sph_scalars_array(g->a[M]);
+    s.medium.rho = sph_scalars_array(g->a[RHO]);
+    s.medium.omega = sph_scalars_array(g->a[OMEGA]);
+    s.p = sph_scalars_array(g->a[P]);
+    s.u = sph_scalars_array(g->a[U]);
+    s.cs = sph_scalars_array(g->a[CS]);
+    s.alpha = sph_scalars_array(g->a[ALPHA]);
+    s.v = vectors_of(g->a + VX, g->parts);
+    s.field = vectors_of(g->a + BX, g->parts);
     s.psi = sph_scalars_array(g->cleans && !other ? g->a[PSI] : NULL);
     s.ch = g->ch;
     s.sigma = g->sigma;
@@ -193,27 +176,28 @@ SPH_FN sph_index gas_rates_in(int dim, gas *g)
     s.alpha_u = g->alpha_u;
     s.alpha_B = sph_scalars_same(&g->alpha_B);
     s.tensile = g->tensile;
-    out.acceleration = gas_out(g->rate + VX);
-    out.rate_B = gas_out(g->rate + BX);
+    out.acceleration = vectors_into(g->rate + VX, 3);
+    out.rate_B = vectors_into(g->rate + BX, 3);
     out.rate_u = g->rate[U];
     out.rate_psi = g->rate[PSI];
     out.div_B = g->a[DIV_B];
     out.div_v = g->a[DIV_V];
     out.v_sig = g->a[SPEED];
-    failed = sph_mhd_rates(SPH_CUBIC_SPLINE, dim, cloud, s, out);
+    failed = WITH_DIM_2_3(sph_mhd_rates, k, dim, cloud, s, out);
     if (failed == 0 && other) { /* its rates of B in the place of those of x, which come last */
         const sph_cleaning of = {.medium = s.medium,
-                                 .field = gas_vectors(g, BX, dim),
-                                 .psi = gas_field(g, PSI),
-                                 .div_v = gas_field(g, DIV_V),
+                                 .field = vectors_of(g->a + BX, dim),
+                                 .psi = sph_scalars_array(g->a[PSI]),
+                                 .div_v = sph_scalars_array(g->a[DIV_V]),
                                  .ch = g->ch,
                                  .sigma = g->sigma};
-        const sph_cleaning_out to = {.rate_B = gas_out(g->rate + X), .rate_psi = g->rate[PSI], .div_B = NULL};
+        const sph_cleaning_out to = {
+            .rate_B = vectors_into(g->rate + X, 3), .rate_psi = g->rate[PSI], .div_B = NULL};
         sph_index i;
-        int k;
-        failed = cleaning_rates_nonconservative(SPH_CUBIC_SPLINE, dim, cloud, of, to);
-        for (k = 0; k < dim; k++)
-            for (i = 0; i < g->free; i++) g->rate[BX + k][i] += g->rate[X + k][i];
+        int c;
+        failed = WITH_DIM_2_3(cleaning_rates_nonconservative, k, dim, cloud, of, to);
+        for (c = 0; c < dim; c++)
+            for (i = 0; i < g->free; i++) g->rate[BX + c][i] += g->rate[X + c][i];
     }
     return failed;
 }
@@ -233,7 +217,7 @@ static inline void gas_rates(gas *g, int renew)
         fastest = fmax(fastest, g->a[CS][i] * g->a[CS][i] + gas_square(g, BX, i) / g->a[RHO][i]);
     }
     if (renew) g->ch = g->overclean * sqrt(fastest);
-    gas_well(g, g->dim == 2 ? gas_rates_in(2, g) : gas_rates_in(3, g));
+    gas_well(g, gas_rates_of(g));
     g->left = 0;
     for (i = 0; i < g->free; i++) {
         const sph_switch alpha = {g->a[ALPHA][i], g->alpha[0], g->alpha[1]};

@@ -14,8 +14,8 @@
 #ifndef SPH_CHECK
 #define SPH_CHECK 0 /* every step looks for what is not finite, and says where */
 #endif
-#include "../../sph.h"
 #include "../common/figure.h"
+#include "../common/host.h"
 #include "../common/options.h"
 #include "../common/progress.h"
 #include "../common/random.h"
@@ -75,10 +75,7 @@ typedef struct gas {
     sph_index n;
     double m, ch, skin;
     double *a[ARRAYS], *rate[EVOLVED], *before[EVOLVED];
-    sph_index *start, *index;
-    int64_t capacity, pairs;
-    void *work;
-    size_t work_size;
+    search near;
     unsigned char *status;
     double cpu[PHASES];
 } gas;
@@ -101,18 +98,6 @@ static void stop(const char *format, ...)
     fprintf(stderr, "; the run stops\n");
     exit(3);
 }
-static void expect(sph_index answer, const char *operation)
-{
-    if (answer < 0) stop("%s: %s", operation, sph_status_text((int)answer));
-    if (answer > 0) stop("%s failed for %ld particles", operation, (long)answer);
-}
-static void *memory(void *old, size_t size)
-{
-    void *const p = realloc(old, size);
-    if (!p) stop("out of memory");
-    return p;
-}
-
 static size_t gas_size(sph_index n) { return (size_t)n * (ARRAYS + 2 * EVOLVED) * sizeof(double); }
 static gas gas_new(sph_index n, double m)
 {
@@ -122,54 +107,37 @@ static gas gas_new(sph_index n, double m)
     memset(&g, 0, sizeof g);
     g.n = n;
     g.m = m;
-    g.a[0] = (double *)memory(NULL, gas_size(n));
-    memset(g.a[0], 0, gas_size(n));
+    g.a[0] = (double *)need_zeros(gas_size(n), 1);
     for (k = 1; k < ARRAYS; k++) g.a[k] = g.a[0] + (size_t)k * count;
     for (k = 0; k < EVOLVED; k++) {
         g.rate[k] = g.a[0] + (size_t)(ARRAYS + k) * count;
         g.before[k] = g.a[0] + (size_t)(ARRAYS + EVOLVED + k) * count;
     }
-    g.start = (sph_index *)memory(NULL, (count + 1) * sizeof *g.start);
-    g.status = (unsigned char *)memory(NULL, count);
-    g.work_size = sph_grid_workspace(2, n);
-    g.work = memory(NULL, g.work_size);
+    g.status = (unsigned char *)need(NULL, count, 1);
     return g;
 }
 static void gas_free(gas *g)
 {
     free(g->a[0]);
-    free(g->start);
-    free(g->index);
     free(g->status);
-    free(g->work);
-}
-static sph_scalars field(const gas *g, int which) { return sph_scalars_array(g->a[which]); }
-static sph_vectors vectors(const gas *g, int which)
-{
-    return sph_vectors_separate(g->a[which], g->a[which + 1], NULL);
+    search_close(&g->near);
 }
 static sph_points points_at(const gas *g, int x)
 {
     return sph_points_periodic(sph_points_separate(g->n, g->a[x], g->a[x + 1], NULL), 1, 1, 0);
 }
 static sph_points points(const gas *g) { return points_at(g, X); }
-static sph_list list(const gas *g)
-{
-    sph_list l;
-    l.start = g->start;
-    l.index = g->index;
-    return l;
-}
 static sph_cloud cloud_of(const gas *g)
 {
-    return sph_cloud_of(points(g), list(g), field(g, H), field(g, VOLUME));
+    return sph_cloud_of(points(g), g->near.found.list, sph_scalars_array(g->a[H]),
+                        sph_scalars_array(g->a[VOLUME]));
 }
 static sph_medium densities(const gas *g)
 {
     sph_medium s;
     s.m = sph_scalars_same(&g->m);
-    s.rho = field(g, RHO);
-    s.omega = field(g, OMEGA);
+    s.rho = sph_scalars_array(g->a[RHO]);
+    s.omega = sph_scalars_array(g->a[OMEGA]);
     return s;
 }
 static sph_mhd magnetised(const gas *g, const plan *c, int cleans)
@@ -177,12 +145,12 @@ static sph_mhd magnetised(const gas *g, const plan *c, int cleans)
     static const double none = 0;
     sph_mhd s;
     s.medium = densities(g);
-    s.p = field(g, P);
-    s.u = field(g, U);
-    s.cs = field(g, CS);
-    s.alpha = field(g, ALPHA);
-    s.v = vectors(g, VX);
-    s.field = vectors(g, BX);
+    s.p = sph_scalars_array(g->a[P]);
+    s.u = sph_scalars_array(g->a[U]);
+    s.cs = sph_scalars_array(g->a[CS]);
+    s.alpha = sph_scalars_array(g->a[ALPHA]);
+    s.v = vectors_of(g->a + VX, 2);
+    s.field = vectors_of(g->a + BX, 2);
     s.psi = sph_scalars_array(cleans ? g->a[PSI] : NULL);
     s.ch = g->ch;
     s.sigma = c->sigma;
@@ -218,9 +186,7 @@ static const double GROWTH = 1.04;
 static void gas_lists(gas *g)
 {
     const double support = sph_kernel_support_ratio(KERNEL);
-    double widest = 0;
-    sph_grid grid;
-    sph_index i, answer;
+    sph_index i;
     for (i = 0; i < g->n; i++) {
         g->a[X][i] -= floor(g->a[X][i]);
         g->a[Y][i] -= floor(g->a[Y][i]);
@@ -228,20 +194,13 @@ static void gas_lists(gas *g)
         g->a[Y_THEN][i] = g->a[Y][i];
         g->a[REACH][i] = GROWTH * support * g->a[H][i];
         g->a[RADIUS][i] = g->a[REACH][i] + g->skin;
-        widest = fmax(widest, g->a[RADIUS][i]);
     }
-    expect(sph_grid_build(2, points(g), widest, g->work, g->work_size, &grid), "sph_grid_build");
-    while ((answer = sph_grid_lists(2, &grid, sph_query_of(points(g), SPH_LARGER, field(g, RADIUS), 0), g->start, g->index, g->capacity, &g->pairs)) == SPH_ERROR_CAPACITY ||
-           !g->index) {
-        g->capacity = g->pairs + g->pairs / 8;
-        g->index = (sph_index *)memory(g->index, (size_t)g->capacity * sizeof *g->index);
-    }
-    expect(answer, "sph_grid_lists");
+    search_all(&g->near, 2, points(g), sph_scalars_array(g->a[RADIUS]), SPH_LARGER);
 }
 
 static sph_index density_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
-    const sph_density_options options = {field(g, REACH), 1.2, TOLERANCE};
+    const sph_density_options options = {sph_scalars_array(g->a[REACH]), 1.2, TOLERANCE};
     const sph_density_out out = {.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status};
     (void)c;
     return sph_density_adaptive(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last), sph_scalars_same(&g->m),
@@ -251,7 +210,8 @@ static void gas_density(gas *g, double t)
 {
     sph_index i, failed;
     clock_t mark = clock(), now;
-    if (!g->index || sph_rebuild_due(2, points(g), points_at(g, X_THEN), g->skin)) gas_lists(g);
+    if (!g->near.found.list.start || sph_rebuild_due(2, points(g), points_at(g, X_THEN), g->skin))
+        gas_lists(g);
     now = clock();
     g->cpu[LISTS] += (double)(now - mark) / CLOCKS_PER_SEC;
     mark = now;
@@ -261,7 +221,7 @@ static void gas_density(gas *g, double t)
                 stop("density of particle %ld at t = %.6g: %s", (long)i, t, sph_status_text(g->status[i]));
         gas_lists(g);
     }
-    expect(failed, "sph_density_adaptive");
+    expect_all(failed);
     g->cpu[DENSITY] += (double)(clock() - mark) / CLOCKS_PER_SEC;
 }
 
@@ -271,7 +231,8 @@ static sph_index gradient_sweep(gas *g, const plan *c, sph_index first, sph_inde
 {
     const sph_derivatives_out out = {.gx = g->a[SCRATCH_X], .gy = g->a[SCRATCH_Y]};
     (void)c;
-    return sph_gradient_cspm(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last), field(g, POTENTIAL), out);
+    return sph_gradient_cspm(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last),
+                             sph_scalars_array(g->a[POTENTIAL]), out);
 }
 /* B = grad A x e_z by the gradient that is exact for linear fields */
 static void euler_field(gas *g, const plan *c)
@@ -279,7 +240,7 @@ static void euler_field(gas *g, const plan *c)
     const sph_vec along = {0, 0, 1};
     sph_index i;
     for (i = 0; i < g->n; i++) g->a[VOLUME][i] = g->m / g->a[RHO][i];
-    expect(everywhere(gradient_sweep, g, c), "sph_gradient_cspm");
+    expect_all(everywhere(gradient_sweep, g, c));
     for (i = 0; i < g->n; i++) {
         const sph_vec gradient = {g->a[SCRATCH_X][i], g->a[SCRATCH_Y][i], 0},
                       B = sph_euler_potentials(gradient, along);
@@ -290,12 +251,13 @@ static void euler_field(gas *g, const plan *c)
 /* dA/dt = sum_j m_j alpha_B v_sig / rho (A_i - A_j) G r: resistivity (10) for the potential. Price & Bate 2007, MNRAS 377, 77. Its heat is not returned to u. */
 static sph_index diffusion_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
+    const sph_index *const start = g->near.found.list.start, *const index = g->near.found.list.index;
     sph_index i, p;
     for (i = first; i < last; i++) {
         const sph_vec B_i = {g->a[BX][i], g->a[BY][i], 0};
         double sum = 0;
-        for (p = g->start[i]; p < g->start[i + 1]; p++) {
-            const sph_index j = g->index[p];
+        for (p = start[i]; p < start[i + 1]; p++) {
+            const sph_index j = index[p];
             const sph_vec B_j = {g->a[BX][j], g->a[BY][j], 0};
             const double sx = g->a[X][i] - g->a[X][j], sy = g->a[Y][i] - g->a[Y][j],
                          dx = sx - (sx > 0.5) + (sx < -0.5), dy = sy - (sy > 0.5) + (sy < -0.5),
@@ -318,8 +280,8 @@ static sph_index diffusion_sweep(gas *g, const plan *c, sph_index first, sph_ind
 static sph_index rates_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
     sph_mhd_out out = {0};
-    out.acceleration = sph_vector_out_separate(g->rate[VX], g->rate[VY], NULL);
-    out.rate_B = sph_vector_out_separate(g->rate[BX], g->rate[BY], NULL);
+    out.acceleration = vectors_into(g->rate + VX, 2);
+    out.rate_B = vectors_into(g->rate + BX, 2);
     out.rate_u = g->rate[U];
     out.rate_psi = c->cleans == CONJUGATE ? g->rate[PSI] : NULL;
     out.div_B = g->a[DIV_B];
@@ -331,16 +293,18 @@ static sph_index rates_sweep(gas *g, const plan *c, sph_index first, sph_index l
 /* cleaning alone: without div v */
 static sph_cleaning cleaned(const gas *g, double sigma)
 {
-    const sph_cleaning s = {
-        .medium = densities(g), .field = vectors(g, BX), .psi = field(g, PSI), .ch = g->ch, .sigma = sigma};
+    const sph_cleaning s = {.medium = densities(g),
+                            .field = vectors_of(g->a + BX, 2),
+                            .psi = sph_scalars_array(g->a[PSI]),
+                            .ch = g->ch,
+                            .sigma = sigma};
     return s;
 }
 static sph_index nonconservative_sweep(gas *g, const plan *c, sph_index first, sph_index last)
 {
-    const sph_cleaning_out out = {.rate_B = sph_vector_out_separate(g->a[SCRATCH_X], g->a[SCRATCH_Y], NULL),
-                                  .rate_psi = g->rate[PSI]};
+    const sph_cleaning_out out = {.rate_B = vectors_into(g->a + SCRATCH_X, 2), .rate_psi = g->rate[PSI]};
     sph_cleaning s = cleaned(g, c->sigma);
-    s.div_v = field(g, DIV_V);
+    s.div_v = sph_scalars_array(g->a[DIV_V]);
     return cleaning_rates_nonconservative(KERNEL, 2, sph_cloud_range(cloud_of(g), first, last), s, out);
 }
 
@@ -366,10 +330,10 @@ static void gas_rates(gas *g, const plan *c, double t)
     mark = clock();
     if (c->euler) euler_field(g, c);
     gas_state(g, c);
-    expect(everywhere(rates_sweep, g, c), "sph_mhd_rates");
+    expect_all(everywhere(rates_sweep, g, c));
     if (c->euler && c->alpha_B > 0) everywhere(diffusion_sweep, g, c);
     if (c->cleans == NONCONSERVATIVE) {
-        expect(everywhere(nonconservative_sweep, g, c), "cleaning_rates_nonconservative");
+        expect_all(everywhere(nonconservative_sweep, g, c));
         for (i = 0; i < g->n; i++) {
             g->rate[BX][i] += g->a[SCRATCH_X][i];
             g->rate[BY][i] += g->a[SCRATCH_Y][i];
@@ -481,8 +445,8 @@ static void measure_gas(const gas *g, const plan *c, measure *m)
     sph_index i;
     int k;
     memset(m, 0, sizeof *m);
-    expect(sph_divergence_difference(KERNEL, 2, cloud_of(g), densities(g), vectors(g, BX), sph_scalar_out_array(g->a[SCRATCH], 0)),
-           "sph_divergence_difference");
+    expect_all(sph_divergence_difference(KERNEL, 2, cloud_of(g), densities(g), vectors_of(g->a + BX, 2),
+                                         sph_scalar_out_array(g->a[SCRATCH], 0)));
     for (i = 0; i < g->n; i++) {
         const double vx = g->a[VX][i], vy = g->a[VY][i], rho = g->a[RHO][i],
                      B = hypot(g->a[BX][i], g->a[BY][i]), divergence = g->a[H][i] * fabs(g->a[SCRATCH][i]),
@@ -537,12 +501,11 @@ static void add(double term, double *sum, double *size)
 /* The gas needs a psi that is not 0: the run's own, or random numbers. Leaves the gas as it was. */
 static balance gas_balance(gas *g, const plan *c, double t)
 {
-    const sph_cleaning_out to = {.rate_B = sph_vector_out_separate(g->rate[BX], g->rate[BY], NULL),
-                                 .rate_psi = g->rate[PSI]};
+    const sph_cleaning_out to = {.rate_B = vectors_into(g->rate + BX, 2), .rate_psi = g->rate[PSI]};
     sph_mhd_out out = {0};
     balance b;
     const double ch = g->ch;
-    double *const kept = (double *)memory(NULL, gas_size(g->n));
+    double *const kept = (double *)need(NULL, gas_size(g->n), 1);
     double sum, size, px = 0, py = 0, force = 0, undamped;
     sph_index i;
     pcg32 random;
@@ -552,7 +515,7 @@ static balance gas_balance(gas *g, const plan *c, double t)
         pcg32_seed(&random, 1, 1);
         for (i = 0; i < g->n; i++) g->a[PSI][i] = 0.01 * g->ch * (2 * pcg32_uniform(&random) - 1);
     }
-    expect(sph_cleaning_rates(KERNEL, 2, cloud_of(g), cleaned(g, 0), to), "sph_cleaning_rates");
+    expect_all(sph_cleaning_rates(KERNEL, 2, cloud_of(g), cleaned(g, 0), to));
     for (i = 0, sum = size = 0; i < g->n; i++) {
         const double V = g->m / g->a[RHO][i];
         add(V * (g->a[BX][i] * g->rate[BX][i] + g->a[BY][i] * g->rate[BY][i]), &sum, &size);
@@ -560,7 +523,7 @@ static balance gas_balance(gas *g, const plan *c, double t)
     }
     b.cleaning = fabs(sum) / size;
     undamped = sum;
-    expect(sph_cleaning_rates(KERNEL, 2, cloud_of(g), cleaned(g, c->sigma), to), "sph_cleaning_rates");
+    expect_all(sph_cleaning_rates(KERNEL, 2, cloud_of(g), cleaned(g, c->sigma), to));
     for (i = 0, sum = -undamped, size = 0; i < g->n; i++) {
         const double V = g->m / g->a[RHO][i];
         add(V * (g->a[BX][i] * g->rate[BX][i] + g->a[BY][i] * g->rate[BY][i]), &sum, &size);
@@ -571,14 +534,14 @@ static balance gas_balance(gas *g, const plan *c, double t)
     { /* all of it without (9), which takes momentum and does work */
         sph_mhd s = magnetised(g, c, 1);
         s.tensile = 0;
-        out.acceleration = sph_vector_out_separate(g->rate[VX], g->rate[VY], NULL);
+        out.acceleration = vectors_into(g->rate + VX, 2);
         out.rate_B = to.rate_B;
         out.rate_u = g->rate[U];
         out.rate_psi = g->rate[PSI];
         out.div_B = g->a[DIV_B];
         out.div_v = g->a[DIV_V];
         out.v_sig = NULL;
-        expect(sph_mhd_rates(KERNEL, 2, cloud_of(g), s, out), "sph_mhd_rates");
+        expect_all(sph_mhd_rates(KERNEL, 2, cloud_of(g), s, out));
     }
     for (i = 0, sum = size = 0; i < g->n; i++) {
         const double V = g->m / g->a[RHO][i], psi = g->a[PSI][i], ch2 = g->ch * g->ch,

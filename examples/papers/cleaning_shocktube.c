@@ -82,11 +82,11 @@ static volumes volumes_new(int n)
 {
     const double dx = 1.0 / n;
     volumes v;
-    double(*half)[2][QUANTITIES] = (double(*)[2][QUANTITIES])cleaning_memory((size_t)n, sizeof *half);
+    double(*half)[2][QUANTITIES] = (double(*)[2][QUANTITIES])need_zeros((size_t)n, sizeof *half);
     double t = 0;
     int i, k, s;
     v.n = n;
-    v.q = (double(*)[QUANTITIES])cleaning_memory((size_t)n, sizeof *v.q);
+    v.q = (double(*)[QUANTITIES])need_zeros((size_t)n, sizeof *v.q);
     for (i = 0; i < n; i++) {
         s = i < n / 2 ? SIDE_L : SIDE_R;
         v.q[i][DENSITY] = rho0[s];

@@ -27,9 +27,6 @@
 
 #include <math.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #ifndef SPH_CHECK
@@ -40,7 +37,7 @@
 #define FLOW_PERIODIC 2 /* how many axes may be periodic, x first: those that cannot cost nothing */
 #endif
 
-#include "../../sph.h"
+#include "../common/host.h"
 #include "../common/options.h"
 #include "../common/progress.h"
 #include "../common/random.h"
@@ -118,22 +115,6 @@ static inline void clustering_on_signal(int s)
     signal(s, SIG_DFL); /* a second Ctrl-C ends the program at once */
 }
 
-static inline void *clustering_memory(void *old, size_t size)
-{
-    void *p = realloc(old, size ? size : 1);
-    if (!p) {
-        fprintf(stderr, "clustering: out of memory (%lu bytes)\n", (unsigned long)size);
-        exit(2);
-    }
-    return p;
-}
-static inline void clustering_expect(sph_index answer)
-{
-    if (answer < 0) {
-        fprintf(stderr, "clustering: %s\n", sph_status_text((int)answer));
-        exit(2);
-    }
-}
 static inline void clustering_written(int ok, const char *dir, const char *name)
 {
     if (!ok) {
@@ -154,38 +135,8 @@ static inline void clustering_figure_close(part_file *f)
     clustering_written(part_file_close(f), f->path, "");
 }
 
-/* lists that keep their memory */
-typedef struct neighbours {
-    sph_index *start, *index;
-    int64_t capacity;
-} neighbours;
-
-static inline sph_list neighbours_list(const neighbours *l)
-{
-    sph_list s;
-    s.start = l->start;
-    s.index = l->index;
-    return s;
-}
-static inline void neighbours_find(int dim, neighbours *l, const sph_grid *grid, sph_points targets,
-                                   double radius, int flags)
-{
-    const sph_scalars R = sph_scalars_same(&radius);
-    int64_t pairs = 0;
-    sph_index answer = SPH_ERROR_CAPACITY;
-    l->start = (sph_index *)clustering_memory(l->start, ((size_t)targets.n + 1) * sizeof *l->start);
-    if (l->capacity)
-        answer = sph_grid_lists(dim, grid, sph_query_of(targets, SPH_GATHER, R, flags), l->start, l->index, l->capacity, &pairs);
-    else pairs = 64 * (int64_t)targets.n;
-    while (answer == (sph_index)SPH_ERROR_CAPACITY) {
-        l->capacity = pairs + pairs / 8;
-        l->index = (sph_index *)clustering_memory(l->index, (size_t)l->capacity * sizeof *l->index);
-        answer = sph_grid_lists(dim, grid, sph_query_of(targets, SPH_GATHER, R, flags), l->start, l->index, l->capacity, &pairs);
-    }
-    clustering_expect(answer);
-}
 /* Of the pairs in rows 0 ... n - 1, those of two kinds. */
-static inline void neighbours_mixed(neighbours *l, sph_index n, const unsigned char *kind)
+static inline void neighbours_mixed(search_lists *l, sph_index n, const unsigned char *kind)
 {
     sph_index i, p, kept = 0, next = 0;
     for (i = 0; i < n; i++) {
@@ -195,11 +146,6 @@ static inline void neighbours_mixed(neighbours *l, sph_index n, const unsigned c
             if (kind[i] != kind[l->index[p]]) l->index[kept++] = l->index[p];
         l->start[i + 1] = kept;
     }
-}
-static inline void neighbours_free(neighbours *l)
-{
-    free(l->start);
-    free(l->index);
 }
 
 /* ================================================================ the flow */
@@ -263,9 +209,8 @@ struct flow {
     const char *bad_what;
 
     /* private */
-    neighbours all, colliding;
-    void *work;
-    size_t work_size;
+    search_grid grid;
+    search_lists all, colliding;
     sph_index *count;
     vtk_series series;
 };
@@ -294,10 +239,10 @@ static inline void flow_close(flow *f)
     for (a = 0; a < sizeof arrays / sizeof *arrays; a++) free(arrays[a]);
     free(f->phase);
     free(f->ghost);
-    free(f->work);
     free(f->count);
-    neighbours_free(&f->all);
-    neighbours_free(&f->colliding);
+    search_grid_close(&f->grid);
+    search_lists_close(&f->all);
+    search_lists_close(&f->colliding);
     vtk_series_end(&f->series);
 }
 
@@ -311,10 +256,10 @@ static inline int flow_append(flow *f, double x, double y, int phase, double m, 
         size_t a;
         f->capacity = 2 * f->n + 64;
         for (a = 0; a < sizeof arrays / sizeof *arrays; a++)
-            *arrays[a] = (double *)clustering_memory(*arrays[a], (size_t)f->capacity * sizeof(double));
-        f->phase = (unsigned char *)clustering_memory(f->phase, (size_t)f->capacity);
-        f->ghost = (unsigned char *)clustering_memory(f->ghost, (size_t)f->capacity);
-        f->count = (sph_index *)clustering_memory(f->count, (size_t)f->capacity * sizeof *f->count);
+            *arrays[a] = (double *)need(*arrays[a], (size_t)f->capacity, sizeof(double));
+        f->phase = (unsigned char *)need(f->phase, (size_t)f->capacity, 1);
+        f->ghost = (unsigned char *)need(f->ghost, (size_t)f->capacity, 1);
+        f->count = (sph_index *)need(f->count, (size_t)f->capacity, sizeof *f->count);
     }
     f->x[i] = x;
     f->y[i] = y;
@@ -361,32 +306,24 @@ static inline void flow_wrap(double *x, double length, int n)
     for (i = 0; i < n && length > 0; i++) x[i] -= length * floor(x[i] / length);
 }
 
-static inline void flow_grid(flow *f, sph_points x, double reach, sph_grid *grid)
-{
-    const size_t size = sph_grid_workspace(2, x.n);
-    if (size > f->work_size) {
-        f->work = clustering_memory(f->work, size);
-        f->work_size = size;
-    }
-    clustering_expect(sph_grid_build(2, x, reach, f->work, f->work_size, grid));
-}
-
 /* Lists with a skin, kept until a particle has moved by half of it. */
 static inline void flow_neighbours(flow *f)
 {
-    const double skin = f->skin * f->dref, reach = sph_kernel_support_ratio(f->kernel) * f->h;
-    sph_points then = flow_points(f);
-    sph_grid grid;
+    const double skin = f->skin * f->dref, reach = sph_kernel_support_ratio(f->kernel) * f->h + skin,
+                 touching = f->distance * f->dref + skin;
+    sph_points now, then = flow_points(f);
+    sph_query query;
     then.x = f->old_x;
     then.y = f->old_y;
-    if (f->all.capacity && !sph_rebuild_due(2, flow_points(f), then, skin)) return;
+    if (f->all.start && !sph_rebuild_due(2, flow_points(f), then, skin)) return;
     flow_wrap(f->x, f->box_x, f->n);
     flow_wrap(f->y, f->box_y, f->n);
-    flow_grid(f, flow_points(f), reach + skin, &grid);
-    neighbours_find(2, &f->all, &grid, flow_points(f), reach + skin, 0);
+    now = flow_points(f);
+    search_grid_build(&f->grid, 2, now, reach);
+    search_lists_find(&f->all, 2, &f->grid, sph_query_of(now, SPH_GATHER, sph_scalars_same(&reach), 0));
     if (f->remedy) {
-        neighbours_find(2, &f->colliding, &grid, flow_points(f), f->distance * f->dref + skin,
-                        SPH_LIST_SORTED); /* sorted: the order of collisions matters */
+        query = sph_query_of(now, SPH_GATHER, sph_scalars_same(&touching), SPH_LIST_SORTED);
+        search_lists_find(&f->colliding, 2, &f->grid, query); /* sorted: the order of collisions matters */
         if (f->walls_only) neighbours_mixed(&f->colliding, f->n, f->ghost);
     }
     memcpy(f->old_x, f->x, (size_t)f->n * sizeof *f->x);
@@ -397,8 +334,7 @@ static inline void flow_neighbours(flow *f)
 /* the targets: all particles; the fluid; those that have an acceleration and a rate of density */
 static inline sph_cloud flow_cloud(const flow *f)
 {
-    return sph_cloud_of(flow_points(f), neighbours_list(&f->all), sph_scalars_same(&f->h),
-                        sph_scalars_none());
+    return sph_cloud_of(flow_points(f), search_list(&f->all), sph_scalars_same(&f->h), sph_scalars_none());
 }
 static inline sph_cloud flow_fluid(const flow *f) { return sph_cloud_range(flow_cloud(f), 0, f->n_fluid); }
 static inline sph_cloud flow_moving(const flow *f)
@@ -422,16 +358,17 @@ static inline sph_cloud flow_moving(const flow *f)
 SPH_FN sph_index flow_density_by(sph_kernel k, const flow *f)
 {
     const sph_scalars m = sph_scalars_array(f->m);
-    return f->form == FLOW_SUMMATION ? sph_density_summation(k, 2, flow_fluid(f), m, sph_scalar_out_array(f->rho, 0))
-                                     : sph_density_number(k, 2, flow_fluid(f), m, sph_scalar_out_array(f->rho, 0));
+    const sph_scalar_out rho = sph_scalar_out_array(f->rho, 0);
+    return f->form == FLOW_SUMMATION ? sph_density_summation(k, 2, flow_fluid(f), m, rho)
+                                     : sph_density_number(k, 2, flow_fluid(f), m, rho);
 }
 SPH_FN sph_index flow_rates_by(sph_kernel k, const flow *f, sph_fluid s)
 {
-    const sph_vector_out a = flow_accelerations(f);
-    double *const rate = f->rate_after_kick ? NULL : f->rate;
-    if (f->form == FLOW_SUMMATION) return sph_fluid_rates_monaghan(k, 2, flow_fluid(f), s, (sph_fluid_out){.acceleration = a});
-    if (f->form == FLOW_CONTINUITY) return sph_fluid_rates_colagrossi(k, 2, flow_moving(f), s, (sph_fluid_out){.acceleration = a, .rate = rate});
-    return sph_fluid_rates_hu_adams(k, 2, flow_fluid(f), s, (sph_fluid_out){.acceleration = a});
+    sph_fluid_out out = {.acceleration = flow_accelerations(f)};
+    if (f->form == FLOW_SUMMATION) return sph_fluid_rates_monaghan(k, 2, flow_fluid(f), s, out);
+    if (f->form == FLOW_NUMBER) return sph_fluid_rates_hu_adams(k, 2, flow_fluid(f), s, out);
+    out.rate = f->rate_after_kick ? NULL : f->rate;
+    return sph_fluid_rates_colagrossi(k, 2, flow_moving(f), s, out);
 }
 SPH_FN sph_index flow_divergence_by(sph_kernel k, const flow *f)
 {
@@ -439,7 +376,8 @@ SPH_FN sph_index flow_divergence_by(sph_kernel k, const flow *f)
     sph_medium g;
     g.m = sph_scalars_array(f->volume);
     g.rho = g.omega = sph_scalars_same(&one);
-    return sph_divergence_difference(k, 2, flow_moving(f), g, flow_velocities(f), sph_scalar_out_array(f->rate, 0));
+    return sph_divergence_difference(k, 2, flow_moving(f), g, flow_velocities(f),
+                                     sph_scalar_out_array(f->rate, 0));
 }
 
 static inline sph_index flow_density(flow *f)
@@ -478,7 +416,7 @@ static inline sph_index flow_divergence(flow *f)
 static inline void flow_continuity(flow *f)
 {
     int i;
-    clustering_expect(flow_divergence(f));
+    expect(flow_divergence(f));
     for (i = 0; i < flow_moved(f); i++) f->rate[i] *= -f->rho[i];
 }
 
@@ -502,8 +440,8 @@ static inline double flow_kinetic_energy(const flow *f)
 static inline void flow_collide(flow *f)
 {
     const sph_cloud fluid = sph_cloud_range(
-        sph_cloud_of(flow_points(f), neighbours_list(&f->colliding), sph_scalars_none(), sph_scalars_none()),
-        0, f->n_fluid);
+        sph_cloud_of(flow_points(f), search_list(&f->colliding), sph_scalars_none(), sph_scalars_none()), 0,
+        f->n_fluid);
     const sph_collision c = {f->distance * f->dref, f->restitution, sph_scalars_array(f->inverse_mass)};
     const sph_vectors v = flow_velocities(f);
     double before, after;
@@ -511,16 +449,15 @@ static inline void flow_collide(flow *f)
     if (f->remedy == FLOW_NO_COLLISIONS) return;
     if (f->remedy == FLOW_SEQUENTIAL) {
         sph_collision_report r = {0, 0, 0};
-        clustering_expect(
-            sph_collision_sequential(2, fluid, c, sph_vector_out_separate(f->vx, f->vy, NULL), &r));
+        expect(sph_collision_sequential(2, fluid, c, sph_vector_out_separate(f->vx, f->vy, NULL), &r));
         f->collisions += r.collisions;
         f->coincident += r.coincident;
         f->collision_energy += r.energy;
         return;
     }
     if (f->remedy == FLOW_WEIGHTED) {
-        clustering_expect(sph_collision_count(2, fluid, c, v, f->count));
-        clustering_expect(sph_collision_change_weighted(2, fluid, c, v, f->count, flow_accelerations(f)));
+        expect(sph_collision_count(2, fluid, c, v, f->count));
+        expect(sph_collision_change_weighted(2, fluid, c, v, f->count, flow_accelerations(f)));
     } else collision_change_literal(2, fluid, c, v, flow_accelerations(f));
     before = flow_kinetic_energy(f);
     for (i = 0; i < f->n_fluid; i++) {
@@ -558,7 +495,7 @@ static inline void flow_step(flow *f)
     flow_pressure(f);
     if (f->ghosts) f->ghosts(f);
     if (lost == 0) lost = flow_rates(f);
-    clustering_expect(lost);
+    expect(lost);
     if (lost > 0)
         f->bad = 0,
         f->bad_what = "an acceleration or a density overflowed (not necessarily of this particle)";
@@ -644,7 +581,7 @@ static inline double flow_microseconds(const flow *f)
 
 static inline void flow_conserved(const flow *f, sph_conserved *c)
 {
-    clustering_expect(sph_conserved_sums(2, flow_fluid(f), sph_scalars_array(f->m), flow_velocities(f), c));
+    expect(sph_conserved_sums(2, flow_fluid(f), sph_scalars_array(f->m), flow_velocities(f), c));
 }
 
 /* ================================================================ what the pictures show, in numbers */
@@ -670,24 +607,24 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
     const double reach = 4 * f->dref, step = 0.1 * f->dref;
     const int columns = (int)ceil((area.x1 - area.x0) / step - 1e-9),
               rows = (int)ceil((area.y1 - area.y0) / step - 1e-9);
+    const sph_scalars far = sph_scalars_same(&reach);
     sph_points x = flow_points(f);
-    neighbours l = {0};
-    double *const value = (double *)clustering_memory(NULL, (size_t)f->n * sizeof *value);
-    unsigned char *const status = (unsigned char *)clustering_memory(NULL, (size_t)f->n);
+    search_lists l = {0};
+    double *const value = (double *)need(NULL, (size_t)f->n, sizeof *value);
+    unsigned char *const status = (unsigned char *)need(NULL, (size_t)f->n, 1);
     flow_distribution d = {0};
     double px[FLOW_PROBES], py[FLOW_PROBES], distance[FLOW_PROBES];
     unsigned char state[FLOW_PROBES];
     int i, row, column, counted = 0, ordered = 0;
     int64_t probes = 0, empty = 0;
     sph_cloud fluid;
-    sph_grid grid;
 
     if (!with_ghosts) x.n = f->n_fluid;
-    flow_grid(f, x, reach, &grid);
-    neighbours_find(2, &l, &grid, x, reach, 0);
-    fluid = sph_cloud_range(sph_cloud_of(x, neighbours_list(&l), sph_scalars_none(), sph_scalars_none()), 0,
+    search_grid_build(&f->grid, 2, x, reach);
+    search_lists_find(&l, 2, &f->grid, sph_query_of(x, SPH_GATHER, far, 0));
+    fluid = sph_cloud_range(sph_cloud_of(x, search_list(&l), sph_scalars_none(), sph_scalars_none()), 0,
                             f->n_fluid);
-    clustering_expect(sph_nearest_distance(2, fluid, x, sph_scalar_out_array(value, status)));
+    expect(sph_nearest_distance(2, fluid, x, sph_scalar_out_array(value, status)));
     d.least = HUGE_VAL;
     for (i = 0; i < f->n_fluid; i++) {
         const double nearest = status[i] ? reach / f->dref : value[i] / f->dref;
@@ -701,7 +638,7 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
     d.mean /= counted;
     d.below_50 /= counted;
     d.below_75 /= counted;
-    clustering_expect(sph_hexatic_order(fluid, sph_scalar_out_array(value, status)));
+    expect(sph_hexatic_order(fluid, sph_scalar_out_array(value, status)));
     for (i = 0; i < f->n_fluid; i++)
         if (!status[i] && (phase == FLOW_ALL || f->phase[i] == phase)) {
             d.hexatic += value[i];
@@ -710,7 +647,7 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
     d.hexatic = ordered ? d.hexatic / ordered : 0;
 
     x.n = f->n; /* a ghost fills its place */
-    flow_grid(f, x, reach, &grid);
+    search_grid_build(&f->grid, 2, x, reach);
     for (row = 0; row < rows; row++)
         for (column = 0; column < columns;) { /* in pieces, whose lists are short */
             int count = 0;
@@ -723,9 +660,9 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
             if (count == 0) continue;
             {
                 const sph_points probe = sph_points_separate(count, px, py, NULL);
-                neighbours_find(2, &l, &grid, probe, reach, SPH_LIST_FOREIGN);
-                clustering_expect(sph_nearest_distance(
-                    2, sph_cloud_of(probe, neighbours_list(&l), sph_scalars_none(), sph_scalars_none()), x,
+                search_lists_find(&l, 2, &f->grid, sph_query_of(probe, SPH_GATHER, far, SPH_LIST_FOREIGN));
+                expect(sph_nearest_distance(
+                    2, sph_cloud_of(probe, search_list(&l), sph_scalars_none(), sph_scalars_none()), x,
                     sph_scalar_out_array(distance, state)));
             }
             for (i = 0; i < count; i++) {
@@ -736,7 +673,7 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
             probes += count;
         }
     d.void_share = probes ? (double)empty / (double)probes : 0;
-    neighbours_free(&l);
+    search_lists_close(&l);
     free(value);
     free(status);
     return d;
@@ -746,23 +683,22 @@ static inline flow_distribution flow_measure(flow *f, int phase, int with_ghosts
 static inline void flow_radial(flow *f, double area, double reach, int bins, double *g, double *peak_at,
                                double *peak)
 {
+    const double radius = reach * f->dref;
     sph_points x = flow_points(f);
     sph_cloud fluid;
-    neighbours l = {0};
-    sph_grid grid;
+    search near = {0};
     int b;
     x.n = f->n_fluid;
-    flow_grid(f, x, reach * f->dref, &grid);
-    neighbours_find(2, &l, &grid, x, reach * f->dref, 0);
-    fluid = sph_cloud_of(x, neighbours_list(&l), sph_scalars_none(), sph_scalars_none());
-    clustering_expect(sph_radial_distribution(2, fluid, reach * f->dref, f->n_fluid / area, bins, g));
+    search_all(&near, 2, x, sph_scalars_same(&radius), SPH_GATHER);
+    fluid = sph_cloud_of(x, near.found.list, sph_scalars_none(), sph_scalars_none());
+    expect(sph_radial_distribution(2, fluid, radius, f->n_fluid / area, bins, g));
     *peak = *peak_at = 0;
     for (b = 0; b < bins; b++)
         if (g[b] > *peak) {
             *peak = g[b];
             *peak_at = (b + 0.5) * reach / bins;
         }
-    neighbours_free(&l);
+    search_close(&near);
 }
 
 /* dir/name.csv: a line per particle */

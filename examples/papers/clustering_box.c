@@ -118,7 +118,7 @@ static result simulate(const setting *s, const clustering_options *o, const char
     for (i = 0; i < n; i++) mean += f.rho[i] / n;
     for (i = 0; i < n; i++) square += (f.rho[i] - mean) * (f.rho[i] - mean) / n;
     r.noise = sqrt(square) / mean;
-    if (f.all.capacity) r.coincident = sph_coincident_count(2, flow_cloud(&f), 1e-12 * f.h);
+    if (f.all.start) r.coincident = sph_coincident_count(2, flow_cloud(&f), 1e-12 * f.h);
     r.worst_gain = f.worst_gain;
     r.t = f.t;
     r.collisions = f.collisions;

@@ -104,7 +104,7 @@ static cavity simulate(const clustering_options *c, int columns, int cleans, dou
             o.u[i] += at(&f, w.vx, 0.5, probe(ghia_y, i)) / SAMPLES;
             o.v[i] += at(&f, w.vy, probe(ghia_x, i), 0.5) / SAMPLES;
         }
-        clustering_expect(flow_divergence(&f)); /* into rate */
+        expect(flow_divergence(&f)); /* into rate */
         for (i = 0; i < f.n_fluid; i++) {
             square += f.rate[i] * f.rate[i] / f.n_fluid;
             most = fmax(most, fabs(f.rate[i]));

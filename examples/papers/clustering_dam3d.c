@@ -21,26 +21,20 @@ typedef struct dam {
     double dref, h, c;
     double *x[3], *v[3], *a[3], *old[3], *m, *rho, *p, *sound, *inverse_mass, *volume, *divergence;
     unsigned char *ghost;
-    neighbours all, colliding;
-    void *work;
-    size_t work_size;
+    search_grid grid;
+    search_lists all, colliding;
     int64_t steps;
 } dam;
 
 static sph_points points(const dam *d, double *const x[3])
 {
-    return sph_points_separate(d->n, x[0], x[1], d->dim > 2 ? x[2] : NULL);
+    return sph_points_separate(d->n, x[0], x[1], x[2]);
 }
 static sph_tait water_of(const dam *d)
 {
     const sph_tait t = {.rho0 = water, .c = d->c, .gamma = 1};
     return t;
 }
-static sph_vectors velocities(const dam *d)
-{
-    return sph_vectors_separate(d->v[0], d->v[1], d->dim > 2 ? d->v[2] : NULL);
-}
-
 /* y is up, z across; 2D: one layer of cells in z, and no walls there. Only what the water can reach has walls. */
 static void fill(dam *d, int dim, int resolution)
 {
@@ -61,8 +55,8 @@ static void fill(dam *d, int dim, int resolution)
     d->c = 10 * sqrt(2 * column_gravity * column_a);
     state = water_of(d);
     for (k = 0; k < sizeof arrays / sizeof *arrays; k++)
-        *arrays[k] = (double *)clustering_memory(NULL, (size_t)total * sizeof(double));
-    d->ghost = (unsigned char *)clustering_memory(NULL, (size_t)total);
+        *arrays[k] = (double *)need(NULL, (size_t)total, sizeof(double));
+    d->ghost = (unsigned char *)need(NULL, (size_t)total, 1);
     for (ghosts = 0; ghosts < 2; ghosts++)
         for (i = -reach; i < 5 * resolution + reach; i++)
             for (j = -reach; j < 3 * resolution; j++)
@@ -96,28 +90,27 @@ static void dam_close(dam *d)
     size_t k;
     for (k = 0; k < sizeof arrays / sizeof *arrays; k++) free(arrays[k]);
     free(d->ghost);
-    free(d->work);
-    neighbours_free(&d->all);
-    neighbours_free(&d->colliding);
+    search_grid_close(&d->grid);
+    search_lists_close(&d->all);
+    search_lists_close(&d->colliding);
 }
 
 /* ---------------------------------------------------------------- a step; dim is a constant where these are called, so that the operators see one */
 
 SPH_FN void find_neighbours(int dim, dam *d)
 {
-    const double reach = sph_kernel_support_ratio(wendland) * d->h + skin * d->dref;
-    sph_points targets = points(d, d->x);
-    sph_grid grid;
+    const double reach = sph_kernel_support_ratio(wendland) * d->h + skin * d->dref,
+                 touching = (distance + skin) * d->dref;
+    const sph_points now = points(d, d->x);
+    sph_query query = sph_query_of(now, SPH_GATHER, sph_scalars_same(&reach), 0);
     int k;
-    if (d->all.capacity && !sph_rebuild_due(dim, points(d, d->x), points(d, d->old), skin * d->dref)) return;
-    if (!d->work) {
-        d->work_size = sph_grid_workspace(dim, d->n);
-        d->work = clustering_memory(NULL, d->work_size);
-    }
-    clustering_expect(sph_grid_build(dim, points(d, d->x), reach, d->work, d->work_size, &grid));
-    targets.n = d->n_fluid;
-    neighbours_find(dim, &d->all, &grid, targets, reach, 0);
-    neighbours_find(dim, &d->colliding, &grid, targets, (distance + skin) * d->dref, SPH_LIST_SORTED);
+    if (d->all.start && !sph_rebuild_due(dim, now, points(d, d->old), skin * d->dref)) return;
+    search_grid_build(&d->grid, dim, now, reach);
+    query.targets.n = d->n_fluid;
+    search_lists_find(&d->all, dim, &d->grid, query);
+    query.target_radius = sph_scalars_same(&touching);
+    query.flags = SPH_LIST_SORTED;
+    search_lists_find(&d->colliding, dim, &d->grid, query);
     neighbours_mixed(&d->colliding, d->n_fluid, d->ghost);
     for (k = 0; k < dim; k++) memcpy(d->old[k], d->x[k], (size_t)d->n * sizeof(double));
 }
@@ -125,8 +118,8 @@ SPH_FN void find_neighbours(int dim, dam *d)
 SPH_FN void step(int dim, dam *d, double dt)
 {
     static const double one = 1;
-    const sph_vector_out a = sph_vector_out_separate(d->a[0], d->a[1], dim > 2 ? d->a[2] : NULL),
-                         v = sph_vector_out_separate(d->v[0], d->v[1], dim > 2 ? d->v[2] : NULL);
+    const sph_fluid_out rates = {.acceleration = vectors_into(d->a, dim)};
+    const sph_vectors v = vectors_of(d->v, dim);
     const sph_collision collision = {distance * d->dref, restitution, sph_scalars_array(d->inverse_mass)};
     const sph_tait state = water_of(d);
     sph_cloud fluid, colliding;
@@ -135,30 +128,30 @@ SPH_FN void step(int dim, dam *d, double dt)
     int i, k;
     find_neighbours(dim, d);
     fluid = sph_cloud_range(
-        sph_cloud_of(points(d, d->x), neighbours_list(&d->all), sph_scalars_same(&d->h), sph_scalars_none()),
-        0, d->n_fluid);
+        sph_cloud_of(points(d, d->x), search_list(&d->all), sph_scalars_same(&d->h), sph_scalars_none()), 0,
+        d->n_fluid);
     colliding = fluid;
-    colliding.list = neighbours_list(&d->colliding);
+    colliding.list = search_list(&d->colliding);
     for (i = 0; i < d->n_fluid; i++) d->p[i] = sph_pressure_tait(d->rho[i], state);
     s.m = sph_scalars_array(d->m);
     s.rho = sph_scalars_array(d->rho);
     s.p = sph_scalars_array(d->p);
     s.c = sph_scalars_array(d->sound);
-    s.v = velocities(d);
+    s.v = v;
     s.viscosity = SPH_VISCOSITY_MONAGHAN;
     s.alpha = 0.01;
     s.beta = 0;
     s.eta = 0.1;
-    clustering_expect(sph_fluid_rates_colagrossi(wendland, dim, fluid, s, (sph_fluid_out){.acceleration = a}));
+    expect(sph_fluid_rates_colagrossi(wendland, dim, fluid, s, rates));
     for (i = 0; i < d->n_fluid; i++) {
         d->a[1][i] -= column_gravity;
         for (k = 0; k < dim; k++) d->v[k][i] += dt * d->a[k][i];
     }
-    clustering_expect(sph_collision_sequential(dim, colliding, collision, v, NULL));
+    expect(sph_collision_sequential(dim, colliding, collision, vectors_into(d->v, dim), NULL));
     for (i = 0; i < d->n; i++) d->volume[i] = d->m[i] / d->rho[i];
     g.m = sph_scalars_array(d->volume);
     g.rho = g.omega = sph_scalars_same(&one);
-    clustering_expect(sph_divergence_difference(wendland, dim, fluid, g, velocities(d), sph_scalar_out_array(d->divergence, 0)));
+    expect(sph_divergence_difference(wendland, dim, fluid, g, v, sph_scalar_out_array(d->divergence, 0)));
     for (i = 0; i < d->n_fluid; i++) {
         d->rho[i] -= dt * d->rho[i] * d->divergence[i];
         for (k = 0; k < dim; k++) d->x[k][i] += dt * d->v[k][i];

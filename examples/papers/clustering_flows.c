@@ -231,7 +231,7 @@ static vortices taylor_green(const clustering_options *c, const method *m, int c
         energy[k] = log(flow_kinetic_energy(&f) / start);
         if (k == EARLY - 1) o.early_error = velocity_error(&f, nu);
         if (k > 0) {
-            clustering_expect(flow_divergence(&f)); /* into rate */
+            expect(flow_divergence(&f)); /* into rate */
             for (i = 0; i < f.n; i++) o.divergence += f.rate[i] * f.rate[i] / f.n / (POINTS - 1);
         }
         fprintf(curve, "\"%s\",%g,%d,%g,%.6g,%.6g\n", m->name, smoothing, columns, f.t, exp(energy[k]),

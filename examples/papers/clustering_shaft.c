@@ -89,7 +89,7 @@ static double *fill(flow *f)
                 if (!ghosts && fluid) flow_add(f, x, y, 0, m);
                 if (ghosts && !fluid && r > shaft_radius - reach && r < wall_radius + reach) flow_add_ghost(f, x, y, 0, m);
             }
-    start = (double *)clustering_memory(NULL, (size_t)(f->n - f->n_fluid) * 2 * sizeof *start);
+    start = (double *)need(NULL, (size_t)(f->n - f->n_fluid) * 2, sizeof *start);
     for (i = f->n_fluid; i < f->n; i++) {
         start[2 * (i - f->n_fluid)] = f->x[i];
         start[2 * (i - f->n_fluid) + 1] = f->y[i];

@@ -85,8 +85,7 @@ static void wall(flow *f)
     const sph_wall_out out = {.p = f->p, .v = sph_vector_out_separate(f->vx, f->vy, NULL)};
     const sph_tait state = {.rho0 = water, .c = sound, .gamma = 1};
     int i;
-    clustering_expect(
-        sph_wall_adami(f->kernel, 2, sph_cloud_range(flow_cloud(f), f->n_fluid, f->n), wall_of, out));
+    expect(sph_wall_adami(f->kernel, 2, sph_cloud_range(flow_cloud(f), f->n_fluid, f->n), wall_of, out));
     for (i = f->n_fluid; i < f->n; i++) f->rho[i] = sph_density_tait(f->p[i], state);
 }
 
@@ -132,7 +131,7 @@ static tank_result simulate(sph_kernel kernel, double smoothing, double p0, int 
     t.label = label;
     t.low[0] = t.low[1] = HUGE_VAL;
     t.high[0] = t.high[1] = -HUGE_VAL;
-    t.y = (double *)clustering_memory(NULL, 4 * (size_t)f.n * sizeof(double));
+    t.y = (double *)need(NULL, 4 * (size_t)f.n, sizeof(double));
     t.p = t.y + f.n;
     t.share = t.p + f.n;
     t.zero = t.share + f.n;

@@ -41,7 +41,7 @@ static inline void viscous_pressures(flow *f)
     for (i = 0; i < f->n_fluid && w->ch > 0; i++) f->p[i] += w->psi[i];
     if (f->n == f->n_fluid) return;
 #define VISCOUS_WALLS(K) \
-    clustering_expect(viscous_walls_by(K, f, w)); \
+    expect(viscous_walls_by(K, f, w)); \
     break
     FLOW_SWITCH_KERNEL(f->kernel, VISCOUS_WALLS)
 #undef VISCOUS_WALLS
@@ -60,7 +60,7 @@ SPH_FN sph_index viscous_accelerations_by(sph_kernel k, const flow *f, const vis
                              .v = sph_vectors_separate(w->vx, w->vy, NULL),
                              .eta = 0.1};
     return sph_viscosity_mu_morris(k, 2, flow_fluid(f), fluid, sph_scalars_same(&w->mu),
-                                 sph_vector_out_separate(w->ax, w->ay, NULL));
+                                   sph_vector_out_separate(w->ax, w->ay, NULL));
 }
 static inline void viscous_forces(flow *f)
 {
@@ -71,7 +71,7 @@ static inline void viscous_forces(flow *f)
         w->vy[i] = f->ghost[i] ? w->wall_vy[i] : f->vy[i];
     }
 #define VISCOUS_FORCES(K) \
-    clustering_expect(viscous_accelerations_by(K, f, w)); \
+    expect(viscous_accelerations_by(K, f, w)); \
     break
     FLOW_SWITCH_KERNEL(f->kernel, VISCOUS_FORCES)
 #undef VISCOUS_FORCES
@@ -104,7 +104,7 @@ static inline void viscous_open(viscous *w, flow *f, double mu, double body_forc
     size_t a;
     int i;
     for (a = 0; a < sizeof arrays / sizeof *arrays; a++)
-        *arrays[a] = (double *)clustering_memory(NULL, (size_t)f->n * sizeof(double));
+        *arrays[a] = (double *)need(NULL, (size_t)f->n, sizeof(double));
     for (i = 0; i < f->n; i++) {
         w->psi[i] = 0;
         w->share[i] = f->ghost[i] ? 0 : 1;

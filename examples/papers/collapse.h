@@ -85,16 +85,16 @@ static inline void collapse_new(collapse *g, const collapse_model *model, sph_in
     memset(g, 0, sizeof *g);
     g->model = *model;
     g->s.n = g->room = n;
-    g->block = (double *)tree_memory(NULL, arrays * count, sizeof(double));
+    g->block = (double *)need(NULL, arrays * count, sizeof(double));
     memset(g->block, 0, arrays * count * sizeof(double));
-    g->backup = (double *)tree_memory(NULL, (ARRAYS + EVOLVED) * count, sizeof(double));
+    g->backup = (double *)need(NULL, (ARRAYS + EVOLVED) * count, sizeof(double));
     for (k = 0; k < ARRAYS; k++) g->a[k] = g->block + (size_t)k * count;
     for (k = 0; k < EVOLVED; k++) {
         g->rate[k] = g->block + (size_t)(ARRAYS + k) * count;
         g->before[k] = g->block + (size_t)(ARRAYS + EVOLVED + k) * count;
     }
     g->spare = g->block + (arrays - 1) * count;
-    g->status = (unsigned char *)tree_memory(NULL, count, 1);
+    g->status = (unsigned char *)need(NULL, count, 1);
 }
 static inline void collapse_free(collapse *g)
 {
@@ -110,14 +110,6 @@ static inline void collapse_free(collapse *g)
 static inline sph_scalars collapse_field(const collapse *g, int which)
 {
     return sph_scalars_array(g->a[which]);
-}
-static inline sph_vectors collapse_vectors(const collapse *g, int which)
-{
-    return sph_vectors_separate(g->a[which], g->a[which + 1], g->a[which + 2]);
-}
-static inline sph_vector_out collapse_into(double *const *a)
-{
-    return sph_vector_out_separate(a[0], a[1], a[2]);
 }
 static inline sph_points collapse_open(const collapse *g)
 {
@@ -166,8 +158,8 @@ static inline sph_mhd collapse_mhd(const collapse *g)
     s.cs = collapse_field(g, CS);
     s.alpha = collapse_field(g, ALPHA);
     s.alpha_B = g->model.switches ? collapse_field(g, ALPHA_B) : sph_scalars_same(&g->model.alpha_B);
-    s.v = collapse_vectors(g, VX);
-    s.field = collapse_vectors(g, BX);
+    s.v = vectors_of(g->a + VX, 3);
+    s.field = vectors_of(g->a + BX, 3);
     s.psi = sph_scalars_array(g->model.cleans ? g->a[PSI] : NULL);
     s.ch = g->s.ch;
     s.sigma = g->model.sigma;
@@ -211,9 +203,7 @@ static inline sph_index collapse_everywhere(collapse_sweep work, collapse *g, sp
 }
 static inline int collapse_expect(collapse *g, sph_index answer, const char *operation)
 {
-    if (answer < 0) return collapse_trouble(g, "%s: %s", operation, sph_status_text((int)answer));
-    if (answer > 0)
-        return collapse_trouble(g, "%s has no finite result for %ld particles", operation, (long)answer);
+    if (answer != 0) return collapse_trouble(g, "%s: %s", operation, answer_text(answer));
     return 0;
 }
 
@@ -320,24 +310,27 @@ static inline sph_index collapse_tree_sweep(collapse *g, sph_index first, sph_in
 }
 static inline sph_index collapse_direct_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_gravity_direct(COLLAPSE_KERNEL, collapse_isolated(g, first, last), sph_scalars_same(&g->model.m), 1, collapse_into(&g->a[GX]), sph_scalar_out_array(NULL, 0));
+    return sph_gravity_direct(COLLAPSE_KERNEL, collapse_isolated(g, first, last),
+                              sph_scalars_same(&g->model.m), 1, vectors_into(g->a + GX, 3),
+                              sph_scalar_out_array(NULL, 0));
 }
 /* Neighbours across the edge of the box count in the density, and so in the correction; they are no neighbours for gravity, which is isolated: zeta takes the open distances. */
 static inline sph_index collapse_zeta_sweep(collapse *g, sph_index first, sph_index last)
 {
-    return sph_gravity_zeta(COLLAPSE_KERNEL, collapse_isolated(g, first, last), sph_scalars_same(&g->model.m), collapse_field(g, RHO), sph_scalar_out_array(g->a[ZETA], 0));
+    return sph_gravity_zeta(COLLAPSE_KERNEL, collapse_isolated(g, first, last), sph_scalars_same(&g->model.m),
+                            collapse_field(g, RHO), sph_scalar_out_array(g->a[ZETA], 0));
 }
 static inline sph_index collapse_correction_sweep(collapse *g, sph_index first, sph_index last)
 {
     return sph_gravity_correction(COLLAPSE_KERNEL, collapse_cloud(g, first, last), collapse_gas(g),
-                                  collapse_field(g, ZETA), 1, collapse_into(&g->a[SX]));
+                                  collapse_field(g, ZETA), 1, vectors_into(g->a + SX, 3));
 }
 /* the curl, in the place of the rate of B that comes after it */
 static inline sph_index collapse_resistivity_sweep(collapse *g, sph_index first, sph_index last)
 {
     const sph_index failed =
         sph_curl_difference(COLLAPSE_KERNEL, 3, collapse_cloud(g, first, last), collapse_gas(g),
-                            collapse_vectors(g, BX), collapse_into(&g->rate[BX]));
+                            vectors_of(g->a + BX, 3), vectors_into(g->rate + BX, 3));
     sph_index i;
     for (i = first; i < last; i++)
         g->a[ALPHA_B][i] =
@@ -348,8 +341,8 @@ static inline sph_index collapse_resistivity_sweep(collapse *g, sph_index first,
 static inline sph_index collapse_rates_sweep(collapse *g, sph_index first, sph_index last)
 {
     sph_mhd_out out = {0};
-    out.acceleration = collapse_into(&g->rate[VX]);
-    out.rate_B = collapse_into(&g->rate[BX]);
+    out.acceleration = vectors_into(g->rate + VX, 3);
+    out.rate_B = vectors_into(g->rate + BX, 3);
     out.rate_u = NULL;
     out.rate_psi = g->rate[PSI];
     out.div_B = g->a[DIV_B];
@@ -571,7 +564,7 @@ static inline void collapse_feed(collapse *g)
     g->s.objection[0] = '\0';
     if (!(core->m > 0) && g->model.rho_sink > 0 && g->s.densest > g->model.rho_sink) {
         sph_index densest = 0, members, k;
-        sph_index *const member = (sph_index *)tree_memory(NULL, (size_t)g->s.n, sizeof *member);
+        sph_index *const member = (sph_index *)need(NULL, (size_t)g->s.n, sizeof *member);
         sink_clump clump;
         const char *objection;
         for (i = 1; i < g->s.n; i++)
@@ -721,7 +714,7 @@ static inline int collapse_transfer_all(collapse_file *file, collapse *g, void *
         if (!collapse_transfer(file, g->rate[k], (size_t)g->s.n * sizeof(double))) return 0;
     if (file->reads) {
         *more_size = (size_t)size;
-        *more = tree_memory(NULL, *more_size + 1, 1);
+        *more = need(NULL, *more_size + 1, 1);
     }
     if (!collapse_transfer(file, *more, *more_size)) return 0;
     hash = file->hash;

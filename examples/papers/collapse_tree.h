@@ -12,11 +12,8 @@
 #define COLLAPSE_TREE_H
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "../../sph.h"
+#include "../common/host.h"
 
 enum { TREE_LEAF = 8, TREE_DEPTH = 26 };
 
@@ -36,15 +33,7 @@ typedef struct tree {
     sph_index room;   /* particles that the memory is for */
 } tree;
 
-static inline void *tree_memory(void *old, size_t count, size_t size)
-{
-    void *const p = realloc(old, count * size);
-    if (!p) {
-        fprintf(stderr, "out of memory (%lu x %lu bytes)\n", (unsigned long)count, (unsigned long)size);
-        exit(2);
-    }
-    return p;
-}
+#define tree_memory(old, count, size) need(old, count, size) /* as tests/test_collapse.c calls it */
 static inline void tree_free(tree *t)
 {
     free(t->node);
@@ -107,8 +96,8 @@ static inline void tree_order(tree *t, sph_index n, const double *x, const doubl
     t->nodes = 2 * t->leaves - 1;
     if (n > t->room) {
         t->room = n;
-        t->order = (sph_index *)tree_memory(t->order, (size_t)n, sizeof *t->order);
-        t->node = (tree_node *)tree_memory(t->node, (size_t)t->nodes, sizeof *t->node);
+        t->order = (sph_index *)need(t->order, (size_t)n, sizeof *t->order);
+        t->node = (tree_node *)need(t->node, (size_t)t->nodes, sizeof *t->node);
     }
     for (i = 0; i < n; i++) t->order[i] = i;
     tree_split(t, p, 0, 0, n, 0);
@@ -216,12 +205,12 @@ typedef struct tree_rows {
 static inline void tree_neighbours(const tree *t, const double *x, const double *y, const double *z, const double *radius, double box, tree_rows *rows)
 {
     const size_t n = (size_t)t->n;
-    double *const room = (double *)tree_memory(NULL, 5 * n, sizeof *room);
-    sph_index *const which = (sph_index *)tree_memory(NULL, n, sizeof *which);
+    double *const room = (double *)need(NULL, 5 * n, sizeof *room);
+    sph_index *const which = (sph_index *)need(NULL, n, sizeof *which);
     double *const cx = room, *const cy = room + n, *const cz = room + 2 * n, *const cr = room + 3 * n, *const beyond = room + 4 * n;
     const double inverse = box > 0 ? 1 / box : 0;
     int leaf;
-    rows->start = (sph_index *)tree_memory(rows->start, n + 1, sizeof *rows->start);
+    rows->start = (sph_index *)need(rows->start, n + 1, sizeof *rows->start);
     rows->start[0] = 0;
     rows->pairs = 0;
     for (leaf = t->leaves - 1; leaf < t->nodes; leaf++) {
@@ -251,7 +240,7 @@ static inline void tree_neighbours(const tree *t, const double *x, const double 
         needed = rows->pairs + (int64_t)found * (group->last - group->first) + 1;
         if (needed > rows->capacity) {
             rows->capacity = 2 * needed;
-            rows->index = (sph_index *)tree_memory(rows->index, (size_t)rows->capacity, sizeof *rows->index);
+            rows->index = (sph_index *)need(rows->index, (size_t)rows->capacity, sizeof *rows->index);
         }
         for (i = group->first; i < group->last; i++) {
             sph_index *const row = rows->index + rows->pairs;
@@ -327,7 +316,7 @@ static inline void tree_gravity(sph_kernel kernel, const tree *t, int first, int
     const double *const p[5] = {m, x, y, z, h};
     const double support = sph_kernel_support_ratio(kernel);
     const size_t n = (size_t)(t->n > t->nodes ? t->n : t->nodes);
-    double *const room = (double *)tree_memory(NULL, 15 * n, sizeof *room);
+    double *const room = (double *)need(NULL, 15 * n, sizeof *room);
     tree_seen s;
     int leaf, c;
     for (c = 0; c < 10; c++) s.node[c] = room + (size_t)c * n;

@@ -20,11 +20,9 @@
 #endif
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
-#include "../../sph.h"
 #include "../common/figure.h"
+#include "../common/host.h"
 #include "../common/random.h"
 #include "../common/report.h"
 
@@ -55,48 +53,24 @@ typedef struct cloud {
     double *depth;          /* distance from the boundary of the domain */
     double *V, *m, *u, *value, *diagonal; /* m = 1 until it is set */
     unsigned char *status;
-    sph_index *start, *index;
-    double *row; /* as long as index */
-    void *work;
+    search_grid grid;
+    search_lists lists;
+    double *row; /* as long as lists.index */
     int capacity;
-    size_t work_size, pair_capacity;
+    int64_t row_capacity;
 } cloud;
-
-static inline void *elliptic_memory(void *old, size_t size)
-{
-    void *p = realloc(old, size);
-    if (!p) {
-        fprintf(stderr, "elliptic: out of memory (%lu bytes)\n", (unsigned long)size);
-        exit(2);
-    }
-    return p;
-}
-
-static inline void elliptic_expect(sph_index answer)
-{
-    if (answer < 0) {
-        fprintf(stderr, "elliptic: %s\n", sph_status_text((int)answer));
-        exit(2);
-    }
-}
 
 /* Room for n particles; what they were is lost. */
 static inline void cloud_size(cloud *c, int dim, int n)
 {
     double **const arrays[] = {&c->x, &c->y, &c->z, &c->depth, &c->V, &c->m, &c->u, &c->value, &c->diagonal};
-    size_t a, size;
+    size_t a;
     int i;
     if (n > c->capacity) {
         for (a = 0; a < sizeof arrays / sizeof *arrays; a++)
-            *arrays[a] = (double *)elliptic_memory(*arrays[a], (size_t)n * sizeof(double));
-        c->status = (unsigned char *)elliptic_memory(c->status, (size_t)n);
-        c->start = (sph_index *)elliptic_memory(c->start, ((size_t)n + 1) * sizeof *c->start);
+            *arrays[a] = (double *)need(*arrays[a], (size_t)n, sizeof(double));
+        c->status = (unsigned char *)need(c->status, (size_t)n, 1);
         c->capacity = n;
-    }
-    size = sph_grid_workspace(dim, n);
-    if (size > c->work_size) {
-        c->work = elliptic_memory(c->work, size);
-        c->work_size = size;
     }
     c->dim = dim;
     c->n = n;
@@ -109,23 +83,19 @@ static inline void cloud_size(cloud *c, int dim, int n)
 
 static inline void cloud_close(cloud *c)
 {
-    void *const arrays[] = {c->x,     c->y,        c->z,      c->depth, c->V,     c->m,   c->u,
-                            c->value, c->diagonal, c->status, c->start, c->index, c->row, c->work};
+    void *const arrays[] = {c->x, c->y,   c->z,     c->depth,    c->V,     c->m,
+                            c->u, c->row, c->value, c->diagonal, c->status};
     size_t a;
     for (a = 0; a < sizeof arrays / sizeof *arrays; a++) free(arrays[a]);
+    search_grid_close(&c->grid);
+    search_lists_close(&c->lists);
 }
 
 static inline sph_points cloud_points(const cloud *c) { return sph_points_separate(c->n, c->x, c->y, c->z); }
-static inline sph_list cloud_list(const cloud *c)
-{
-    sph_list l;
-    l.start = c->start;
-    l.index = c->index;
-    return l;
-}
 static inline sph_cloud cloud_all(const cloud *c)
 {
-    return sph_cloud_of(cloud_points(c), cloud_list(c), sph_scalars_same(&c->h), sph_scalars_array(c->V));
+    return sph_cloud_of(cloud_points(c), search_list(&c->lists), sph_scalars_same(&c->h),
+                        sph_scalars_array(c->V));
 }
 /* axis 0, 1, 2 */
 static inline double *cloud_axis(const cloud *c, int axis)
@@ -208,67 +178,59 @@ static inline int cloud_inside(const cloud *c, int i)
     return c->depth[i] + c->dx - c->jitter >= reach * (1 - 1e-9);
 }
 
+/* Room for a number for each entry of the lists. */
+static inline void cloud_row_size(cloud *c)
+{
+    if (c->lists.capacity <= c->row_capacity) return;
+    c->row = (double *)need(c->row, (size_t)c->lists.capacity, sizeof *c->row);
+    c->row_capacity = c->lists.capacity;
+}
+/* Lists by a criterion; no radius exceeds `widest`. */
+static inline void cloud_search(cloud *c, sph_points x, int criterion, sph_scalars radius, double widest)
+{
+    search_grid_build(&c->grid, c->dim, x, widest);
+    search_lists_find(&c->lists, c->dim, &c->grid, sph_query_of(x, criterion, radius, SPH_LIST_SORTED));
+    cloud_row_size(c);
+}
 /* Neighbours for the smoothing length h. */
 static inline void cloud_neighbours(cloud *c, double h)
 {
     const double radius = h * sph_kernel_support_ratio(ELLIPTIC_KERNEL);
-    const sph_scalars R = sph_scalars_same(&radius);
-    sph_grid grid;
-    int64_t pairs;
     c->h = h;
-    elliptic_expect(sph_grid_build(c->dim, cloud_points(c), radius, c->work, c->work_size, &grid));
-    elliptic_expect(
-        sph_grid_count(c->dim, &grid, sph_query_of(cloud_points(c), SPH_GATHER, R, SPH_LIST_SORTED), c->start, &pairs));
-    if ((size_t)pairs > c->pair_capacity) {
-        c->pair_capacity = (size_t)pairs;
-        c->index = (sph_index *)elliptic_memory(c->index, c->pair_capacity * sizeof *c->index);
-        c->row = (double *)elliptic_memory(c->row, c->pair_capacity * sizeof *c->row);
-    }
-    elliptic_expect(sph_grid_lists(c->dim, &grid, sph_query_of(cloud_points(c), SPH_GATHER, R, SPH_LIST_SORTED), c->start, c->index, pairs, &pairs));
+    cloud_search(c, cloud_points(c), SPH_GATHER, sph_scalars_same(&radius), radius);
 }
 
-/* The sweeps fold for a constant dimension, so there is one copy for each. */
-SPH_FN sph_index cloud_rows_in(int dim, cloud *c, int scheme, sph_elliptic_options o)
-{
-    const sph_cloud all = cloud_all(c);
-    const sph_scalars m = sph_scalars_array(c->m);
-    sph_rows_out out = {0};
-    out.row = c->row;
-    out.diagonal = c->diagonal;
-    out.status = c->status;
-    if (scheme == SCHEME_B) return sph_elliptic_rows_brookshaw(ELLIPTIC_KERNEL, dim, all, m, o, out);
-    if (scheme == SCHEME_CB)
-        return sph_elliptic_rows_brookshaw_corrected(ELLIPTIC_KERNEL, dim, all, m, o, out);
-    if (scheme == SCHEME_S) return sph_elliptic_rows_schwaiger(ELLIPTIC_KERNEL, dim, all, m, o, out);
-    return sph_elliptic_rows_msph(ELLIPTIC_KERNEL, dim, all, m, o, out);
-}
-SPH_FN sph_index cloud_apply_in(int dim, cloud *c, int scheme, sph_elliptic_options o)
-{
-    const sph_cloud all = cloud_all(c);
-    const sph_scalars m = sph_scalars_array(c->m), u = sph_scalars_array(c->u);
-    const sph_scalar_out out = sph_scalar_out_array(c->value, c->status);
-    if (scheme == SCHEME_B) return sph_elliptic_brookshaw(ELLIPTIC_KERNEL, dim, all, m, o, u, out);
-    if (scheme == SCHEME_CB) return sph_elliptic_brookshaw_corrected(ELLIPTIC_KERNEL, dim, all, m, o, u, out);
-    if (scheme == SCHEME_S) return sph_elliptic_schwaiger(ELLIPTIC_KERNEL, dim, all, m, o, u, out);
-    return sph_elliptic_msph(ELLIPTIC_KERNEL, dim, all, m, o, u, out);
-}
-
-/* div(m grad u) as rows, or of c->u into c->value. Both return how many particles are not ok (c->status tells). */
+/* div(m grad u) as rows, or of c->u into c->value. Both return how many particles are not ok (c->status
+   tells). */
 static inline int cloud_rows(cloud *c, int scheme, sph_elliptic_options o)
 {
-    const sph_index bad = c->dim == 1   ? cloud_rows_in(1, c, scheme, o)
-                          : c->dim == 2 ? cloud_rows_in(2, c, scheme, o)
-                                        : cloud_rows_in(3, c, scheme, o);
-    elliptic_expect(bad);
-    return (int)bad;
+    const sph_kernel k = ELLIPTIC_KERNEL;
+    const int dim = c->dim;
+    const sph_cloud all = cloud_all(c);
+    const sph_scalars m = sph_scalars_array(c->m);
+    const sph_rows_out out = {.row = c->row, .diagonal = c->diagonal, .status = c->status};
+    sph_index bad;
+    if (scheme == SCHEME_B) bad = WITH_DIM_1_2_3(sph_elliptic_rows_brookshaw, k, dim, all, m, o, out);
+    else if (scheme == SCHEME_CB)
+        bad = WITH_DIM_1_2_3(sph_elliptic_rows_brookshaw_corrected, k, dim, all, m, o, out);
+    else if (scheme == SCHEME_S) bad = WITH_DIM_1_2_3(sph_elliptic_rows_schwaiger, k, dim, all, m, o, out);
+    else bad = WITH_DIM_1_2_3(sph_elliptic_rows_msph, k, dim, all, m, o, out);
+    return (int)expect(bad);
 }
 static inline int cloud_apply(cloud *c, int scheme, sph_elliptic_options o)
 {
-    const sph_index bad = c->dim == 1   ? cloud_apply_in(1, c, scheme, o)
-                          : c->dim == 2 ? cloud_apply_in(2, c, scheme, o)
-                                        : cloud_apply_in(3, c, scheme, o);
-    elliptic_expect(bad);
-    return (int)bad;
+    const sph_kernel k = ELLIPTIC_KERNEL;
+    const int dim = c->dim;
+    const sph_cloud all = cloud_all(c);
+    const sph_scalars m = sph_scalars_array(c->m), u = sph_scalars_array(c->u);
+    const sph_scalar_out out = sph_scalar_out_array(c->value, c->status);
+    sph_index bad;
+    if (scheme == SCHEME_B) bad = WITH_DIM_1_2_3(sph_elliptic_brookshaw, k, dim, all, m, o, u, out);
+    else if (scheme == SCHEME_CB)
+        bad = WITH_DIM_1_2_3(sph_elliptic_brookshaw_corrected, k, dim, all, m, o, u, out);
+    else if (scheme == SCHEME_S) bad = WITH_DIM_1_2_3(sph_elliptic_schwaiger, k, dim, all, m, o, u, out);
+    else bad = WITH_DIM_1_2_3(sph_elliptic_msph, k, dim, all, m, o, u, out);
+    return (int)expect(bad);
 }
 
 /* A value that the paper shows in an image, or not at all, against the one that this toolkit had when it was checked against an independent implementation. */

@@ -33,7 +33,7 @@ static void system_of(cloud *c, int N, int scheme, int mixed, sparse *A, double 
 {
     const double *const psi = mixed ? elliptic_psi_mixed : elliptic_psi_dirichlet;
     const int inner = N * N;
-    unsigned char *const dirichlet = (unsigned char *)elliptic_memory(NULL, (size_t)c->n);
+    unsigned char *const dirichlet = (unsigned char *)need(NULL, (size_t)c->n, 1);
     int i;
     for (i = 0; i < c->n; i++) {
         const int face = i < inner ? -1 : (i - inner) / N;
@@ -279,14 +279,15 @@ static void disordered(report *r, const random_table *t, cloud *c, int full, pro
             brookshaw[n] = solve_problem(c, N, SCHEME_CB, t->mixed, exact);
             msph[n] = solve_problem(c, N, SCHEME_M, t->mixed, exact);
             if (n < 3) { /* Schwaiger's rows are M-SPH's */
-                double *const row = elliptic_vector(c->start[c->n]), size = 0;
+                double *const row = elliptic_vector(c->lists.start[c->n]), size = 0;
                 cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
-                for (p = 0; p < c->start[c->n]; p++) {
+                for (p = 0; p < c->lists.start[c->n]; p++) {
                     row[p] = c->row[p];
                     size = fmax(size, fabs(row[p]));
                 }
                 cloud_rows(c, SCHEME_S, (sph_elliptic_options){0});
-                for (p = 0; p < c->start[c->n]; p++) apart[1] = fmax(apart[1], fabs(row[p] - c->row[p]) / size);
+                for (p = 0; p < c->lists.start[c->n]; p++)
+                    apart[1] = fmax(apart[1], fabs(row[p] - c->row[p]) / size);
                 free(row);
             }
             *done += N * N;

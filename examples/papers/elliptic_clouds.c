@@ -165,11 +165,11 @@ static double order_of(int problem, int kind, int method)
 /* rows in s->c.row that are not those of an M-matrix; *deep: those of them out of reach of the boundary */
 static int rows_lost(const scatter *s, int *deep)
 {
-    unsigned char *const monotone = (unsigned char *)elliptic_memory(NULL, (size_t)s->c.n);
+    unsigned char *const monotone = (unsigned char *)need(NULL, (size_t)s->c.n, 1);
     const sph_cloud inner = sph_cloud_range(scatter_cloud(s), 0, s->inner);
     const int lost = (int)sph_rows_monotone(inner, s->c.row, sph_scalars_array(s->c.diagonal), monotone);
     int i;
-    elliptic_expect(lost);
+    expect(lost);
     *deep = 0;
     for (i = 0; i < s->inner; i++)
         *deep += !monotone[i] && s->c.depth[i] > s->h[i] * sph_kernel_support_ratio(ELLIPTIC_KERNEL);

@@ -102,8 +102,8 @@ static sph_sym row_moment(const cloud *c, int i)
 {
     sph_sym s = {0, 0, 0, 0, 0, 0};
     sph_index p;
-    for (p = c->start[i]; p < c->start[i + 1]; p++) {
-        const sph_index j = c->index[p];
+    for (p = c->lists.start[i]; p < c->lists.start[i + 1]; p++) {
+        const sph_index j = c->lists.index[p];
         const double w = c->row[p] / (c->m[i] + c->m[j]), x = c->x[j] - c->x[i], y = c->y[j] - c->y[i];
         s.xx += w * x * x;
         s.xy += w * x * y;
@@ -126,8 +126,8 @@ static tensors tensors_of(const cloud *c, int i, int gradient)
     int pass;
     s.nu = c->V[i] * sph_kernel_w(ELLIPTIC_KERNEL, 2, 0, c->h);
     for (pass = 0; pass < 2; pass++) /* nu and its gradient first */
-        for (p = c->start[i]; p < c->start[i + 1]; p++) {
-            const sph_index j = c->index[p];
+        for (p = c->lists.start[i]; p < c->lists.start[i + 1]; p++) {
+            const sph_index j = c->lists.index[p];
             const sph_vec e = {c->x[j] - c->x[i], c->y[j] - c->y[i], 0};
             const sph_wf v = sph_kernel_wf(ELLIPTIC_KERNEL, 2, sph_length(2, e), c->h);
             if (pass == 0) {
@@ -172,7 +172,8 @@ static void apply_m_star(cloud *c, int gradient)
     for (i = 0; i < c->n; i++) {
         double scale, sum = 0;
         const tensors t = gamma_star_of(c, i, gradient, &scale);
-        for (p = c->start[i]; p < c->start[i + 1]; p++) sum += c->row[p] * (c->u[c->index[p]] - c->u[i]);
+        for (p = c->lists.start[i]; p < c->lists.start[i + 1]; p++)
+            sum += c->row[p] * (c->u[c->lists.index[p]] - c->u[i]);
         c->value[i] = 0.5 * (t.k_xx + t.k_yy) / (t.k_xx * t.k_yy - t.k_xy * t.k_yx) / scale * sum;
     }
 }
@@ -262,9 +263,9 @@ static double corrected_first_sum(const cloud *c, int i, int which)
     sph_sym moment = {0, 0, 0, 0, 0, 0};
     double first = 0, gx = 0, gy = 0, nx = 0, ny = 0, tx = 0, ty = 0;
     sph_index p;
-    for (p = c->start[i]; p < c->start[i + 1]; p++) {
-        const double w = c->row[p], du = c->u[c->index[p]] - c->u[i], x = c->x[c->index[p]] - c->x[i],
-                     y = c->y[c->index[p]] - c->y[i];
+    for (p = c->lists.start[i]; p < c->lists.start[i + 1]; p++) {
+        const sph_index j = c->lists.index[p];
+        const double w = c->row[p], du = c->u[j] - c->u[i], x = c->x[j] - c->x[i], y = c->y[j] - c->y[i];
         const double cx = C.xx * x + C.xy * y, cy = C.xy * x + C.yy * y,
                      star = w * (x * cx + y * cy) / (x * x + y * y);
         first += star * du;
@@ -404,7 +405,7 @@ static void figure34(report *r, cloud *c, const char *figures, int field, int s,
     patch(c, 2, SIDE, 1.2);
     sample(c, field, s);
     for (gradient = 0; gradient < GRADIENTS; gradient++) {
-        double *const schwaiger = (double *)elliptic_memory(NULL, (size_t)c->n * sizeof(double));
+        double *const schwaiger = (double *)need(NULL, (size_t)c->n, sizeof(double));
         for (scheme = 0; scheme < ALL_SCHEMES; scheme++) {
             const int bad = apply(c, scheme, gradient);
             if (scheme == SCHEME_M_STAR_SAFE) fell[gradient] = bad;
@@ -518,8 +519,8 @@ static double schwaiger_as_printed(const cloud *c, int i)
     double first = 0, nx = 0, ny = 0, grad_mu_x = 0, grad_mu_y = 0, grad_m_x = 0, grad_m_y = 0, grad_u_x = 0,
            grad_u_y = 0;
     sph_index p;
-    for (p = c->start[i]; p < c->start[i + 1]; p++) {
-        const sph_index j = c->index[p];
+    for (p = c->lists.start[i]; p < c->lists.start[i + 1]; p++) {
+        const sph_index j = c->lists.index[p];
         const double m_j = c->m[j], u_j = c->u[j], w = c->row[p] / (m_i + m_j), x = c->x[j] - c->x[i],
                      y = c->y[j] - c->y[i];
         const double gx = w * (C.xx * x + C.xy * y), gy = w * (C.xy * x + C.yy * y);
@@ -590,8 +591,8 @@ static void two_point_form(report *r, cloud *c)
     }
     diagnosis.n = c->value;
     for (gradient = 0; gradient < 2; gradient++) {
-        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, cloud_all(c),
-                                              elliptic_with_gradient(gradient), diagnosis));
+        expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, cloud_all(c), elliptic_with_gradient(gradient),
+                                     diagnosis));
         for (i = 0; i < c->n; i++) largest_n[gradient] = fmax(largest_n[gradient], c->value[i] * c->h);
     }
     snprintf(text, sizeof text, "largest |N| h: %.1e with (16), %.2g with (15)", largest_n[1], largest_n[0]);
@@ -608,8 +609,8 @@ static void transmissibility(report *r, cloud *c)
     sph_index p;
     patch(c, 2, 21, 1.2);
     cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
-    for (p = c->start[middle]; p < c->start[middle + 1]; p++) {
-        const sph_index j = c->index[p];
+    for (p = c->lists.start[middle]; p < c->lists.start[middle + 1]; p++) {
+        const sph_index j = c->lists.index[p];
         const double e = hypot(c->x[j] - c->x[middle], c->y[j] - c->y[middle]),
                      G = c->h * e * sph_kernel_f(ELLIPTIC_KERNEL, 2, e, c->h);
         most = fmax(most, c->V[j] / (c->h * e) * G); /* xi = 0 here */
@@ -642,7 +643,7 @@ static void continuity(report *r, cloud *c)
         o.continuity = c->u;
         o.n = c->value;
         o.n_bound = c->diagonal;
-        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, cloud_all(c), (sph_elliptic_options){0}, o));
+        expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, cloud_all(c), (sph_elliptic_options){0}, o));
         for (i = 0; i < c->n; i++) {
             largest = fmax(largest, c->u[i]);
             if (c->diagonal[i] > 0) ratio = fmax(ratio, c->value[i] / c->diagonal[i]);
@@ -665,8 +666,8 @@ static moments_1d moments_at(cloud *c, int i)
     moments_1d m = {0, 0, 0};
     sph_index p;
     cloud_rows(c, SCHEME_B, (sph_elliptic_options){0});
-    for (p = c->start[i]; p < c->start[i + 1]; p++) {
-        const double e = c->x[c->index[p]] - c->x[i], g = 0.5 * c->row[p] * e; /* m = 1: row = 2 V t */
+    for (p = c->lists.start[i]; p < c->lists.start[i + 1]; p++) {
+        const double e = c->x[c->lists.index[p]] - c->x[i], g = 0.5 * c->row[p] * e; /* m = 1: row = 2 V t */
         m.n += g;
         m.gamma += g * e;
         m.u += g * e * e;
@@ -1029,11 +1030,12 @@ static void anisotropic(report *r, cloud *c)
         for (form = 0; form < 2; form++) {
             const sph_cloud all = cloud_all(c);
             const int middle = 220;
-            if (form) elliptic_expect(sph_elliptic_rows_anisotropic(ELLIPTIC_KERNEL, 2, all, M, out));
-            else elliptic_expect(elliptic_rows_msph_diagonal(ELLIPTIC_KERNEL, 2, all, M, c->row));
+            if (form) expect(sph_elliptic_rows_anisotropic(ELLIPTIC_KERNEL, 2, all, M, out));
+            else expect(elliptic_rows_msph_diagonal(ELLIPTIC_KERNEL, 2, all, M, c->row));
             for (axis = 0; axis < 2; axis++) {
                 for (i = 0; i < c->n; i++) c->u[i] = cloud_axis(c, axis)[i] * cloud_axis(c, axis)[i];
-                elliptic_expect(sph_rows_apply(sph_cloud_range(all, middle, middle + 1), c->row, sph_scalars_none(), sph_scalars_array(c->u), sph_scalar_out_array(c->value, 0)));
+                expect(sph_rows_apply(sph_cloud_range(all, middle, middle + 1), c->row, sph_scalars_none(),
+                                      sph_scalars_array(c->u), sph_scalar_out_array(c->value, 0)));
                 value[form][axis] = c->value[middle];
             }
         }
@@ -1064,8 +1066,8 @@ static void free_surface(report *r, cloud *c)
     int k;
     patch(c, 2, 21, 1.2);
     o.eigenvalue_least = c->value;
-    elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, cloud_all(c),
-                                          elliptic_with_gradient(SPH_GRADIENT_SHEPARD_DIFFUSE), o));
+    expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, cloud_all(c),
+                                 elliptic_with_gradient(SPH_GRADIENT_SHEPARD_DIFFUSE), o));
     report_section(r, "Section 2.1: the least eigenvalue of C^-1");
     for (k = 0; k < 3; k++) {
         value[k] = c->value[particle[k]];

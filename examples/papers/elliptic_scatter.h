@@ -35,8 +35,8 @@ static inline void scatter_size(scatter *s, int dim, int n)
     int a;
     cloud_size(&s->c, dim, n);
     if (n > s->capacity) {
-        s->spacing = (double *)elliptic_memory(s->spacing, (size_t)n * sizeof(double));
-        s->h = (double *)elliptic_memory(s->h, (size_t)n * sizeof(double));
+        s->spacing = (double *)need(s->spacing, (size_t)n, sizeof(double));
+        s->h = (double *)need(s->h, (size_t)n, sizeof(double));
         s->capacity = n;
     }
     s->inner = n;
@@ -58,7 +58,7 @@ static inline sph_points scatter_points(const scatter *s)
 }
 static inline sph_cloud scatter_cloud(const scatter *s)
 {
-    return sph_cloud_of(scatter_points(s), cloud_list(&s->c), sph_scalars_array(s->h),
+    return sph_cloud_of(scatter_points(s), search_list(&s->c.lists), sph_scalars_array(s->h),
                         sph_scalars_array(s->c.V));
 }
 
@@ -158,8 +158,8 @@ static inline void scatter_discs(scatter *s, int dim, int N, double grade, pcg32
     s->c.dx = dx0;
     b.side = (int)floor(1 / (close * largest));
     buckets = dim == 2 ? b.side * b.side : b.side * b.side * b.side;
-    b.first = (int *)elliptic_memory(NULL, (size_t)buckets * sizeof(int));
-    b.next = (int *)elliptic_memory(NULL, (size_t)room * sizeof(int));
+    b.first = (int *)need(NULL, (size_t)buckets, sizeof(int));
+    b.next = (int *)need(NULL, (size_t)room, sizeof(int));
     for (i = 0; i < buckets; i++) b.first[i] = -1;
     for (a = 0; a < dim; a++)
         for (end = 0; end < 2; end++) {
@@ -205,26 +205,14 @@ static inline void scatter_discs(scatter *s, int dim, int N, double grade, pcg32
 static inline void scatter_neighbours(scatter *s, double factor)
 {
     cloud *const c = &s->c;
-    double *const radius = (double *)elliptic_memory(NULL, (size_t)c->n * sizeof *radius), largest = 0;
-    const sph_points x = scatter_points(s);
-    sph_scalars R;
-    sph_grid grid;
-    int64_t pairs;
+    double *const radius = (double *)need(NULL, (size_t)c->n, sizeof *radius), largest = 0;
     int i;
     for (i = 0; i < c->n; i++) {
         s->h[i] = factor * s->spacing[i];
         radius[i] = s->h[i] * sph_kernel_support_ratio(ELLIPTIC_KERNEL);
         largest = fmax(largest, radius[i]);
     }
-    R = sph_scalars_array(radius);
-    elliptic_expect(sph_grid_build(c->dim, x, largest, c->work, c->work_size, &grid));
-    elliptic_expect(sph_grid_count(c->dim, &grid, sph_query_of(x, SPH_LARGER, R, SPH_LIST_SORTED), c->start, &pairs));
-    if ((size_t)pairs > c->pair_capacity) {
-        c->pair_capacity = (size_t)pairs;
-        c->index = (sph_index *)elliptic_memory(c->index, c->pair_capacity * sizeof *c->index);
-        c->row = (double *)elliptic_memory(c->row, c->pair_capacity * sizeof *c->row);
-    }
-    elliptic_expect(sph_grid_lists(c->dim, &grid, sph_query_of(x, SPH_LARGER, R, SPH_LIST_SORTED), c->start, c->index, pairs, &pairs));
+    cloud_search(c, scatter_points(s), SPH_LARGER, sph_scalars_array(radius), largest);
     free(radius);
 }
 
@@ -233,49 +221,40 @@ static inline void scatter_volumes(scatter *s)
 {
     const double one = 1;
     const sph_scalars m = sph_scalars_same(&one);
+    const sph_scalar_out out = sph_scalar_out_array(s->c.V, 0);
     int i;
-    if (s->c.dim == 2)
-        elliptic_expect(sph_density_summation(ELLIPTIC_KERNEL, 2, scatter_cloud(s), m, sph_scalar_out_array(s->c.V, 0)));
-    else elliptic_expect(sph_density_summation(ELLIPTIC_KERNEL, 3, scatter_cloud(s), m, sph_scalar_out_array(s->c.V, 0)));
+    expect(WITH_DIM_2_3(sph_density_summation, ELLIPTIC_KERNEL, s->c.dim, scatter_cloud(s), m, out));
     for (i = 0; i < s->c.n; i++) s->c.V[i] = 1 / s->c.V[i];
 }
 
 /* of the rows: gradient (15), gradient (16), options.trace */
 enum { SCATTER_PLAIN, SCATTER_FULL, SCATTER_TRACE };
 
-SPH_FN sph_index scatter_rows_in(int dim, int variant, int harmonic, scatter *s, int scheme)
+SPH_FN sph_index scatter_rows_in(int variant, int dim, int harmonic, scatter *s, int scheme)
 {
     const sph_cloud all = scatter_cloud(s);
     const sph_scalars m = sph_scalars_array(s->c.m);
+    const sph_rows_out out = {.row = s->c.row, .diagonal = s->c.diagonal, .status = s->c.status};
     sph_elliptic_options o = {0};
-    sph_rows_out out = {0};
     if (variant == SCATTER_FULL) o.gradient = SPH_GRADIENT_FULL;
     o.trace = variant == SCATTER_TRACE;
     if (harmonic) o.mean = SPH_MOBILITY_HARMONIC;
-    out.row = s->c.row;
-    out.diagonal = s->c.diagonal;
-    out.status = s->c.status;
     if (scheme == SCHEME_B) return sph_elliptic_rows_brookshaw(ELLIPTIC_KERNEL, dim, all, m, o, out);
     if (scheme == SCHEME_CB)
         return sph_elliptic_rows_brookshaw_corrected(ELLIPTIC_KERNEL, dim, all, m, o, out);
     return sph_elliptic_rows_msph(ELLIPTIC_KERNEL, dim, all, m, o, out);
 }
-/* full: the gradient (16), else (15); harmonic: that mean of m, else the arithmetic. Constants in each call, so that the loops fold. */
+/* full: the gradient (16), else (15); harmonic (in 2D): that mean of m, else the arithmetic. Constants in
+   each call, so that the loops fold. */
 static inline void scatter_rows(scatter *s, int scheme, int variant, int harmonic)
 {
     const int dim = s->c.dim;
-    sph_index bad; /* folds for constant arguments, so there is one copy for each */
-    if (variant == SCATTER_TRACE)
-        bad = dim == 2 ? scatter_rows_in(2, SCATTER_TRACE, 0, s, scheme)
-                       : scatter_rows_in(3, SCATTER_TRACE, 0, s, scheme);
-    else if (variant == SCATTER_FULL)
-        bad = dim == 2 ? scatter_rows_in(2, SCATTER_FULL, 0, s, scheme)
-                       : scatter_rows_in(3, SCATTER_FULL, 0, s, scheme);
-    else if (dim == 3) bad = scatter_rows_in(3, SCATTER_PLAIN, 0, s, scheme);
-    else
-        bad = harmonic ? scatter_rows_in(2, SCATTER_PLAIN, 1, s, scheme)
-                       : scatter_rows_in(2, SCATTER_PLAIN, 0, s, scheme);
-    elliptic_expect(bad);
+    sph_index bad;
+    if (variant == SCATTER_TRACE) bad = WITH_DIM_2_3(scatter_rows_in, SCATTER_TRACE, dim, 0, s, scheme);
+    else if (variant == SCATTER_FULL) bad = WITH_DIM_2_3(scatter_rows_in, SCATTER_FULL, dim, 0, s, scheme);
+    else if (harmonic && dim == 2) bad = scatter_rows_in(SCATTER_PLAIN, 2, 1, s, scheme);
+    else bad = WITH_DIM_2_3(scatter_rows_in, SCATTER_PLAIN, dim, 0, s, scheme);
+    expect(bad);
 }
 
 /* from particle i to the nearest image of j */
@@ -302,28 +281,19 @@ static inline double scatter_trace(const scatter *s, int i)
 {
     double sum = 0;
     int p;
-    for (p = s->c.start[i]; p < s->c.start[i + 1]; p++) {
-        const int j = s->c.index[p];
+    for (p = s->c.lists.start[i]; p < s->c.lists.start[i + 1]; p++) {
+        const int j = s->c.lists.index[p];
         const sph_vec e = scatter_separation(s, i, j);
         sum += s->c.row[p] / (0.5 * (s->c.m[i] + s->c.m[j])) * (e.x * e.x + e.y * e.y + e.z * e.z);
     }
     return sum / (2 * s->c.dim);
 }
-SPH_FN sph_index scatter_conditions_in(int dim, scatter *s, int first, double *const normal[3],
-                                       const double *alpha, const double *beta)
-{
-    const sph_boundary boundary = {sph_vectors_separate(normal[0], normal[1], normal[2]),
-                                   sph_scalars_array(alpha), sph_scalars_array(beta)};
-    const sph_rows_out out = {.row = s->c.row, .diagonal = s->c.diagonal};
-    return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, sph_cloud_range(scatter_cloud(s), first, s->c.n),
-                                      sph_scalars_array(s->c.m), (sph_elliptic_options){0}, boundary, out);
-}
+
 /* alpha u + beta m du/dn for the particles from `first` on that have one of them */
 static inline void scatter_conditions(scatter *s, int first, double *const normal[3], const double *alpha,
                                       const double *beta)
 {
-    elliptic_expect(s->c.dim == 2 ? scatter_conditions_in(2, s, first, normal, alpha, beta)
-                                  : scatter_conditions_in(3, s, first, normal, alpha, beta));
+    cloud_conditions(&s->c, scatter_cloud(s), first, normal, alpha, beta);
 }
 
 /* sqrt(sum V (u - exact)^2 / sum V exact^2) over the inner particles: the relative L2 norm */

@@ -51,7 +51,7 @@ static double cubic(const double *e, double s)
 static run integrate(cloud *c, int side, double f, double dt, double forcing, FILE *curve, double nu)
 {
     const int steps = (int)(TIMES / dt) + 4;
-    double *const error = (double *)elliptic_memory(NULL, ((size_t)steps + 1) * sizeof *error);
+    double *const error = (double *)need(NULL, (size_t)steps + 1, sizeof *error);
     run r;
     int step, i, k;
     cloud_lattice(c, 2, side, 0, 2.0 / (side - 1));
@@ -62,7 +62,8 @@ static run integrate(cloud *c, int side, double f, double dt, double forcing, FI
         const double t = step * dt;
         double worst = 0, series[64];
         if (step > 0)
-            elliptic_expect(sph_rows_apply(cloud_all(c), c->row, sph_scalars_none(), sph_scalars_array(c->u), sph_scalar_out_array(c->value, 0)));
+            expect(sph_rows_apply(cloud_all(c), c->row, sph_scalars_none(), sph_scalars_array(c->u),
+                                  sph_scalar_out_array(c->value, 0)));
         for (k = 0; k < side; k++) series[k] = exact_velocity(c->y[k * side], t);
         for (i = 0; i < c->n; i++) {
             const int column = i % side, line = i / side;
@@ -109,7 +110,7 @@ static void stencil(report *r, cloud *c)
     cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
     for (i = 0; i < c->n; i++)
         if (c->depth[i] > 0.5 * c->dx)
-            for (p = c->start[i]; p < c->start[i + 1]; p++)
+            for (p = c->lists.start[i]; p < c->lists.start[i + 1]; p++)
                 worst = fmax(worst, fabs(c->row[p] * c->dx * c->dx - 1));
     report_section(r, "Table 1: flow through a slit, explicit steps");
     report_absolute(r, "Table 1", "rows at f = 0.5005, inside", "max |dx^2 T - 1| (five-point stencil)", 0,

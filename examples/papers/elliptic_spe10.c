@@ -68,16 +68,13 @@ static void particles(problem *p)
     cloud_depths(&p->c);
 }
 
-SPH_FN void anisotropic_in(int dim, problem *p)
+static void anisotropic(problem *p)
 {
-    sph_diagonal M;
-    sph_rows_out out = {0};
-    M.x = sph_scalars_array(p->k[0]);
-    M.y = sph_scalars_array(p->k[1]);
-    M.z = sph_scalars_array(p->k[2]);
-    out.row = p->c.row;
-    out.diagonal = p->c.diagonal;
-    elliptic_expect(sph_elliptic_rows_anisotropic(ELLIPTIC_KERNEL, dim, cloud_all(&p->c), M, out));
+    const sph_cloud all = cloud_all(&p->c);
+    const sph_diagonal M = {sph_scalars_array(p->k[0]), sph_scalars_array(p->k[1]),
+                            sph_scalars_array(p->k[2])};
+    const sph_rows_out out = {.row = p->c.row, .diagonal = p->c.diagonal};
+    expect(WITH_DIM_2_3(sph_elliptic_rows_anisotropic, ELLIPTIC_KERNEL, p->dim, all, M, out));
 }
 
 enum { ANISOTROPIC = SCHEMES };
@@ -87,7 +84,7 @@ static double matrix(problem *p, int scheme, int mean, sparse *A, double *b)
 {
     cloud *const c = &p->c;
     const clock_t begin = clock();
-    unsigned char *const dirichlet = (unsigned char *)elliptic_memory(NULL, (size_t)c->n);
+    unsigned char *const dirichlet = (unsigned char *)need(NULL, (size_t)c->n, 1);
     sph_elliptic_options o = {0};
     double seconds;
     int i;
@@ -97,8 +94,7 @@ static double matrix(problem *p, int scheme, int mean, sparse *A, double *b)
         b[i] = i >= p->cells && c->y[i] == c->high[1];
     }
     if (scheme != ANISOTROPIC) cloud_rows(c, scheme, o);
-    else if (p->dim == 2) anisotropic_in(2, p);
-    else anisotropic_in(3, p);
+    else anisotropic(p);
     cloud_box_conditions(c, p->cells, dirichlet);
     seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;
     cloud_matrix(c, A, b);

@@ -39,8 +39,7 @@ static growth growth_of(cloud *c, int scheme, int gradient, double tau, FILE *fi
                 double re = 0, im = 0, size;
                 k.x = (2.0 * a / (WAVES - 1) - 1) * MATH_PI / c->dx;
                 k.y = (2.0 * b / (WAVES - 1) - 1) * MATH_PI / c->dx;
-                elliptic_expect(
-                    sph_rows_growth(2, sph_cloud_range(cloud_all(c), i, i + 1), c->row, tau, k, &re, &im));
+                expect(sph_rows_growth(2, sph_cloud_range(cloud_all(c), i, i + 1), c->row, tau, k, &re, &im));
                 size = sqrt(re * re + im * im);
                 if (inside) {
                     s.inside = fmax(s.inside, size);
@@ -146,20 +145,21 @@ typedef struct xi_statistics {
 static xi_statistics xi_of(cloud *c, double h, int n, int draws, uint64_t stream)
 {
     xi_statistics s = {0, 0, 0, 0};
-    double xi, least, most, square = 0;
+    double xi = 0, least = 0, most = 0, square = 0;
     sph_elliptic_report out = {0};
     sph_cloud middle;
     pcg32 g;
     int draw, i;
     pcg32_seed(&g, 2020, stream);
     cloud_size(c, 2, n + 1);
-    if (c->pair_capacity < (size_t)n) {
-        c->index = (sph_index *)elliptic_memory(c->index, (size_t)n * sizeof *c->index);
-        c->row = (double *)elliptic_memory(c->row, (size_t)n * sizeof *c->row);
-        c->pair_capacity = (size_t)n;
+    if (c->lists.capacity < n) {
+        c->lists.start = (sph_index *)need(c->lists.start, (size_t)n + 2, sizeof *c->lists.start);
+        c->lists.index = (sph_index *)need(c->lists.index, (size_t)n, sizeof *c->lists.index);
+        c->lists.capacity = n;
+        cloud_row_size(c);
     }
-    c->start[0] = 0;
-    c->start[1] = n;
+    c->lists.start[0] = 0;
+    c->lists.start[1] = n;
     middle = cloud_all(c);
     middle.h = sph_scalars_same(&h);
     middle.last = 1;
@@ -172,11 +172,11 @@ static xi_statistics xi_of(cloud *c, double h, int n, int draws, uint64_t stream
                 c->x[i] = 2 * pcg32_uniform(&g) - 1;
                 c->y[i] = 2 * pcg32_uniform(&g) - 1;
             } while (c->x[i] * c->x[i] + c->y[i] * c->y[i] > 1);
-            c->index[i - 1] = i;
+            c->lists.index[i - 1] = i;
             c->V[i] = 1; /* cancels */
         }
         c->V[0] = 1;
-        elliptic_expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, middle, (sph_elliptic_options){0}, out));
+        expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, middle, (sph_elliptic_options){0}, out));
         s.mean += xi / draws;
         square += xi * xi / draws;
         s.violated_93 += least > 0 ? 0 : 1.0 / draws;
@@ -258,9 +258,11 @@ typedef struct signs {
 static signs signs_of(cloud *c, int N, double f, double jitter, int draws)
 {
     signs s = {0, 0, 0, 0, 0, HUGE_VAL, 0, 0};
-    double *const least = (double *)elliptic_memory(NULL, 2 * (size_t)(N * N + 4 * N) * sizeof(double)),
-                  *const most = least + N * N + 4 * N;
-    unsigned char *const monotone = (unsigned char *)elliptic_memory(NULL, (size_t)(N * N + 4 * N));
+    double *const least = (double *)need(NULL, 2 * (size_t)(N * N + 4 * N), sizeof(double)), *const most =
+                                                                                                 least +
+                                                                                                 N * N +
+                                                                                                 4 * N;
+    unsigned char *const monotone = (unsigned char *)need(NULL, (size_t)(N * N + 4 * N), 1);
     const int dof = N * N;
     const double share = 1.0 / draws;
     pcg32 g;
@@ -276,12 +278,11 @@ static signs signs_of(cloud *c, int N, double f, double jitter, int draws)
         cloud_neighbours(c, f * c->dx);
         out.sign_least = least;
         out.sign_most = most;
-        elliptic_expect(
-            sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, cloud_all(c), (sph_elliptic_options){0}, out));
+        expect(sph_elliptic_diagnose(ELLIPTIC_KERNEL, 2, cloud_all(c), (sph_elliptic_options){0}, out));
         cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
         inner = sph_cloud_range(cloud_all(c), 0, dof);
         count = sph_rows_monotone(inner, c->row, sph_scalars_array(c->diagonal), monotone);
-        elliptic_expect(count);
+        expect(count);
         s.not_monotone += share * count;
         for (i = 0; i < dof; i++) {
             double sum = 0;
@@ -289,7 +290,7 @@ static signs signs_of(cloud *c, int N, double f, double jitter, int draws)
                 s.failed += share;
                 continue;
             }
-            for (p = c->start[i]; p < c->start[i + 1]; p++) sum += fabs(c->row[p]);
+            for (p = c->lists.start[i]; p < c->lists.start[i + 1]; p++) sum += fabs(c->row[p]);
             s.least = fmin(s.least, least[i]);
             s.violated_93 += least[i] > 0 ? 0 : share;
             s.violated_92 += least[i] > 0 || most[i] < 0 ? 0 : share;
@@ -299,7 +300,7 @@ static signs signs_of(cloud *c, int N, double f, double jitter, int draws)
         for (i = 0; i < c->n; i++) c->m[i] = exp(4 * (2 * pcg32_uniform(&g) - 1)); /* a contrast of 3000 */
         cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
         count = sph_rows_monotone(inner, c->row, sph_scalars_array(c->diagonal), NULL);
-        elliptic_expect(count);
+        expect(count);
         s.heterogeneous += share * count;
     }
     free(least);
@@ -393,17 +394,18 @@ static double inverse_least(cloud *c, int N, double f, double jitter, pcg32 *g, 
     if (jitter > 0) cloud_perturb(c, jitter, g);
     cloud_neighbours(c, f * c->dx);
     cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
-    count = sph_rows_monotone(sph_cloud_range(cloud_all(c), 0, N * N), c->row, sph_scalars_array(c->diagonal), NULL);
-    elliptic_expect(count);
+    count = sph_rows_monotone(sph_cloud_range(cloud_all(c), 0, N * N), c->row, sph_scalars_array(c->diagonal),
+                              NULL);
+    expect(count);
     *others = (int)count;
     n = c->n;
-    a = (double *)elliptic_memory(NULL, 2 * (size_t)n * (size_t)n * sizeof *a);
+    a = (double *)need(NULL, 2 * (size_t)n * (size_t)n, sizeof *a);
     b = a + n * n;
     for (i = 0; i < n * n; i++) a[i] = 0;
     for (i = 0; i < n; i++) {
         a[i * n + i] = i < N * N && c->diagonal[i] == 0 ? 0 : 1; /* 0: no row */
-        for (p = c->start[i]; p < c->start[i + 1] && i < N * N && c->diagonal[i] != 0; p++)
-            a[i * n + c->index[p]] += c->row[p] / c->diagonal[i];
+        for (p = c->lists.start[i]; p < c->lists.start[i + 1] && i < N * N && c->diagonal[i] != 0; p++)
+            a[i * n + c->lists.index[p]] += c->row[p] / c->diagonal[i];
     }
     if (invert_dense(n, a, b))
         for (i = 0; i < n * n; i++) {

@@ -21,29 +21,19 @@ static inline void elliptic_made(int answer, const char *what)
     exit(2);
 }
 
-static inline double *elliptic_vector(int n)
-{
-    double *const v = (double *)elliptic_memory(NULL, (size_t)n * sizeof *v);
-    int i;
-    for (i = 0; i < n; i++) v[i] = 0;
-    return v;
-}
+static inline double *elliptic_vector(int n) { return (double *)need_zeros((size_t)n, sizeof(double)); }
 
-SPH_FN sph_index cloud_conditions_in(int dim, cloud *c, int first, double *const normal[3],
-                                     const double *alpha, const double *beta)
+/* alpha u + beta m du/dn for the particles from `first` on that have one of them. all: cloud_all(c), or one
+   with an h of each particle's own; SPH_FN, so that its strides fold. */
+SPH_FN void cloud_conditions(cloud *c, sph_cloud all, int first, double *const normal[3], const double *alpha,
+                             const double *beta)
 {
-    const sph_boundary boundary = {sph_vectors_separate(normal[0], normal[1], normal[2]),
-                                   sph_scalars_array(alpha), sph_scalars_array(beta)};
+    const sph_cloud those = sph_cloud_range(all, first, c->n);
+    const sph_scalars m = sph_scalars_array(c->m);
+    const sph_elliptic_options o = {0};
+    const sph_boundary on = {vectors_of(normal, 3), sph_scalars_array(alpha), sph_scalars_array(beta)};
     const sph_rows_out out = {.row = c->row, .diagonal = c->diagonal};
-    return sph_elliptic_rows_boundary(ELLIPTIC_KERNEL, dim, sph_cloud_range(cloud_all(c), first, c->n),
-                                      sph_scalars_array(c->m), (sph_elliptic_options){0}, boundary, out);
-}
-/* alpha u + beta m du/dn for the particles from `first` on that have one of them */
-static inline void cloud_conditions(cloud *c, int first, double *const normal[3], const double *alpha,
-                                    const double *beta)
-{
-    elliptic_expect(c->dim == 2 ? cloud_conditions_in(2, c, first, normal, alpha, beta)
-                                : cloud_conditions_in(3, c, first, normal, alpha, beta));
+    expect(WITH_DIM_2_3(sph_elliptic_rows_boundary, ELLIPTIC_KERNEL, c->dim, those, m, o, on, out));
 }
 /* dirichlet[i] for i >= first: 1 for u, 0 for the flux m du/dn through the face that particle i lies on (100) */
 static inline void cloud_box_conditions(cloud *c, int first, const unsigned char *dirichlet)
@@ -57,7 +47,7 @@ static inline void cloud_box_conditions(cloud *c, int first, const unsigned char
         alpha[i] = dirichlet[i];
         beta[i] = !dirichlet[i];
     }
-    cloud_conditions(c, first, normal, alpha, beta);
+    cloud_conditions(c, cloud_all(c), first, normal, alpha, beta);
     for (a = 0; a < 3; a++) free(normal[a]);
     free(alpha);
     free(beta);
@@ -67,13 +57,14 @@ static inline void cloud_box_conditions(cloud *c, int first, const unsigned char
 static inline void cloud_matrix(const cloud *c, sparse *A, double *b)
 {
     const int64_t room = sph_csr_size(cloud_all(c));
-    sph_index *const start = (sph_index *)elliptic_memory(NULL, ((size_t)c->n + 1) * sizeof *start);
+    sph_index *const start = (sph_index *)need(NULL, (size_t)c->n + 1, sizeof *start);
     int i;
     A->n = c->n;
-    A->start = (int64_t *)elliptic_memory(NULL, ((size_t)c->n + 1) * sizeof *A->start);
-    A->index = (int *)elliptic_memory(NULL, (size_t)room * sizeof *A->index);
-    A->value = (double *)elliptic_memory(NULL, (size_t)room * sizeof *A->value);
-    elliptic_expect(sph_csr_assemble(cloud_all(c), c->row, sph_scalars_array(c->diagonal), 1, (sph_csr){start, A->index, A->value, room}, NULL));
+    A->start = (int64_t *)need(NULL, (size_t)c->n + 1, sizeof *A->start);
+    A->index = (int *)need(NULL, (size_t)room, sizeof *A->index);
+    A->value = (double *)need(NULL, (size_t)room, sizeof *A->value);
+    expect(sph_csr_assemble(cloud_all(c), c->row, sph_scalars_array(c->diagonal), 1,
+                            (sph_csr){start, A->index, A->value, room}, NULL));
     for (i = 0; i <= c->n; i++) A->start[i] = start[i];
     free(start);
     if (sparse_scale_rows(A, b) != 0) {

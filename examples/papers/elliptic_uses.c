@@ -78,7 +78,7 @@ typedef struct projection {
 static void gradient_of(const scatter *s, const double *f, double *gx, double *gy)
 {
     const sph_derivatives_out out = {.gx = gx, .gy = gy};
-    elliptic_expect(sph_gradient_cspm(ELLIPTIC_KERNEL, 2, scatter_cloud(s), sph_scalars_array(f), out));
+    expect(sph_gradient_cspm(ELLIPTIC_KERNEL, 2, scatter_cloud(s), sph_scalars_array(f), out));
 }
 static void divergence_of(const projection *q, const double *ux, const double *uy, double *out)
 {
@@ -98,10 +98,11 @@ static void projection_open(projection *q, scatter *s, int scale_traces)
     q->s = s;
     for (v = 0; v < sizeof vectors / sizeof *vectors; v++) *vectors[v] = elliptic_vector(n + 1);
     scatter_rows(s, SCHEME_M, scale_traces ? SCATTER_TRACE : SCATTER_PLAIN, 0);
-    sparse_begin(&build, n + 1, s->c.start[n] + 3 * (int64_t)n + 1);
+    sparse_begin(&build, n + 1, s->c.lists.start[n] + 3 * (int64_t)n + 1);
     for (i = 0; i < n; i++) {
         sparse_put(&build, i, s->c.diagonal[i]);
-        for (p = s->c.start[i]; p < s->c.start[i + 1]; p++) sparse_put(&build, s->c.index[p], s->c.row[p]);
+        for (p = s->c.lists.start[i]; p < s->c.lists.start[i + 1]; p++)
+            sparse_put(&build, s->c.lists.index[p], s->c.row[p]);
         sparse_put(&build, n, border);
         sparse_end_row(&build);
     }
@@ -159,17 +160,15 @@ static double projection_symbol(const scatter *s)
 {
     const sph_vec wave = {2 * pi, 2 * pi, 0};
     const sph_cloud all = scatter_cloud(s);
-    double *const wx = elliptic_vector(s->c.start[s->c.n]), *const wy = elliptic_vector(s->c.start[s->c.n]),
-                  symbol = 0, re = 0, im = 0;
+    double *const wx = elliptic_vector(s->c.lists.start[s->c.n]),
+                  *const wy = elliptic_vector(s->c.lists.start[s->c.n]), symbol = 0, re = 0, im = 0;
     int p;
-    elliptic_expect(
-        sph_gradient_rows_cspm(ELLIPTIC_KERNEL, 2, all, (sph_gradient_rows_out){.x = wx, .y = wy}));
-    for (p = s->c.start[0]; p < s->c.start[1]; p++) {
-        const sph_vec e = scatter_separation(s, 0, s->c.index[p]);
+    expect(sph_gradient_rows_cspm(ELLIPTIC_KERNEL, 2, all, (sph_gradient_rows_out){.x = wx, .y = wy}));
+    for (p = s->c.lists.start[0]; p < s->c.lists.start[1]; p++) {
+        const sph_vec e = scatter_separation(s, 0, s->c.lists.index[p]);
         symbol += wx[p] * sin(wave.x * e.x) * cos(wave.y * e.y);
     }
-    elliptic_expect(
-        sph_rows_growth(2, all, s->c.row, 1, wave, &re, &im)); /* of particle 0: re = 1 - lambda */
+    expect(sph_rows_growth(2, all, s->c.row, 1, wave, &re, &im)); /* of particle 0: re = 1 - lambda */
     free(wx);
     free(wy);
     return 1 - 2 * symbol * symbol / (1 - re);
@@ -327,15 +326,14 @@ static void disc_rows(scatter *s, int method, double *b)
         out.row = c->row;
         out.diagonal = c->diagonal;
         out.factor = elliptic_vector(c->n);
-        elliptic_expect(sph_derivatives_rows_wls(ELLIPTIC_KERNEL, 2, sph_cloud_range(all, 0, s->inner),
-                                                sph_jet_laplacian(2), out));
+        expect(sph_derivatives_rows_wls(ELLIPTIC_KERNEL, 2, sph_cloud_range(all, 0, s->inner),
+                                        sph_jet_laplacian(2), out));
         for (i = s->inner; i < c->n; i++) { /* every rim particle has a derivative of its own */
             sph_jet d = sph_jet_laplacian(2);
             d.hessian.xx = d.hessian.yy = 0;
             d.gradient.x = c->x[i];
             d.gradient.y = c->y[i];
-            elliptic_expect(
-                sph_derivatives_rows_wls(ELLIPTIC_KERNEL, 2, sph_cloud_range(all, i, i + 1), d, out));
+            expect(sph_derivatives_rows_wls(ELLIPTIC_KERNEL, 2, sph_cloud_range(all, i, i + 1), d, out));
             c->diagonal[i] += out.factor[i];
         }
         for (i = 0; i < c->n; i++) b[i] *= out.factor[i];
@@ -457,11 +455,11 @@ static void slab_matrix(const scatter *s, double one, double dt, sparse *A)
 {
     sparse_builder build;
     int i, p;
-    sparse_begin(&build, s->c.n, s->c.start[s->c.n] + s->c.n);
+    sparse_begin(&build, s->c.n, s->c.lists.start[s->c.n] + s->c.n);
     for (i = 0; i < s->c.n; i++) {
         sparse_put(&build, i, i < s->inner ? one - dt * s->c.diagonal[i] : one);
-        for (p = s->c.start[i]; p < s->c.start[i + 1] && i < s->inner; p++)
-            if (s->c.row[p] != 0) sparse_put(&build, s->c.index[p], -dt * s->c.row[p]);
+        for (p = s->c.lists.start[i]; p < s->c.lists.start[i + 1] && i < s->inner; p++)
+            if (s->c.row[p] != 0) sparse_put(&build, s->c.lists.index[p], -dt * s->c.row[p]);
         sparse_end_row(&build);
     }
     elliptic_made(sparse_finish(&build, A), "matrix of the slab");
@@ -520,7 +518,7 @@ static void slab_implicit(scatter *s, double ratio, double theta, int count)
 static double slab_time_step(const scatter *s)
 {
     double dt;
-    elliptic_expect(sph_rows_time_step(sph_cloud_range(scatter_cloud(s), 0, s->inner), s->c.row, &dt));
+    expect(sph_rows_time_step(sph_cloud_range(scatter_cloud(s), 0, s->inner), s->c.row, &dt));
     return dt;
 }
 static void slab_start(scatter *s, double ratio)
@@ -548,7 +546,7 @@ static double slab_sharp_step(const scatter *s, int N)
     for (a = 0; a <= waves; a++)
         for (b = 0; b <= waves; b++) {
             const sph_vec wave = {pi / s->c.dx * a / waves, pi / s->c.dx * b / waves, 0};
-            elliptic_expect(sph_rows_growth(2, target, s->c.row, 1, wave, &re, &im));
+            expect(sph_rows_growth(2, target, s->c.row, 1, wave, &re, &im));
             worst = fmax(worst, 1 - re);
         }
     return 2 / worst;

@@ -7,12 +7,10 @@
 #define ICSPM_H
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
-#include "../../sph.h"
 #include "../common/banded.h"
 #include "../common/figure.h"
+#include "../common/host.h"
 
 #define ICSPM_KERNEL SPH_WENDLAND_C4_1D
 
@@ -39,93 +37,46 @@ typedef struct line {
     double h;
     double *x, *V, *f, *value, *row, *diagonal, *factor, *conditioning, *band;
     unsigned char *status;
-    sph_index *start, *index;
-    void *work;
-    size_t work_size, pair_capacity, band_capacity;
+    search near;
+    size_t row_capacity, band_capacity;
 } line;
-
-static inline void *line_memory(void *old, size_t size)
-{
-    void *p = realloc(old, size);
-    if (!p) {
-        fprintf(stderr, "icspm: out of memory (%lu bytes)\n", (unsigned long)size);
-        exit(2);
-    }
-    return p;
-}
 
 static inline void line_open(line *s, int largest)
 {
-    const size_t n = (size_t)largest, bytes = n * sizeof(double);
+    const size_t n = (size_t)largest;
     double **const arrays[] = {&s->x, &s->V, &s->f, &s->value, &s->diagonal, &s->factor, &s->conditioning};
     size_t a;
-    for (a = 0; a < sizeof arrays / sizeof *arrays; a++) *arrays[a] = (double *)line_memory(NULL, bytes);
-    s->status = (unsigned char *)line_memory(NULL, n);
-    s->start = (sph_index *)line_memory(NULL, (n + 1) * sizeof *s->start);
-    s->work_size = sph_grid_workspace(1, largest);
-    s->work = line_memory(NULL, s->work_size);
-    s->index = NULL;
-    s->row = s->band = NULL;
-    s->pair_capacity = s->band_capacity = 0;
-    s->n = 0;
+    memset(s, 0, sizeof *s);
+    for (a = 0; a < sizeof arrays / sizeof *arrays; a++) *arrays[a] = (double *)need(NULL, n, sizeof(double));
+    s->status = (unsigned char *)need(NULL, n, 1);
 }
 
 static inline void line_close(line *s)
 {
-    void *const arrays[] = {s->x,      s->V,     s->f,    s->value, s->diagonal, s->factor, s->conditioning,
-                            s->status, s->start, s->work, s->index, s->row,      s->band};
+    void *const arrays[] = {s->x,      s->V,   s->f,   s->value, s->diagonal, s->factor, s->conditioning,
+                            s->status, s->row, s->band};
     size_t a;
     for (a = 0; a < sizeof arrays / sizeof *arrays; a++) free(arrays[a]);
-}
-
-static inline void line_expect(sph_index answer)
-{
-    if (answer < 0) {
-        fprintf(stderr, "icspm: %s\n", sph_status_text((int)answer));
-        exit(2);
-    }
+    search_close(&s->near);
 }
 
 static inline sph_points line_points(const line *s) { return sph_points_separate(s->n, s->x, NULL, NULL); }
-static inline sph_list line_list(const line *s)
-{
-    sph_list l;
-    l.start = s->start;
-    l.index = s->index;
-    return l;
-}
-
 static inline sph_cloud line_cloud(const line *s)
 {
-    return sph_cloud_of(line_points(s), line_list(s), sph_scalars_same(&s->h), sph_scalars_array(s->V));
-}
-
-/* Lists for one radius into start and, if it is not null, index; returns the number of entries. */
-static inline int64_t line_lists(int dim, const sph_grid *grid, sph_points points, double radius,
-                                 sph_index *start, sph_index *index, int64_t capacity)
-{
-    const sph_scalars R = sph_scalars_same(&radius);
-    int64_t pairs;
-    line_expect(index ? sph_grid_lists(dim, grid, sph_query_of(points, SPH_GATHER, R, 0), start, index, capacity, &pairs)
-                      : sph_grid_count(dim, grid, sph_query_of(points, SPH_GATHER, R, 0), start, &pairs));
-    return pairs;
+    return sph_cloud_of(line_points(s), s->near.found.list, sph_scalars_same(&s->h), sph_scalars_array(s->V));
 }
 
 /* Neighbours for the smoothing length h, once x and n are set. */
 static inline void line_neighbours(line *s, double h)
 {
     const double radius = h * sph_kernel_support_ratio(ICSPM_KERNEL);
-    sph_grid grid;
-    int64_t pairs;
+    size_t pairs;
     s->h = h;
-    line_expect(sph_grid_build(1, line_points(s), radius, s->work, s->work_size, &grid));
-    pairs = line_lists(1, &grid, line_points(s), radius, s->start, NULL, 0);
-    if ((size_t)pairs > s->pair_capacity) {
-        s->pair_capacity = (size_t)pairs;
-        s->index = (sph_index *)line_memory(s->index, s->pair_capacity * sizeof *s->index);
-        s->row = (double *)line_memory(s->row, s->pair_capacity * sizeof *s->row);
-    }
-    line_lists(1, &grid, line_points(s), radius, s->start, s->index, pairs);
+    search_all(&s->near, 1, line_points(s), sph_scalars_same(&radius), SPH_GATHER);
+    pairs = (size_t)s->near.found.pairs;
+    if (pairs <= s->row_capacity) return;
+    s->row = (double *)need(s->row, pairs, sizeof *s->row);
+    s->row_capacity = pairs;
 }
 
 /* Volumes from the midpoints between neighbours; the end particles own the half interval. Returns the largest. */
@@ -164,18 +115,18 @@ static inline int line_second_derivative(line *s, int method)
 {
     const sph_cloud cloud = line_cloud(s);
     const sph_scalars f = sph_scalars_array(s->f);
+    const sph_derivatives_options defaults = {0};
     sph_derivatives_out out = {0};
     sph_index bad;
     out.hxx = s->value;
     out.conditioning = s->conditioning;
     out.status = s->status;
-    if (method == CSPM) bad = sph_derivatives_cspm(ICSPM_KERNEL, 1, cloud, f, (sph_derivatives_options){0}, out);
-    else if (method == ICSPM) bad = sph_derivatives_icspm(ICSPM_KERNEL, 1, cloud, f, (sph_derivatives_options){0}, out);
+    if (method == CSPM) bad = sph_derivatives_cspm(ICSPM_KERNEL, 1, cloud, f, defaults, out);
+    else if (method == ICSPM) bad = sph_derivatives_icspm(ICSPM_KERNEL, 1, cloud, f, defaults, out);
     else
         bad = sph_second_derivative_bim(ICSPM_KERNEL, cloud, f, 0, s->n - 1,
                                         sph_scalar_out_array(s->value, s->status));
-    line_expect(bad);
-    return (int)bad;
+    return (int)expect(bad);
 }
 
 /* max |value - exact| over the particles where the method answers: all of them, or for BIM all but the ends */
@@ -200,21 +151,22 @@ static inline double line_direct_error(line *s, int method)
 static inline void line_rows(line *s, int method)
 {
     const sph_cloud cloud = line_cloud(s);
+    const sph_index *const start = s->near.found.list.start;
     sph_rows_out out = {0};
     int i, p;
     out.row = s->row;
     out.diagonal = s->diagonal;
     out.factor = s->factor;
-    if (method == CSPM)
-        line_expect(sph_derivatives_rows_cspm(ICSPM_KERNEL, 1, cloud, sph_jet_laplacian(1), out));
+    if (method == CSPM) expect(sph_derivatives_rows_cspm(ICSPM_KERNEL, 1, cloud, sph_jet_laplacian(1), out));
     else if (method == ICSPM)
-        line_expect(sph_derivatives_rows_icspm(ICSPM_KERNEL, 1, cloud, sph_jet_laplacian(1), out));
+        expect(sph_derivatives_rows_icspm(ICSPM_KERNEL, 1, cloud, sph_jet_laplacian(1), out));
     else {
-        line_expect(sph_second_derivative_rows_bim(ICSPM_KERNEL, cloud, 0, s->n - 1, (sph_rows_out){.row = s->row}));
+        out.diagonal = out.factor = NULL;
+        expect(sph_second_derivative_rows_bim(ICSPM_KERNEL, cloud, 0, s->n - 1, out));
         for (i = 0; i < s->n; i++) {
             s->factor[i] = 1;
             s->diagonal[i] = 0;
-            for (p = s->start[i]; p < s->start[i + 1]; p++) s->diagonal[i] -= s->row[p];
+            for (p = start[i]; p < start[i + 1]; p++) s->diagonal[i] -= s->row[p];
         }
     }
 }
@@ -222,20 +174,21 @@ static inline void line_rows(line *s, int method)
 /* Solves u'' = f'' with u given at both ends, rows of the method inside; u into s->value. Returns 0, or 1 if the matrix is singular (s->value is NaN then). */
 static inline int line_solve(line *s, int method, double (*f)(double), double (*d2f)(double))
 {
+    const sph_index *const start = s->near.found.list.start, *const index = s->near.found.list.index;
     banded A;
     size_t size;
     int i, p, below = 0, above = 0;
     line_rows(s, method);
     for (i = 1; i < s->n - 1; i++)
-        for (p = s->start[i]; p < s->start[i + 1]; p++) {
-            const int j = s->index[p];
+        for (p = start[i]; p < start[i + 1]; p++) {
+            const int j = index[p];
             if (i - j > below) below = i - j;
             if (j - i > above) above = j - i;
         }
     size = banded_size(s->n, below, above);
     if (size > s->band_capacity) {
         s->band_capacity = size;
-        s->band = (double *)line_memory(s->band, size * sizeof *s->band);
+        s->band = (double *)need(s->band, size, sizeof *s->band);
     }
     A = banded_make(s->band, s->n, below, above);
     banded_zero(&A);
@@ -247,7 +200,7 @@ static inline int line_solve(line *s, int method, double (*f)(double), double (*
             continue;
         }
         banded_add(&A, i, i, s->diagonal[i]);
-        for (p = s->start[i]; p < s->start[i + 1]; p++) banded_add(&A, i, s->index[p], s->row[p]);
+        for (p = start[i]; p < start[i + 1]; p++) banded_add(&A, i, index[p], s->row[p]);
         s->value[i] = s->factor[i] * d2f(s->x[i]);
     }
     if (banded_factor_solve(&A, s->value) == 0) return 0;

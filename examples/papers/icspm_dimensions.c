@@ -49,20 +49,21 @@ typedef struct errors {
 static errors measure(int method, int dim, int side, double jitter, uint64_t seed)
 {
     const int nz = dim > 2 ? side : 1, count = side * side * nz;
-    const size_t n = (size_t)count, reals = n * sizeof(double);
+    const size_t n = (size_t)count;
     const double dx = 1.0 / (side - 1), h = 2 * dx, radius = h * sph_kernel_support_ratio(ICSPM_KERNEL);
-    double *const memory = (double *)line_memory(NULL, 16 * reals);
-    double *const x = memory, *const y = x + n, *const z = y + n, *const V = z + n, *const f = V + n, *const d = f + n;
-    unsigned char *const status = (unsigned char *)line_memory(NULL, n);
-    sph_index *const start = (sph_index *)line_memory(NULL, (n + 1) * sizeof *start), *index;
-    const size_t work_size = sph_grid_workspace(dim, count);
-    void *const work = line_memory(NULL, work_size);
-    sph_grid grid;
+    double *const memory = (double *)need(NULL, 16 * n, sizeof *memory);
+    double *const x = memory, *const y = x + n, *const z = y + n;
+    double *const V = z + n, *const f = V + n, *const d = f + n;
+    unsigned char *const status = (unsigned char *)need(NULL, n, 1);
+    const int fallback = method == ICSPM_FALLBACK_ND;
+    sph_derivatives_options o = {0};
     sph_derivatives_out out = {0};
+    sph_scalars fs;
     sph_points points;
-    sph_list list;
+    sph_cloud cloud;
+    search near = {0};
+    sph_index bad;
     errors e = {0, 0, 0, HUGE_VAL, 0};
-    int64_t pairs;
     pcg32 g;
     int i, c;
     pcg32_seed(&g, seed, 3);
@@ -80,12 +81,8 @@ static errors measure(int method, int dim, int side, double jitter, uint64_t see
         z[i] = dim > 2 ? p[2] : 0;
     }
     points = sph_points_separate(count, x, y, z);
-    line_expect(sph_grid_build(dim, points, radius, work, work_size, &grid));
-    pairs = line_lists(dim, &grid, points, radius, start, NULL, 0);
-    index = (sph_index *)line_memory(NULL, (size_t)pairs * sizeof *index);
-    line_lists(dim, &grid, points, radius, start, index, pairs);
-    list.start = start;
-    list.index = index;
+    search_all(&near, dim, points, sph_scalars_same(&radius), SPH_GATHER);
+    cloud = sph_cloud_of(points, near.found.list, sph_scalars_same(&h), sph_scalars_array(V));
     for (i = 0; i < count; i++) {
         const sph_vec p = {x[i], y[i], z[i]};
         f[i] = field(p);
@@ -102,41 +99,32 @@ static errors measure(int method, int dim, int side, double jitter, uint64_t see
     out.laplacian = d + 9 * n;
     out.conditioning = d + 10 * n;
     out.status = status;
-    {
-        const sph_cloud cloud = sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_array(V));
-        const sph_scalars fs = sph_scalars_array(f);
-        sph_index bad;
-        if (method == CSPM_ND)
-            bad = dim == 2 ? sph_derivatives_cspm(ICSPM_KERNEL, 2, cloud, fs, (sph_derivatives_options){0}, out)
-                           : sph_derivatives_cspm(ICSPM_KERNEL, 3, cloud, fs, (sph_derivatives_options){0}, out);
-        else if (method == WLS_ND)
-            bad = dim == 2 ? sph_derivatives_wls(ICSPM_KERNEL, 2, cloud, fs, (sph_derivatives_options){0}, out)
-                           : sph_derivatives_wls(ICSPM_KERNEL, 3, cloud, fs, (sph_derivatives_options){0}, out);
-        else {
-            const int fallback = method == ICSPM_FALLBACK_ND;
-            const double least = fallback ? conditioning_min : 0;
-            bad = dim == 2 ? sph_derivatives_icspm(ICSPM_KERNEL, 2, cloud, fs, (sph_derivatives_options){.conditioning_min = least, .fallback_wls = fallback}, out)
-                           : sph_derivatives_icspm(ICSPM_KERNEL, 3, cloud, fs, (sph_derivatives_options){.conditioning_min = least, .fallback_wls = fallback}, out);
-        }
-        line_expect(bad);
-        e.not_ok = (int)bad;
+    fs = sph_scalars_array(f);
+    if (method == CSPM_ND) bad = WITH_DIM_2_3(sph_derivatives_cspm, ICSPM_KERNEL, dim, cloud, fs, o, out);
+    else if (method == WLS_ND) bad = WITH_DIM_2_3(sph_derivatives_wls, ICSPM_KERNEL, dim, cloud, fs, o, out);
+    else {
+        o.conditioning_min = fallback ? conditioning_min : 0;
+        o.fallback_wls = fallback;
+        bad = WITH_DIM_2_3(sph_derivatives_icspm, ICSPM_KERNEL, dim, cloud, fs, o, out);
     }
+    e.not_ok = (int)expect(bad);
     for (i = 0; i < count; i++) {
         const sph_vec p = {x[i], y[i], z[i]};
         const sph_jet exact = field_jet(p);
         const double gradient[3] = {exact.gradient.x, exact.gradient.y, exact.gradient.z};
-        const double hessian[6] = {exact.hessian.xx, exact.hessian.xy, exact.hessian.yy, exact.hessian.xz, exact.hessian.yz, exact.hessian.zz};
+        const double hessian[6] = {exact.hessian.xx, exact.hessian.xy, exact.hessian.yy,
+                                   exact.hessian.xz, exact.hessian.yz, exact.hessian.zz};
+        const double *const own = d + i;
         const double laplacian = exact.hessian.xx + exact.hessian.yy + (dim > 2 ? exact.hessian.zz : 0);
-        for (c = 0; c < dim; c++) e.gradient = fmax(e.gradient, fabs(d[(size_t)c * n + (size_t)i] - gradient[c]));
-        for (c = 0; c < (dim > 2 ? 6 : 3); c++) e.hessian = fmax(e.hessian, fabs(d[(size_t)(3 + c) * n + (size_t)i] - hessian[c]));
+        for (c = 0; c < dim; c++) e.gradient = fmax(e.gradient, fabs(own[c * count] - gradient[c]));
+        for (c = 0; c < (dim > 2 ? 6 : 3); c++)
+            e.hessian = fmax(e.hessian, fabs(own[(3 + c) * count] - hessian[c]));
         e.laplacian = fmax(e.laplacian, fabs(out.laplacian[i] - laplacian));
         e.conditioning = fmin(e.conditioning, fabs(out.conditioning[i]));
     }
     free(memory);
     free(status);
-    free(start);
-    free(index);
-    free(work);
+    search_close(&near);
     return e;
 }
 

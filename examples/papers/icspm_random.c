@@ -72,7 +72,8 @@ static void sample_run(sample *q, line *s, int seed, int small, int large, int q
         q->count[k] = icspm_size(k) <= 321 ? small : large;
         total += q->count[k] * sample_cost(k);
         for (table = 0; table < TABLES; table++)
-            for (method = 0; method < METHODS; method++) q->e[table][method][k] = (double *)line_memory(NULL, (size_t)q->count[k] * sizeof(double));
+            for (method = 0; method < METHODS; method++)
+                q->e[table][method][k] = (double *)need(NULL, (size_t)q->count[k], sizeof(double));
     }
     progress_begin(&p, "realisations", quiet);
     for (realisation = 0; realisation < small || realisation < large; realisation++) {
@@ -111,7 +112,7 @@ static int compare(report *r, const sample *q, int table, int method, int k, int
 {
     const double *const raw = q->e[table][method][k], published = published_e[table][method][k];
     const int count = q->count[k];
-    double *const sorted = (double *)line_memory(NULL, (size_t)count * sizeof *sorted), lo, hi, median;
+    double *const sorted = (double *)need(NULL, (size_t)count, sizeof *sorted), lo, hi, median;
     char setting[64], reason[200];
     int i, outside;
     snprintf(setting, sizeof setting, "%s, N = %d", icspm_method_name[method], icspm_size(k));
@@ -140,7 +141,7 @@ static int compare(report *r, const sample *q, int table, int method, int k, int
 
 static double median_of(const double *values, int count)
 {
-    double *const sorted = (double *)line_memory(NULL, (size_t)count * sizeof *sorted), m;
+    double *const sorted = (double *)need(NULL, (size_t)count, sizeof *sorted), m;
     memcpy(sorted, values, (size_t)count * sizeof *sorted);
     statistics_sort(sorted, count);
     m = statistics_quantile(sorted, count, 0.5);
@@ -225,9 +226,9 @@ static void compare_all(report *r, const sample *q)
 /* Errors at N = 41 with the same c for all methods: quantiles over realisations of the same seed. */
 static void small_and_large_h(report *r, line *s, int seed, int realisations)
 {
-    double *const e[METHODS] = {(double *)line_memory(NULL, (size_t)realisations * sizeof(double)),
-                                (double *)line_memory(NULL, (size_t)realisations * sizeof(double)),
-                                (double *)line_memory(NULL, (size_t)realisations * sizeof(double))};
+    double *const e[METHODS] = {(double *)need(NULL, (size_t)realisations, sizeof(double)),
+                                (double *)need(NULL, (size_t)realisations, sizeof(double)),
+                                (double *)need(NULL, (size_t)realisations, sizeof(double))};
     double median[2][METHODS], draws[39];
     int which, method, i, j;
     report_section(r, "Figure 4: 'ICSPM in case of small smoothing lengths and BIM for larger ones', N = 41");

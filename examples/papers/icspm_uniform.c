@@ -122,8 +122,8 @@ static void first_derivative(report *r, line *s)
     for (level = 0; level < 2; level++) {
         const int n = level ? 321 : 161;
         line_uniform(s, n, 2);
-        line_expect(sph_gradient_cspm(ICSPM_KERNEL, 1, line_cloud(s), sph_scalars_array(s->f),
-                                      (sph_derivatives_out){.gx = s->value}));
+        expect(sph_gradient_cspm(ICSPM_KERNEL, 1, line_cloud(s), sph_scalars_array(s->f),
+                                 (sph_derivatives_out){.gx = s->value}));
         for (i = 0; i < n; i++) {
             const double e = fabs(s->value[i] - icspm_df(s->x[i]));
             double *const worst = s->x[i] >= 0.25 && s->x[i] <= 0.75 ? inside : end;
@@ -252,7 +252,7 @@ static void cost(report *r, line *s)
             const int repeats = k ? 20 : 2000;
             line_uniform(s, icspm_size(k), icspm_c(method, k));
             report_info(r, "cost", at(icspm_method_name[method], s->n),
-                        "nonzeros per row (mean, with the diagonal)", 1 + (double)s->start[s->n] / s->n);
+                        "nonzeros per row (mean, with the diagonal)", 1 + (double)s->near.found.pairs / s->n);
             t = clock();
             for (repeat = 0; repeat < repeats; repeat++) line_rows(s, method);
             report_info(r, "cost", at(icspm_method_name[method], s->n), "assembly, ns per row",
@@ -286,9 +286,10 @@ static void dismissed(report *r, line *s)
                 which ? "second kernel derivative" : "first derivative, no boundary terms";
             const sph_cloud cloud = line_cloud(s);
             const sph_scalars f = sph_scalars_array(s->f);
+            const sph_scalar_out out = sph_scalar_out_array(s->value, 0);
             char text[96];
             if (which) laplacian_kernel(ICSPM_KERNEL, 1, cloud, f, s->value);
-            else line_expect(sph_laplacian_brookshaw(ICSPM_KERNEL, 1, cloud, f, sph_scalar_out_array(s->value, 0)));
+            else expect(sph_laplacian_brookshaw(ICSPM_KERNEL, 1, cloud, f, out));
             inside[which][jittered] = all[which][jittered] = 0;
             for (i = 0; i < s->n; i++) {
                 const double e = fabs(s->value[i] - icspm_d2f(s->x[i]));
