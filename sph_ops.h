@@ -6421,6 +6421,7 @@ SPH_FN sph_index sph_cloud_examine(sph_kernel k, int dim, sph_cloud cloud, int b
     given.extent = sph_subtract(dim, high, low);
     if (samples <= 0) samples = 16;
     if (samples > cloud.last - cloud.first) samples = cloud.last - cloud.first;
+    sphi_tally_zero(&tally);
     for (trial = 0; trial < 4 && samples > 0 && geometry; trial++) {
         sphi_case guess = given;
         sphi_tally t;

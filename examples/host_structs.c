@@ -33,8 +33,7 @@ typedef char
 static station hill[N];
 static unsigned char status[N];
 
-static void need(
-    sph_index answer) /* what a sweep returns: below 0 an error, above 0 how many have a status */
+static void need(sph_index answer) /* what a sweep returns: below 0 an error, above 0: see status */
 {
     if (answer < 0) fprintf(stderr, "host_structs: %s\n", sph_status_text((int)answer)), exit(1);
 }
