@@ -42,9 +42,9 @@ sh "$here/amalgamate.sh" > "$scratch/sph_all.h"
 check "sph_all.h: one licence" test "$(grep -c '^ \* MIT License' "$scratch/sph_all.h")" -eq 1
 mkdir -p "$scratch/all/tests" "$scratch/all/examples/common"
 for h in sph.h sph_ops.h sph_kernels.h; do echo '#include "../sph_all.h"' > "$scratch/all/$h"; done
-cp "$root"/tests/*.h "$root"/tests/test_known_answers.c "$root"/tests/test_gradients.c "$scratch/all/tests"
+cp "$root"/tests/*.h "$root"/tests/test_known_answers.c "$root"/tests/test_fluid.c "$scratch/all/tests"
 cp "$root"/examples/common/*.h "$scratch/all/examples/common"
-for t in known_answers gradients; do
+for t in known_answers fluid; do
     for where in "$scratch/all" "$root"; do
         check "$t" $CC -std=c99 -O1 -w -I"$where" -o "$scratch/$t" "$where/tests/test_$t.c" -lm
         "$scratch/$t" >> "$scratch/$t.said" 2>&1
