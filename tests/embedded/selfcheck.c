@@ -235,6 +235,7 @@ static int tank_rates(sph_points points, sph_real dt)
     const sph_cloud all = sph_cloud_of(points, list, sph_scalars_same(&length), sph_scalars_none());
     const sph_cloud targets = sph_cloud_range(all, 0, (sph_index)WATER);
     const sph_vector_out a = sph_vector_out_separate(ax, ay, 0);
+    const sph_fluid_out out = {a, 0, 0, 0, 0};
     sph_fluid fluid;
     sph_medium gas;
     int i;
@@ -254,7 +255,7 @@ static int tank_rates(sph_points points, sph_real dt)
         p[i] = sph_pressure_tait(rho[i], water);
         if (i >= WATER && p[i] < SPH_R(0)) p[i] = SPH_R(0); /* a wall pushes, it does not pull */
     }
-    return sph_fluid_rates_monaghan(KERNEL, 2, targets, fluid, (sph_fluid_out){.acceleration = a}) == 0;
+    return sph_fluid_rates_monaghan(KERNEL, 2, targets, fluid, out) == 0;
 }
 
 /* kinetic and potential, per mass of a particle */
