@@ -493,6 +493,7 @@ SPH_FN sph_vec sphi_separation(int dim, sph_points p, sph_vec a, sph_vec b)
     if (dim > 2) d.z = sphi_nearest_image(d.z, p.box.z);
     return d;
 }
+
 /* ================================================================ checks
  *
  * A sweep checks its arguments before it writes anything. With SPH_CHECK = 1 it also scans the numbers in the

@@ -4,21 +4,7 @@
  * of clouds, what SPH_REFUSED is told, options that are left at 0, and the status of sums that overflow.
  */
 #include "one_copy.h"
-
-static struct refusal {
-    int count, error;
-    long particle;
-    const char *argument;
-} refusal;
-static void refused(const char *argument, long particle, int error)
-{
-    refusal.count++;
-    refusal.argument = argument;
-    refusal.particle = particle;
-    refusal.error = error;
-}
-#define SPH_REFUSED(argument, particle, error) refused(argument, (long)(particle), error)
-
+#include "refusal.h"
 #include "../sph.h"
 
 #include "check.h"

@@ -15,22 +15,7 @@
 #define _POSIX_C_SOURCE 200809L /* alarm */
 #endif
 #include "one_copy.h"
-
-/* what the functions say of what they refuse */
-static struct refusal {
-    int count, error;
-    long particle;
-    const char *argument;
-} refusal;
-static void refused(const char *argument, long particle, int error)
-{
-    refusal.count++;
-    refusal.argument = argument;
-    refusal.particle = particle;
-    refusal.error = error;
-}
-#define SPH_REFUSED(argument, particle, error) refused(argument, (long)(particle), error)
-
+#include "refusal.h"
 #include "../sph.h"
 #include "check.h"
 #include "clouds.h"
