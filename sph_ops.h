@@ -3328,13 +3328,6 @@ SPH_FN sph_vec sphi_diagonal_sum(int dim, sph_diagonal mobility, sph_index i, sp
     v.z = dim > 2 ? sphi_at(mobility.z, i) + sphi_at(mobility.z, j) : SPH_R(0);
     return v;
 }
-SPH_FN int sphi_check_diagonal(int dim, sph_diagonal mobility, sph_index n)
-{
-    int error = sphi_check_not_negative("mobility.x", mobility.x, n);
-    if (!error && dim > 1) error = sphi_check_not_negative("mobility.y", mobility.y, n);
-    if (!error && dim > 2) error = sphi_check_not_negative("mobility.z", mobility.z, n);
-    return error;
-}
 
 /* Rows of div(M grad u) for a diagonal M that are consistent on full supports. (69) is not, because of the
    fourth moment: sum_j V_j G e_a e_b sum_c M_c e_c^2 / |e|^2 with G = -F_ij is not M_a delta_ab. It is, if
@@ -3360,7 +3353,9 @@ SPH_FN sph_index sph_elliptic_rows_anisotropic(sph_kernel k, int dim, sph_cloud 
     sph_shepard none;
     sph_index i, p, failed = 0;
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
-    if (!error) error = sphi_check_diagonal(dim, mobility, cloud.points.n);
+    if (!error) error = sphi_check_not_negative("mobility.x", mobility.x, cloud.points.n);
+    if (!error && dim > 1) error = sphi_check_not_negative("mobility.y", mobility.y, cloud.points.n);
+    if (!error && dim > 2) error = sphi_check_not_negative("mobility.z", mobility.z, cloud.points.n);
     if (!error && !out.row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
     none.nu = SPH_R(1);
@@ -4259,7 +4254,7 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, 
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)),
                           v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
-            const sph_real r = sph_length(dim, x_ij), h_ij = SPH_R(0.5) * (h_i + sphi_at(cloud.h, j)),
+            const sph_real r = sph_length(dim, x_ij), h_ij = sphi_mean_h(0, cloud.h, h_i, j),
                            f_ij = sph_kernel_f(k, dim, r, h_ij), m_j = sphi_at(m, j);
             const sph_fluid_side other = sphi_fluid_side(SPHI_READ_RHO + SPHI_READ_MU, &fluid, mu, j);
             sph_encounter e;
@@ -4327,7 +4322,7 @@ SPH_FN sph_index sph_velocity_xsph(sph_kernel k, int dim, sph_cloud cloud, sph_f
             const sph_vec v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
             const sph_real r =
                 sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)));
-            const sph_real w_ij = sph_kernel_w(k, dim, r, SPH_R(0.5) * (h_i + sphi_at(cloud.h, j))),
+            const sph_real w_ij = sph_kernel_w(k, dim, r, sphi_mean_h(0, cloud.h, h_i, j)),
                            b = -epsilon *
                                sph_velocity_pair_xsph(
                                    own, sphi_fluid_side(SPHI_READ_M + SPHI_READ_RHO, &fluid, rho, j), w_ij);
@@ -4399,8 +4394,8 @@ SPH_FN sph_index sph_wall_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall
             const sph_index j = cloud.list.index[q];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)),
                           v_j = sphi_vector_at(dim, v, j);
-            const sph_real w = sphi_at(share, j) * sph_kernel_w(k, dim, sph_length(dim, x_ij),
-                                                                SPH_R(0.5) * (h_i + sphi_at(cloud.h, j)));
+            const sph_real w = sphi_at(share, j) *
+                               sph_kernel_w(k, dim, sph_length(dim, x_ij), sphi_mean_h(0, cloud.h, h_i, j));
             sph_fluid_side other;
             sph_wall_sums c;
             other.m = other.mu = SPH_R(0);
@@ -5360,17 +5355,6 @@ SPH_FN sph_index sphi_mhd_some(int parts, int cleans, sph_kernel k, int dim, sph
     return cloud.h.stride ? sphi_mhd_range(0, parts, 0, k, dim, cloud, s, out)
                           : sphi_mhd_range(1, parts, 0, k, dim, cloud, s, out);
 }
-SPH_FN int sphi_check_mhd(sph_kernel k, int dim, sph_cloud cloud, const sph_mhd *s)
-{
-    const int parts = sphi_components(dim, s->v);
-    int error = sphi_check_medium(k, dim, cloud, s->medium);
-    if (!error) error = sphi_check_field("p", s->p, cloud.points.n);
-    if (!error) error = sphi_check_field("cs", s->cs, cloud.points.n);
-    if (!error) error = sphi_check_vectors("v", parts, s->v, cloud.points.n);
-    if (!error) error = sphi_check_vectors("field", parts, s->field, cloud.points.n);
-    if (!error && !sphi_finite(s->beta)) error = sphi_refuse("state.beta", -1, SPH_ERROR_VALUE);
-    return error;
-}
 /* All rates of a magnetised gas in one pass:
      dv/dt    (6), less `tensile` times (9); artificial viscosity alpha v_sig where particles approach.
      dB/dt    (7), for B itself; -grad psi, (23); artificial resistivity, (10).
@@ -5387,7 +5371,12 @@ SPH_FN int sphi_check_mhd(sph_kernel k, int dim, sph_cloud cloud, const sph_mhd 
 SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_cloud cloud, sph_mhd state, sph_mhd_out out)
 {
     const int parts = sphi_components(dim, state.v), cleans = state.psi.p != 0;
-    int error = sphi_check_mhd(k, dim, cloud, &state);
+    int error = sphi_check_medium(k, dim, cloud, state.medium);
+    if (!error) error = sphi_check_field("p", state.p, cloud.points.n);
+    if (!error) error = sphi_check_field("cs", state.cs, cloud.points.n);
+    if (!error) error = sphi_check_vectors("v", parts, state.v, cloud.points.n);
+    if (!error) error = sphi_check_vectors("field", parts, state.field, cloud.points.n);
+    if (!error && !sphi_finite(state.beta)) error = sphi_refuse("state.beta", -1, SPH_ERROR_VALUE);
     if (!error) error = sphi_check_field("u", state.u, cloud.points.n);
     if (!error) error = sphi_check_field("alpha", state.alpha, cloud.points.n);
     if (!error) error = sphi_check_field("alpha_B", state.alpha_B, cloud.points.n);
