@@ -195,6 +195,6 @@ int main(int argc, char **argv)
     if (argc == 3 && strcmp(argv[1], "-o") == 0) return save(argv[2]);
     if (argc == 2 && strcmp(argv[1], "-t") == 0) return test();
     if (argc == 1) return run(0), 0;
-    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "dam_break: %s? -h tells\n", argv[1]), 2;
+    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "dam_break: unknown option '%s'; -h lists them\n", argv[1]), 2;
     return puts("dam_break [-o FILE.csv | -t]   show the flow, write it at four times, or test it") < 0;
 }

@@ -189,7 +189,7 @@ int main(int argc, char **argv)
     if (asks && strcmp(argv[1], "-h") == 0)
         return puts("density_cloud [-o FILE.csv | -t]   draw a cloud, write it for a plot, or test it") < 0;
     if (argc > 1 && !writes && !(asks && strcmp(argv[1], "-t") == 0))
-        return fprintf(stderr, "density_cloud: %s? -h tells\n", argv[1]), 2;
+        return fprintf(stderr, "density_cloud: unknown option '%s'; -h lists them\n", argv[1]), 2;
     fill();
     density();
     if (asks) return test();

@@ -195,6 +195,6 @@ int main(int argc, char **argv)
     if (argc == 3 && strcmp(argv[1], "-v") == 0) return run(0, argv[2]), 0;
     if (argc == 2 && strcmp(argv[1], "-t") == 0) return test();
     if (argc == 1) return run(0, NULL), 0;
-    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "drop_3d: %s? -h tells\n", argv[1]), 2;
+    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "drop_3d: unknown option '%s'; -h lists them\n", argv[1]), 2;
     return puts("drop_3d [-o FILE.csv | -v PREFIX | -t]   draw the drop, write it or frames, or test it") < 0;
 }

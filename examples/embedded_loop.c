@@ -193,7 +193,7 @@ int main(int argc, char **argv)
     if (argc == 3 && strcmp(argv[1], "-o") == 0) return save(argv[2]);
     if (argc == 2 && strcmp(argv[1], "-t") == 0) return run(0, 0) || puts("ok") < 0;
     if (argc == 1) return run(0, 1);
-    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "embedded_loop: %s? -h tells\n", argv[1]), 2;
+    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "embedded_loop: unknown option '%s'; -h lists them\n", argv[1]), 2;
     return puts("embedded_loop [-o FILE.csv | -t]   "
                 "show the lights, write the particles for a plot, or test them") < 0;
 }

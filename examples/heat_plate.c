@@ -173,7 +173,7 @@ int main(int argc, char **argv)
     if (argc == 3 && strcmp(argv[1], "-o") == 0) return save(argv[2]);
     if (argc == 2 && strcmp(argv[1], "-t") == 0) return test();
     if (argc == 1) return run(0), 0;
-    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "heat_plate: %s? -h tells\n", argv[1]), 2;
+    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "heat_plate: unknown option '%s'; -h lists them\n", argv[1]), 2;
     return puts("heat_plate [-o FILE.csv | -t]   "
                 "draw the plate at three times, write them for a plot, or test them") < 0;
 }

@@ -194,7 +194,7 @@ int main(int argc, char **argv)
     if (argc == 3 && strcmp(argv[1], "-o") == 0) return save(argv[2]);
     if (argc == 2 && strcmp(argv[1], "-t") == 0) return run(1) || puts("ok") < 0;
     if (argc == 1) return run(0);
-    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "host_lists: %s? -h tells\n", argv[1]), 2;
+    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "host_lists: unknown option '%s'; -h lists them\n", argv[1]), 2;
     return puts("host_lists [-o FILE.csv | -t]   "
                 "draw accelerations, write them for a plot, or test that both ways agree") < 0;
 }

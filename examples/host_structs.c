@@ -191,7 +191,7 @@ int main(int argc, char **argv)
     if (argc == 3 && strcmp(argv[1], "-o") == 0) return save(argv[2]);
     if (argc == 2 && strcmp(argv[1], "-t") == 0) return test();
     if (argc == 1) return run(0), 0;
-    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "host_structs: %s? -h tells\n", argv[1]), 2;
+    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "host_structs: unknown option '%s'; -h lists them\n", argv[1]), 2;
     return puts("host_structs [-o FILE.csv | -t]   "
                 "draw where water runs on a hill, write it for a plot, or test the derivatives") < 0;
 }

@@ -194,7 +194,7 @@ int main(int argc, char **argv)
     if (argc == 3 && strcmp(argv[1], "-o") == 0) return save(argv[2]);
     if (argc == 2 && strcmp(argv[1], "-t") == 0) return test();
     if (argc == 1) return run(), 0;
-    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "poisson_scattered: %s? -h tells\n", argv[1]), 2;
+    if (strcmp(argv[1], "-h") != 0) return fprintf(stderr, "poisson_scattered: unknown option '%s'; -h lists them\n", argv[1]), 2;
     return puts("poisson_scattered [-o FILE.csv | -t]   "
                 "draw a solution, write it for a plot, or test its error") < 0;
 }

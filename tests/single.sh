@@ -30,7 +30,7 @@ for source in examples/*.c; do
         check "$name: EXAMINE" false
     fi
     check "$name: help" answers 0 "^$name .*-t" "$scratch/$name" -h
-    check "$name: unknown option" answers 2 "$name: .*-nonsense" "$scratch/$name" -nonsense
+    check "$name: unknown option" answers 2 "$name: unknown option.*-nonsense" "$scratch/$name" -nonsense
     check "$name: missing value" answers 2 "$name: .*-o" "$scratch/$name" -o
     check "$name: a file that cannot be written" answers 2 "no/such/folder" "$scratch/$name" -o no/such/folder/x.csv
     check "$name: a table" "$scratch/$name" -o "$scratch/$name.csv"

@@ -89,6 +89,6 @@ for t in $started; do
     for f in "$work/afl/$t"/default/crashes/id* "$work/afl/$t"/default/hangs/id*; do [ -e "$f" ] && cp "$f" "$work/crash-$t-$(basename "$f" | tr -c 'A-Za-z0-9\n' _)"; done
     check "$t for $seconds s" grep -q -x 0 "$work/status-$t"
     check "$t: nothing crashes" sh -c "! ls '$work'/crash-'$t'-*"
-    grep -a -e "does not hold" -e "runtime error" -e "ERROR: " "$work/log-$t" | head -n 3
+    grep -a -e "ended with" -e "does not hold" -e "runtime error" -e "ERROR: " "$work/log-$t" | head -n 3
 done
 finish fuzz
