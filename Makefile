@@ -2,13 +2,24 @@
 #
 # sph.h has nothing to build: copy sph.h, sph_ops.h and sph_kernels.h into your code. This file runs what proves them.
 
+# BSD make obeys the next line; GNU make takes it for a rule that nothing needs
+.error : this Makefile is for GNU make, which BSD systems call gmake
+
 CC ?= cc
 CFLAGS ?= -O2
 WARN = -std=c99 -Wall -Wextra -Wpedantic
-# the drivers' sweeps run in two thirds of the time with it; compilers that do not know it go without
-SIMD := $(shell echo 'int x;' | $(CC) -fopenmp-simd -x c -c -o /dev/null - 2> /dev/null && echo -fopenmp-simd -DSPH_SIMD=1)
+# the drivers' sweeps run in two thirds of the time with it; compilers that know not the pragma (tcc, which accepts any flag) go without
+SIMD := $(shell echo 'double f(int n) { double s = 0; int i; _Pragma("omp simd reduction(+ : s)") for (i = 0; i < n; i++) s += i; return s; }' | \
+    $(CC) -fopenmp-simd -x c -c -o /dev/null - > /dev/null 2>&1 && echo -fopenmp-simd -DSPH_SIMD=1)
 LDLIBS = -lm
 BUILD = build
+# make cannot name files whose names have spaces: such a BUILD is reached by a link
+ifneq ($(words $(BUILD)),1)
+override BUILD := $(shell mkdir -p "$(BUILD)" && cd "$(BUILD)" && link="$${TMPDIR:-/tmp}/sph-build-$$(pwd -P | cksum | cut -d ' ' -f 1)" && ln -sfn "$$(pwd -P)" "$$link" && echo "$$link")
+endif
+ifneq ($(words $(BUILD)),1)
+$(error BUILD, a folder to build in, cannot be made, or TMPDIR has a space)
+endif
 RESULTS = $(BUILD)/results
 FIGURES = $(BUILD)/figures
 HEADERS = sph.h sph_ops.h sph_kernels.h
@@ -28,7 +39,7 @@ TESTS_OPTIONAL = gsl
 TESTS = $(filter-out $(TESTS_DOUBLE) $(TESTS_OPTIONAL),$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))
 TESTS_FLOAT = $(TESTS)
 TEST_PROGRAMS = $(TESTS:%=$(BUILD)/tests/%) $(TESTS_FLOAT:%=$(BUILD)/tests/%-float) $(TESTS_DOUBLE:%=$(BUILD)/tests/%)
-TEST_SCRIPTS = tests/index.sh tests/signatures.sh tests/readme.sh tests/compile/matrix.sh tests/compile/names.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/faults.sh tests/single.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
+TEST_SCRIPTS = tests/index.sh tests/signatures.sh tests/hosts/generated.sh tests/readme.sh tests/docs.sh tests/compile/matrix.sh tests/compile/names.sh tests/compile/options.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/files.sh tests/faults.sh tests/single.sh tests/bare.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
 
 help:
 	@echo "make reproduce        run the papers' benchmarks, published beside measured values, and print a scoreboard"
@@ -42,13 +53,13 @@ help:
 	@echo "make fuzz             FUZZ_SECONDS (60) of libFuzzer for each target of tests/fuzz, after a replay of its corpus under sanitizers"
 	@echo "make bench            time the search and the operators, as ratios to the machine's limits"
 	@echo "make bench-gpu        sweeps on a GPU beside one core (needs nvcc and a GPU)"
-	@echo "make docs             the headers' comments as pages (needs doxygen)"
+	@echo "make docs             the manual, the headers' comments and the Markdown files as pages (needs doxygen)"
 	@echo "make coverage         lines and branches of the headers that the tests reach (needs gcovr)"
 	@echo "make lint             static analysers, valgrind, the sanitizers of memory and threads: some twelve minutes"
 	@echo "make mutation         how many broken formulas the tests notice: an hour (OPTIONS='-n 400')"
 	@echo "make figures          PNG of the figures from the last run (needs gnuplot)"
 	@echo "make gallery          PNG of examples/README.md, into $(BUILD)/gallery (needs gnuplot)"
-	@echo "make install          the headers and sph.pc below PREFIX=$(PREFIX); make uninstall removes them"
+	@echo "make install          the headers, and files for CMake and pkg-config, below PREFIX=$(PREFIX); make uninstall removes them"
 	@echo "make dist             a tarball, and the three headers as one file, sph_all.h"
 	@echo "make check-packages   a host built from every kind of package whose tool is installed"
 	@echo "make clean            remove $(BUILD)/"
@@ -66,17 +77,17 @@ drivers_of = $(if $(filter all,$(1)),$(DRIVERS),$(DRIVERS_$(1)))
 # $(1): paper or all; $(2): options. All drivers run (side by side under make -j, each with its output in one piece), then the scoreboard tells; the answer is failure if any driver failed.
 define run
 	@if [ -z "$(strip $(call drivers_of,$(1)))" ]; then echo "no paper called '$(1)'; there are: $(PAPERS)"; exit 2; fi
-	@mkdir -p $(RESULTS) $(FIGURES)
+	@mkdir -p "$(RESULTS)" "$(FIGURES)"
 	+@$(MAKE) --no-print-directory $(BUILD)/examples/scoreboard $(addprefix $(BUILD)/examples/,$(call drivers_of,$(1)))
-	+@rm -f $(patsubst %,$(RESULTS)/%.csv,$(call drivers_of,$(1))); failed=0; \
+	+@rm -f $(patsubst %,"$(RESULTS)/%.csv",$(call drivers_of,$(1))); failed=0; \
 	$(MAKE) --no-print-directory --keep-going $(if $(filter -j%,$(MAKEFLAGS)),--output-sync=target) OPTIONS=$(2) $(addprefix driver-,$(call drivers_of,$(1))) || failed=1; \
 	$(MAKE) --no-print-directory figures || failed=1; \
-	echo; $(BUILD)/examples/scoreboard $(patsubst %,$(RESULTS)/%.csv,$(call drivers_of,$(1))) || failed=1; \
+	echo; $(BUILD)/examples/scoreboard $(patsubst %,"$(RESULTS)/%.csv",$(call drivers_of,$(1))) || failed=1; \
 	exit $$failed
 endef
 
 driver-%:
-	@echo; echo "======== $*"; $(BUILD)/examples/$* -out $(RESULTS) -figures $(FIGURES) $(OPTIONS)
+	@echo; echo "======== $*"; $(BUILD)/examples/$* -out "$(RESULTS)" -figures "$(FIGURES)" $(OPTIONS)
 run-quick-%:
 	$(call run,$*,)
 run-full-%:
@@ -86,7 +97,7 @@ figures:
 	@if ! command -v gnuplot > /dev/null 2>&1; then \
 	    echo "gnuplot is not installed: no PNG; the figures' data are in $(FIGURES)/*.csv"; \
 	else for p in $(PAPERS); do \
-	    if ls $(FIGURES)/$${p}_*.csv > /dev/null 2>&1; then gnuplot -e "dir='$(FIGURES)/'" examples/papers/$$p.gp && echo "figures: $(FIGURES)/$${p}_*.png"; fi || exit 1; \
+	    if ls "$(FIGURES)"/$${p}_*.csv > /dev/null 2>&1; then gnuplot -c examples/papers/$$p.gp "$(FIGURES)" && echo "figures: $(FIGURES)/$${p}_*.png"; fi || exit 1; \
 	done; fi
 
 $(BUILD)/examples/scoreboard: examples/common/scoreboard.c $(COMMON)
@@ -99,7 +110,7 @@ $(BUILD)/examples/%: examples/papers/%.c $(COMMON) $(HEADERS)
 # the pictures that are checked in have gone through pngquant, to 64 colours
 GALLERY = $(patsubst examples/%.c,%,$(wildcard examples/*.c))
 gallery: $(GALLERY:%=$(BUILD)/gallery/%.csv)
-	@if command -v gnuplot > /dev/null 2>&1; then gnuplot -e "dir='$(BUILD)/gallery/'" examples/gallery.gp && echo "gallery: $(BUILD)/gallery/*.png"; \
+	@if command -v gnuplot > /dev/null 2>&1; then gnuplot -c examples/gallery.gp $(BUILD)/gallery && echo "gallery: $(BUILD)/gallery/*.png"; \
 	else echo "gnuplot is not installed: no PNG; the data of the gallery are in $(BUILD)/gallery/*.csv"; fi
 $(BUILD)/gallery/%.csv: examples/%.c $(HEADERS)
 	@mkdir -p $(@D)
@@ -130,7 +141,7 @@ check-packages:
 
 docs:
 	@if ! command -v doxygen > /dev/null 2>&1; then echo "doxygen is not installed: the manual is at the top of each header"; \
-	else mkdir -p $(BUILD) && (cat Doxyfile; echo "OUTPUT_DIRECTORY = $(BUILD)/docs") | doxygen - && echo "$(BUILD)/docs/html/index.html"; fi
+	else mkdir -p $(BUILD) && printf '%s\n' "@INCLUDE = docs/Doxyfile" "OUTPUT_DIRECTORY = $(BUILD)/docs" $(DOXYGEN) | doxygen - && echo "$(BUILD)/docs/html/index.html"; fi
 
 check-hosts:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/hosts/hosts.sh
@@ -167,19 +178,23 @@ DIST = $(BUILD)/dist
 
 version:
 	@echo $(VERSION)
+# the same files as by CMake and Meson: none holds the prefix, so that it may be moved
+GENERATED = pkgconfig/sph.pc cmake/sph/sphConfig.cmake cmake/sph/sphConfigVersion.cmake
 install:
-	install -d "$(DESTDIR)$(PREFIX)/include" "$(DESTDIR)$(PREFIX)/share/pkgconfig"
+	install -d "$(DESTDIR)$(PREFIX)/include" "$(DESTDIR)$(PREFIX)/share/pkgconfig" "$(DESTDIR)$(PREFIX)/share/cmake/sph"
 	install -m 644 $(HEADERS) "$(DESTDIR)$(PREFIX)/include"
-	printf 'prefix=%s\nName: sph\nDescription: Header-only C99 toolkit of SPH kernels and operators\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -lm\n' \
-	    "$(PREFIX)" "$(VERSION)" > "$(DESTDIR)$(PREFIX)/share/pkgconfig/sph.pc"
+	for file in $(GENERATED); do \
+	    sed 's/@VERSION@/$(VERSION)/' tests/packages/install/$${file##*/}.in > "$(DESTDIR)$(PREFIX)/share/$$file" || exit 1; \
+	done
 uninstall:
-	rm -f $(HEADERS:%="$(DESTDIR)$(PREFIX)/include/%") "$(DESTDIR)$(PREFIX)/share/pkgconfig/sph.pc"
+	rm -f $(HEADERS:%="$(DESTDIR)$(PREFIX)/include/%") $(GENERATED:%="$(DESTDIR)$(PREFIX)/share/%")
+	rmdir "$(DESTDIR)$(PREFIX)/share/cmake/sph"
 dist:
-	@mkdir -p $(DIST)
-	git archive --prefix=sph-$(VERSION)/ -o $(DIST)/sph-$(VERSION).tar.gz HEAD
-	sh tests/packages/amalgamate.sh > $(DIST)/sph_all.h
+	@mkdir -p "$(DIST)"
+	git archive --prefix=sph-$(VERSION)/ -o "$(DIST)/sph-$(VERSION).tar.gz" HEAD
+	sh tests/packages/amalgamate.sh > "$(DIST)/sph_all.h"
 
-clean:
-	rm -rf $(BUILD)
+clean: # what a link leads to as well
+	rm -rf $(BUILD)/* $(BUILD)
 
 .PHONY: help reproduce reproduce-full figures gallery test test-sanitize fuzz check-matrix check-hosts check-embedded version install uninstall dist check-packages docs coverage lint mutation bench bench-gpu clean

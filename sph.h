@@ -43,9 +43,10 @@
  *     sph_grid_renumber(&grid);                                for lists of this grid; or search again
  *
  * Lists can be kept for several steps: build them with the radius + a skin, and build them again when
- * sph_rebuild_due says so. A workspace may be used again for any cloud that is not larger. Memory may be
- * aligned in any way. A cloud may be empty: with 0 particles, or no targets, all functions answer 0, and
- * arrays may be null.
+ * sph_rebuild_due says so. A workspace may be used again for any cloud that is not larger. What is given as
+ * void * may be aligned in any way, as an array of char is; arrays of numbers must be aligned as their type
+ * asks. A grid, and the lists of sph_search, point into that memory: if it is moved or copied, search again.
+ * A cloud may be empty: with 0 particles, or no targets, all functions answer 0, and arrays may be null.
  *
  * Rounding decides whether a pair is in a list if its distance is the radius to within 8 units in the last
  * place of the radius (in a box: of the largest of radius, box length and coordinates). For such pairs the
@@ -73,7 +74,7 @@
  *   sph_index sph_permute_inverse(n, order, inverse)      inverse[order[slot]] = slot
  *   int       sph_rebuild_due(dim, now, then, skin)       1 if a particle moved by more than skin / 2
  *
- * OPTIONS
+ * OPTIONS, besides those of sph_kernels.h, and set in the same way
  *   SPH_OPENMP   0.
  *                1: the search uses the threads of OpenMP (compile with -fopenmp). The sweeps never start
  *                threads: call them on ranges, from your own threads.
@@ -82,10 +83,11 @@
  *   SPH_AVX2     1 where the compiler may use AVX2 and BMI2, else 0.
  *                1: the same for AVX2. If both are 0, the loop is portable C.
  */
+#include "sph_ops.h" /* each time, because the lowest header looks at the options each time */
+
 #ifndef SPH_H
 #define SPH_H
 
-#include "sph_ops.h"
 #if SPH_VERSION != 200
 #error "sph.h and sph_ops.h are of different releases"
 #endif
@@ -96,19 +98,39 @@
 #ifndef SPH_OPENMP
 #  define SPH_OPENMP 0
 #endif
+#if !SPHI_IS_FLAG(SPH_OPENMP)
+#  error "SPH_OPENMP must be 0 or 1"
+#endif
+#if SPH_OPENMP && !defined(_OPENMP)
+#  error "SPH_OPENMP must be 0 here: the compiler was not told to use OpenMP (-fopenmp)"
+#endif
+#if defined(__AVX512F__) && defined(__AVX512VL__) && !defined(__CUDACC__)
+#  define SPHI_HAS_AVX512 1
+#else
+#  define SPHI_HAS_AVX512 0
+#endif
 #ifndef SPH_AVX512
-#  if defined(__AVX512F__) && defined(__AVX512VL__) && !defined(__CUDACC__)
-#    define SPH_AVX512 1
-#  else
-#    define SPH_AVX512 0
-#  endif
+#  define SPH_AVX512 SPHI_HAS_AVX512
+#endif
+#if !SPHI_IS_FLAG(SPH_AVX512)
+#  error "SPH_AVX512 must be 0 or 1"
+#endif
+#if SPH_AVX512 && !SPHI_HAS_AVX512
+#  error "SPH_AVX512 must be 0 here: the compiler was not told to use AVX-512 F and VL (-march=native)"
+#endif
+#if defined(__AVX2__) && defined(__BMI2__) && defined(__x86_64__) && !defined(__CUDACC__)
+#  define SPHI_HAS_AVX2 1
+#else
+#  define SPHI_HAS_AVX2 0
 #endif
 #ifndef SPH_AVX2
-#  if defined(__AVX2__) && defined(__BMI2__) && defined(__x86_64__) && !defined(__CUDACC__)
-#    define SPH_AVX2 1
-#  else
-#    define SPH_AVX2 0
-#  endif
+#  define SPH_AVX2 SPHI_HAS_AVX2
+#endif
+#if !SPHI_IS_FLAG(SPH_AVX2)
+#  error "SPH_AVX2 must be 0 or 1"
+#endif
+#if SPH_AVX2 && !SPHI_HAS_AVX2
+#  error "SPH_AVX2 must be 0 here: the compiler was not told to use AVX2 and BMI2 on x86-64 (-march=native)"
 #endif
 #if SPH_OPENMP
 #  include <omp.h>
@@ -118,12 +140,16 @@
 #endif
 /* clang-format on */
 
+SPHI_BEGIN
+
 #if SPH_SINGLE
 #define SPHI_FLOOR(x) floorf(x)
 #else
 #define SPHI_FLOOR(x) floor(x)
 #endif
 #define SPHI_INDEX_MAX ((((int64_t)1 << (8 * sizeof(sph_index) - 2)) - 1) * 2 + 1)
+
+/* ================================================================ the grid */
 
 /* Which pairs at the distance r are neighbours; R_i and R_j are their support radii. The operators of
    sph_ops.h need a gather list. Pair-symmetric operators need the larger of both radii. */
@@ -1231,7 +1257,8 @@ typedef struct sph_query {
     int flags; /* of sph_list_flags, added up */
 } sph_query;
 
-/* The neighbours of points among themselves: one radius for each particle, or one for all. */
+/* The neighbours of points among themselves: one radius for each particle, or one for all; flags of
+   sph_list_flags, added up. */
 SPH_FN sph_query sph_query_of(sph_points points, int criterion, sph_scalars radius, int flags)
 {
     sph_query q;
@@ -1537,9 +1564,32 @@ SPH_FN int sph_rebuild_due(int dim, sph_points now, sph_points then, sph_real sk
     return 0;
 }
 
+SPHI_END
 #endif /* !SPH_OPENCL */
 
 #endif /* SPH_H */
+
+/* The options are still those of the first inclusion: as at the end of sph_kernels.h. */
+#if !SPH_OPENCL
+/* clang-format off */
+#ifdef __GNUC__
+#  pragma GCC diagnostic push
+#  pragma GCC diagnostic ignored "-Wredundant-decls"
+#endif
+#ifdef __cplusplus
+extern "C" {
+#endif
+char (*sphi_SPH_OPENMP_must_not_change_between_inclusions(void))[1 + SPH_OPENMP];
+char (*sphi_SPH_AVX512_must_not_change_between_inclusions(void))[1 + SPH_AVX512];
+char (*sphi_SPH_AVX2_must_not_change_between_inclusions(void))[1 + SPH_AVX2];
+#ifdef __cplusplus
+}
+#endif
+#ifdef __GNUC__
+#  pragma GCC diagnostic pop
+#endif
+/* clang-format on */
+#endif
 
 /*
  * MIT License

@@ -9,20 +9,22 @@
  *     double w  = sph_kernel_w(SPH_WENDLAND_C2, 3, r, h);         W(r, h)
  *     double f  = sph_kernel_f(SPH_WENDLAND_C2, 3, r, h);         F = (1/r) dW/dr, grad_i W = F (x_i - x_j)
  *
- * The file is a book of three chapters: kernels, gravity, names and texts. Each begins with its mathematics
- * and sources; then come its types and its functions, in the order of the index below. Before the chapters
- * stands what adapts the code to the compiler.
+ * The file is a book of four chapters: kernels, cohesion and adhesion, gravity, names and texts. Each begins
+ * with its mathematics and sources; then come its types and its functions, in the order of the index below.
+ * Before the chapters stands what adapts the code to the compiler.
  *
  * CONVENTIONS, here and in the headers above
  *   x_ij = x_i - x_j and r = |x_ij|. Gradients are taken at x_i:
  *       grad_i W(|x_i - x_j|, h) = F x_ij  with  F = (1/r) dW/dr.
  *   h is the smoothing length. It is a length scale of the kernel, NOT the radius of its support: W = 0 for
- *   r >= sph_kernel_support_ratio(k) * h. This radius is 2 h for most kernels, 2.5 h for M5, and 3 h for M6
- *   and the Gaussians. A host whose "h" is the support radius converts it once, by sph_kernel_h_from_support.
+ *   r >= sph_kernel_support_ratio(k) * h. This radius is 2 h for most kernels, n/2 h for a spline Mn, and 3 h
+ *   for the Gaussians. A host whose "h" is the support radius, as in most codes of computer graphics,
+ *   converts it once, by sph_kernel_h_from_support. What h is in other codes: chapter names and texts.
  *       W(r, h) = sigma / h^dim * w(q)  with  q = r / h.
  *   The integral of W over the space of dim dimensions is 1. sigma is exact (see sph_kernel_sigma).
  *   Exactly on the edge of the support, the rounding of r/h decides what is inside. This matters only for
- *   the functions that jump there: those of the Gaussians (by 1e-4 W(0)), and F of schuessler-schmitt.
+ *   the functions that jump there: those of the Gaussians (W by less than 1e-3 W(0)), F of
+ *   schuessler-schmitt, and d2W/dr2 of the kernels that sph_kernel_shape_d2 names.
  *   The unit of W is 1/length^dim, that of F is 1/length^(dim+2). dim is 1, 2 or 3.
  *   Kernel and dimension come first in every call. Pass them as constants: the call then becomes a few
  *   multiplications.
@@ -52,6 +54,9 @@
  *                                                     convention)
  *   int       sph_kernel_may_convexify(k, dim)        1 if W >= 0 and W' <= 0, so that the integral of its
  *                                                     tail is a convex kernel
+ *   cohesion and adhesion
+ *   sph_real  sph_cohesion_kernel_akinci(r, support)  C(r): pushes apart below 0.27 support, pulls beyond it
+ *   sph_real  sph_adhesion_kernel_akinci(r, support)  A(r): pulls towards a wall beyond half of the support
  *   gravity
  *   int       sph_kernel_has_gravity(k)               1 for the kernels that the following functions know
  *   sph_real  sph_gravity_shape_f(k, q)               h^3 (1/r) dphi/dr
@@ -64,12 +69,14 @@
  *   sph_error                                         what an array-level function answers
  *   sph_status                                        what it answers for each particle
  *   const char *sph_kernel_name(k)                    "wendland-c2"
- *   int       sph_kernel_from_name(name)              the kernel, or -1. It also knows the usual aliases: m4,
- *                                                     cubic, w2, wendland_c2, lucy, ...
+ *   int       sph_kernel_from_name(name)              the kernel, or -1. It also knows aliases (m4, cubic,
+ *                                                     w2, lucy, ...) and the names of other codes
  *   const char *sph_status_text(status)               the meaning of an error or status, in words
  *
- * OPTIONS (0 or 1, unless a type or macro is asked for. Set them with -D or before the first inclusion. They
- * are the same in every header.)
+ * OPTIONS (0 or 1 and no other number or word, unless a type or macro is asked for. Set them with -D, or
+ * before the first inclusion of any of the headers. What is not allowed does not compile, nor does what has
+ * changed since the first inclusion: the error names the option. Each source file of a program has options
+ * of its own, so that one may be in float and another in double.)
  *   SPH_SINGLE      0, but 1 where double is no wider than float, as on AVR.
  *                   1: sph_real is float.
  *   SPH_SIMD        1 under OpenMP 4 or later, else 0.
@@ -81,11 +88,14 @@
  *   SPH_CHECK       1.
  *                   1: array-level functions scan positions, h, values and lists before they touch anything.
  *                   0: they check their arguments only.
- *   SPH_INDEX       int32_t. The type of particle indices and list indices.
- *   SPH_ASSERT(x)   nothing. It is called with the precondition of each scalar function (r >= 0, h > 0).
- *                   Define it as assert to find a fault of the caller. r/h must also be below 1e9, because
- *                   the polynomials overflow somewhere beyond. (The sweeps of sph_ops.h report what is not
- *                   finite.)
+ *   SPH_INDEX       int32_t (in OpenCL int). The type of particle indices and list indices: a signed integer
+ *                   type of 2 to 8 bytes, such as int16_t or int64_t (in OpenCL short or long).
+ *   SPH_ASSERT(x)   nothing. It is called with the precondition of each scalar function, which stands above
+ *                   the function after "Needs". All functions need a kernel and a dimension that exist,
+ *                   r >= 0, h > 0 and support > 0, where they take them. Define it as assert to find a fault
+ *                   of the caller. A result that overflows is no such fault, and is infinite or NaN: that of
+ *                   a kernel where 1 / h^(dim + 2) overflows, or where r/h is above 1e9. (The sweeps of
+ *                   sph_ops.h report what is not finite.)
  *   SPH_REFUSED(argument, particle, error)
  *                   nothing. It is called where an array-level function refuses an argument, with the name
  *                   of the argument, the first particle at fault (-1: no particle) and the negative
@@ -115,6 +125,15 @@
 #  include <stdint.h>
 #endif
 
+/* 1 if an option is 0 or 1, else 0: also if it is another word, or empty. */
+#define SPHI_PASTE(a, b) a##b
+#define SPHI_IS_FLAG(option) SPHI_PASTE(SPHI_FLAG_, option)
+#define SPHI_FLAG_0 1
+#define SPHI_FLAG_1 1
+/* The length of the text to which a macro expands. */
+#define SPHI_LENGTH(text) SPHI_LENGTH_OF(text)
+#define SPHI_LENGTH_OF(text) sizeof(#text)
+
 #if defined(__SIZEOF_DOUBLE__) && __SIZEOF_DOUBLE__ < 8
 #  define SPHI_SINGLE_ONLY 1
 #else
@@ -123,17 +142,25 @@
 #ifndef SPH_SINGLE
 #  define SPH_SINGLE SPHI_SINGLE_ONLY
 #endif
+#if !SPHI_IS_FLAG(SPH_SINGLE)
+#  error "SPH_SINGLE must be 0 or 1"
+#endif
 #if SPHI_SINGLE_ONLY && !SPH_SINGLE
 #  error "double is no wider than float here: SPH_SINGLE must be 1"
 #endif
 #ifndef SPH_CHECK
 #  define SPH_CHECK 1
 #endif
+#if !SPHI_IS_FLAG(SPH_CHECK)
+#  error "SPH_CHECK must be 0 or 1"
+#endif
 #ifndef SPH_ASSERT
 #  define SPH_ASSERT(x) ((void)0)
+#  define SPHI_NO_ASSERT
 #endif
 #ifndef SPH_REFUSED
 #  define SPH_REFUSED(argument, particle, error) ((void)0)
+#  define SPHI_NO_REFUSED
 #endif
 #ifndef SPH_INDEX
 #  if SPH_OPENCL
@@ -143,18 +170,28 @@
 #  endif
 #endif
 #ifndef SPH_SIMD
-#  if defined(_OPENMP)
-#    define SPH_SIMD (_OPENMP >= 201307)
+#  if defined(_OPENMP) && _OPENMP >= 201307
+#    define SPH_SIMD 1
 #  else
 #    define SPH_SIMD 0
 #  endif
 #endif
+#if !SPHI_IS_FLAG(SPH_SIMD)
+#  error "SPH_SIMD must be 0 or 1"
+#endif
+#if (defined(__GNUC__) || defined(__clang__)) && !SPH_OPENCL && !defined(__CUDACC__)
+#  define SPHI_HAS_PURE_SQRT 1
+#else
+#  define SPHI_HAS_PURE_SQRT 0
+#endif
 #ifndef SPH_PURE_SQRT
-#  if (defined(__GNUC__) || defined(__clang__)) && !SPH_OPENCL && !defined(__CUDACC__)
-#    define SPH_PURE_SQRT 1
-#  else
-#    define SPH_PURE_SQRT 0
-#  endif
+#  define SPH_PURE_SQRT SPHI_HAS_PURE_SQRT
+#endif
+#if !SPHI_IS_FLAG(SPH_PURE_SQRT)
+#  error "SPH_PURE_SQRT must be 0 or 1"
+#endif
+#if SPH_PURE_SQRT && !SPHI_HAS_PURE_SQRT
+#  error "SPH_PURE_SQRT must be 0 here: only gcc and clang know how to declare it, in C and C++"
 #endif
 
 #if SPH_OPENCL
@@ -237,12 +274,30 @@ extern float(sqrtf)(float) __attribute__((const));
 #  pragma GCC diagnostic pop
 #endif
 
+/* In C++ a type that depends on the precision has a name that does, too, here and in the headers above. So
+   parts of both precisions can be linked to one program (with -flto, compilers look at that). */
+#ifndef __cplusplus
+#  define SPHI_BEGIN
+#  define SPHI_END
+#else
+#  define SPHI_END }
+#  if SPH_SINGLE
+#    define SPHI_BEGIN inline namespace sph_float {
+#  else
+#    define SPHI_BEGIN inline namespace sph_double {
+#  endif
+#endif
+SPHI_BEGIN
+
 #if SPH_SINGLE
 typedef float sph_real;
 #else
 typedef double sph_real;
 #endif
 typedef SPH_INDEX sph_index;
+typedef char sphi_SPH_INDEX_must_be_a_signed_integer_of_2_to_8_bytes
+    [2 * ((SPH_INDEX)0.5f == 0) * ((SPH_INDEX)-1 < 0) * (sizeof(SPH_INDEX) >= 2) * (sizeof(SPH_INDEX) <= 8) -
+     1];
 #if SPH_OPENCL
 typedef int sphi_int32;
 #else
@@ -282,12 +337,12 @@ typedef int32_t sphi_int32; /* because int may have 16 bits */
  *
  * Sources. "Clustering paper": Korzilius et al., 'two remedies for particle clustering'. "ICSPM paper":
  * Korzilius, Schilders & Anthonissen 2017, J. Appl. Math. Phys. 5, 168.
- *   cubic-, quartic-, quintic-spline (M4, M5, M6)
+ *   cubic-, quartic-, quintic-, sextic-, heptic-spline (M4, M5, M6, M7, M8)
  *       Schoenberg 1946, Quart. Appl. Math. 4, 45. In SPH: Monaghan & Lattanzio 1985, A&A 149, 135 (M4).
  *   wendland-c2, -c4, -c6; wendland-c2-1d, -c4-1d, -c6-1d
  *       Wendland 1995, Adv. Comput. Math. 4, 389; Dehnen & Aly 2012, MNRAS 425, 1068, table 1. The first
- *       three are his functions phi_{3,1}, phi_{3,2}, phi_{3,3} of two and three dimensions, the others his
- *       functions phi_{2,1}, phi_{3,2}, phi_{4,3} of one dimension. A kernel named -1d is positive definite
+ *       three are his functions psi_{3,1}, psi_{4,2}, psi_{5,3} of two and three dimensions, the others his
+ *       functions psi_{2,1}, psi_{3,2}, psi_{4,3} of one dimension. A kernel named -1d is positive definite
  *       in one dimension only, but it is normalised in all three. wendland-c2-1d is (1.1) of the clustering
  *       paper, and the kernel of Lucy 1977, AJ 82, 1013. wendland-c4-1d is the kernel of the ICSPM paper.
  *   gaussian, super-gaussian
@@ -303,8 +358,17 @@ typedef int32_t sphi_int32; /* because int may have 16 bits */
  *       convex is this recipe applied to hermite.)
  *   core-triangle
  *       Read, Hayfield & Agertz 2010, MNRAS 405, 1513, with alpha = 1/3. Its slope is constant for q < 2/3.
+ *   poly6, spiky
+ *       Mueller, Charypar & Gross 2003, Symposium on Computer Animation, 154, (20) and (21). Their h is the
+ *       support radius H, so that h = H/2 here, for instance by sph_kernel_h_from_support: with it, all
+ *       kernels of 2 h can share a list. In 3D W is then 315/(64 pi H^9) (H^2 - r^2)^3 of poly6 and
+ *       15/(pi H^6) (H - r)^3 of spiky. The slope of poly6 vanishes towards r = 0, so that its pressure does
+ *       not keep particles apart; they took it for the density, and spiky, which has a cusp, for gradients.
+ *       (W of their third kernel, for viscosity, is infinite at r = 0. It is not here.)
  * The recommended h / dx of M4, M5, M6 and the Wendland family are those of Phantom (Price et al. 2018,
- * PASA 35, e031). Those of the clustering kernels come from the papers that propose these kernels.
+ * PASA 35, e031), those of M7 and M8 the default of Shamrock. Those of the clustering kernels come from the
+ * papers that propose these kernels. Those of poly6 and spiky are the support of 2 dx that is usual in
+ * computer graphics, with 4 pi/3 2^3 = 33 neighbours in 3D.
  */
 
 /* -------- kernels: types */
@@ -332,7 +396,11 @@ typedef int32_t sphi_int32; /* because int may have 16 bits */
     each(context, SPH_CONVEX_CUBIC_SPLINE, "convex-cubic-spline", 2.0, 1.5) \
     each(context, SPH_CONVEX_WENDLAND_C2, "convex-wendland-c2", 2.0, 1.5) \
     each(context, SPH_CONVEX_WENDLAND_C4, "convex-wendland-c4", 2.0, 1.5) \
-    each(context, SPH_CORE_TRIANGLE, "core-triangle", 2.0, 1.5)
+    each(context, SPH_CORE_TRIANGLE, "core-triangle", 2.0, 1.5) \
+    each(context, SPH_SEXTIC_SPLINE, "sextic-spline", 3.5, 1.0) \
+    each(context, SPH_HEPTIC_SPLINE, "heptic-spline", 4.0, 1.0) \
+    each(context, SPH_POLY6, "poly6", 2.0, 1.0) \
+    each(context, SPH_SPIKY, "spiky", 2.0, 1.0)
 /* clang-format on */
 
 /* clang-format off */
@@ -361,6 +429,13 @@ typedef struct sph_wf {
 
 /* -------- kernels: functions */
 
+/* What SPH_ASSERT is called with, where it takes more than a line. */
+#define SPHI_IS_KERNEL(k) ((unsigned)(k) < (unsigned)SPH_KERNEL_COUNT)
+#define SPHI_IS_DIM(dim) ((dim) >= 1 && (dim) <= 3)
+/* q = r/h may be NaN: sweeps accept an h whose inverse overflows, and then report a result that is not
+   finite. */
+#define SPHI_IS_Q(q) (!((q) < SPH_R(0)))
+
 /* The positive part of x, without a branch: for `x > 0 ? x : 0` gcc leaves control flow in a loop, and then
    does not vectorise it. Exact for finite x. */
 SPH_FN sph_real sphi_pos(sph_real x) { return SPH_R(0.5) * (x + SPHI_ABS(x)); }
@@ -384,6 +459,7 @@ SPH_FN sph_real sph_kernel_support_ratio(sph_kernel k)
 #define SPHI_KERNEL_SUPPORT(unused, id, name, support, h_over_dx) \
     case id: \
         return SPH_R(support);
+    SPH_ASSERT(SPHI_IS_KERNEL(k));
     switch (k) {
         SPH_KERNELS(SPHI_KERNEL_SUPPORT, 0)
     case SPH_KERNEL_COUNT:
@@ -393,12 +469,24 @@ SPH_FN sph_real sph_kernel_support_ratio(sph_kernel k)
 #undef SPHI_KERNEL_SUPPORT
 }
 
-/* Recommended h / particle spacing: a default for programs, not a law. */
+/* Recommended h / particle spacing: a default for programs, not a law.
+   Even on a perfect lattice, the density that is summed up with it, dx^dim sum W, is not exactly 1. Of the
+   kernels without a cusp it is right within 1.6 %. A kernel with a cusp gives a particle itself too large a
+   share, so that the density is too high:
+                              1D     2D     3D                            1D     2D     3D
+       schuessler-schmitt   1.106  1.041  1.006    convex-wendland-c2   1.134  1.118  1.083
+       johnson-beissel      1.056  1.034  1.019    convex-wendland-c4   1.174  1.176  1.142
+       convex               1.063  1.042  1.023    core-triangle        1.051  1.034  1.018
+       convex-cubic-spline  1.108  1.088  1.058    spiky                1.250  1.274  1.236
+   examples/hello_kernel.c prints this table for all kernels (-l). A density that is integrated from its right
+   value is free of this error; one that is summed up is not, and an equation of state turns it into a
+   pressure. Larger h reduces it. */
 SPH_FN sph_real sph_kernel_h_over_dx(sph_kernel k)
 {
 #define SPHI_KERNEL_H_OVER_DX(unused, id, name, support, h_over_dx) \
     case id: \
         return SPH_R(h_over_dx);
+    SPH_ASSERT(SPHI_IS_KERNEL(k));
     switch (k) {
         SPH_KERNELS(SPHI_KERNEL_H_OVER_DX, 0)
     case SPH_KERNEL_COUNT:
@@ -408,18 +496,24 @@ SPH_FN sph_real sph_kernel_h_over_dx(sph_kernel k)
 #undef SPHI_KERNEL_H_OVER_DX
 }
 
-/* The h of a kernel that ends at the radius `support`. */
+/* The h of a kernel that ends at the radius `support`. Needs support > 0. */
 SPH_FN sph_real sph_kernel_h_from_support(sph_kernel k, sph_real support)
 {
+    SPH_ASSERT(support > SPH_R(0));
     return support / sph_kernel_support_ratio(k);
 }
 /* The radius at which a kernel ends. */
-SPH_FN sph_real sph_kernel_support(sph_kernel k, sph_real h) { return h * sph_kernel_support_ratio(k); }
+SPH_FN sph_real sph_kernel_support(sph_kernel k, sph_real h)
+{
+    SPH_ASSERT(h > SPH_R(0));
+    return h * sph_kernel_support_ratio(k);
+}
 
 /* sigma = 1 / (S_dim integral_0^support w(q) q^(dim-1) dq) with S_dim = 2, 2 pi, 4 pi. The comments give the
    exact values for 1, 2 and 3 dimensions; tests/known/derive_kernels.py derives them. */
 SPH_FN sph_real sph_kernel_sigma(sph_kernel k, int dim)
 {
+    SPH_ASSERT(SPHI_IS_KERNEL(k) && SPHI_IS_DIM(dim));
     switch (k) {
     case SPH_CUBIC_SPLINE: /* 2/3, 10/(7 pi), 1/pi */
         return sphi_by_dim(dim, SPH_R(0.66666666666666666667), SPH_R(0.45472840883398667363),
@@ -474,18 +568,29 @@ SPH_FN sph_real sph_kernel_sigma(sph_kernel k, int dim)
     case SPH_CORE_TRIANGLE: /* 54/85, 162/(115 pi), 3645/(3661 pi) */
         return sphi_by_dim(dim, SPH_R(0.63529411764705882353), SPH_R(0.44840175271107903295),
                            SPH_R(0.31691874764816088439));
+    case SPH_SEXTIC_SPLINE: /* 1/720, 256/(113149 pi), 1/(840 pi) */
+        return sphi_by_dim(dim, SPH_R(0.0013888888888888888889), SPH_R(0.00072017720760281055876),
+                           SPH_R(0.00037894034069498889469));
+    case SPH_HEPTIC_SPLINE: /* 1/5040, 9/(29740 pi), 1/(6720 pi) */
+        return sphi_by_dim(dim, SPH_R(0.0001984126984126984127), SPH_R(0.000096327806847818293337),
+                           SPH_R(0.000047367542586873611836));
+    case SPH_POLY6: /* 35/64, 1/pi, 315/(512 pi) */
+        return sphi_by_dim(dim, SPH_R(0.546875), SPH_R(0.31830988618379067154),
+                           SPH_R(0.19583518388260558893));
+    case SPH_SPIKY: /* 1, 5/(2 pi), 15/(8 pi) */
+        return sphi_by_dim(dim, SPH_R(1.0), SPH_R(0.79577471545947667884), SPH_R(0.59683103659460750913));
     case SPH_KERNEL_COUNT:
     default:
         return SPH_R(0);
     }
 }
 
-/* w(q): the kernel without its normalisation; 0 for q >= support. The sources stand above. */
+/* w(q): the kernel without its normalisation; 0 for q >= support. The sources stand above. Needs q >= 0. */
 SPH_FN sph_real sph_kernel_shape(sph_kernel k, int dim, sph_real q)
 {
     const sph_real a = sphi_pos(SPH_R(2) - q), b = SPH_R(0.5) * a, c = sphi_pos(SPH_R(1) - q);
     const sph_real b2 = b * b, b4 = b2 * b2;
-    SPH_ASSERT(q >= SPH_R(0));
+    SPH_ASSERT(SPHI_IS_KERNEL(k) && SPHI_IS_DIM(dim) && SPHI_IS_Q(q));
     switch (k) {
     case SPH_CUBIC_SPLINE:
         return SPH_R(0.25) * a * a * a - c * c * c;
@@ -535,13 +640,36 @@ SPH_FN sph_real sph_kernel_shape(sph_kernel k, int dim, sph_real q)
         const sph_real e = sphi_pos(SPH_R(0.666666666666666667) - q);
         return SPH_R(0.25) * a * a * a - c * c * c + SPH_R(0.75) * e * e * e;
     }
+    case SPH_SEXTIC_SPLINE: {
+        const sph_real e = sphi_pos(SPH_R(0.5) - q), s = q + e, u = sphi_pos(SPH_R(3.5) - s),
+                       v = sphi_pos(SPH_R(2.5) - s), t = sphi_pos(SPH_R(1.5) - s), u3 = u * u * u,
+                       v3 = v * v * v, t3 = t * t * t;
+        return u3 * u3 - SPH_R(7) * (v3 * v3) + SPH_R(21) * (t3 * t3) +
+               e * (SPH_R(240) -
+                    e * (SPH_R(150) + e * (SPH_R(160) - e * (SPH_R(30) + e * (SPH_R(60) - SPH_R(20) * e)))));
+    }
+    case SPH_HEPTIC_SPLINE: {
+        const sph_real s = q + c, u = sphi_pos(SPH_R(4) - s), v = sphi_pos(SPH_R(3) - s),
+                       t = sphi_pos(SPH_R(2) - s), u3 = u * u * u, v3 = v * v * v, t3 = t * t * t;
+        return u3 * u3 * u - SPH_R(8) * (v3 * v3 * v) + SPH_R(28) * (t3 * t3 * t) +
+               c * (SPH_R(1715) +
+                    c * (SPH_R(315) +
+                         c * (SPH_R(-665) +
+                              c * (SPH_R(-315) + c * (SPH_R(105) + c * (SPH_R(105) - SPH_R(35) * c))))));
+    }
+    case SPH_POLY6: { /* (1 - q^2/4)^3, without cancellation at q = 2 */
+        const sph_real p = b * (SPH_R(1) + SPH_R(0.5) * q);
+        return p * p * p;
+    }
+    case SPH_SPIKY:
+        return b2 * b;
     case SPH_KERNEL_COUNT:
     default:
         return SPH_R(0);
     }
 }
 
-/* (1/q) dw/dq; 0 for q >= support. At q = 0 it is the limit, or 0 for a kernel with a cusp.
+/* (1/q) dw/dq; 0 for q >= support. At q = 0 it is the limit, or 0 for a kernel with a cusp. Needs q >= 0.
    Splines: let q0 be the knot next to the origin, t = min(q, q0) and s = max(q, q0), so that q = t + s - q0.
    Then f(q) = [f(t) - f(q0)] + f(s). The first part is written without a division by q, the second without
    the inner piece, so that nothing branches and nothing cancels.
@@ -551,7 +679,7 @@ SPH_FN sph_real sph_kernel_shape_f(sph_kernel k, int dim, sph_real q)
 {
     const sph_real a = sphi_pos(SPH_R(2) - q), b = SPH_R(0.5) * a, c = sphi_pos(SPH_R(1) - q);
     const sph_real b2 = b * b, b4 = b2 * b2;
-    SPH_ASSERT(q >= SPH_R(0));
+    SPH_ASSERT(SPHI_IS_KERNEL(k) && SPHI_IS_DIM(dim) && SPHI_IS_Q(q));
     switch (k) {
     case SPH_CUBIC_SPLINE: {
         const sph_real s = q + c, u = sphi_pos(SPH_R(2) - s);
@@ -608,6 +736,25 @@ SPH_FN sph_real sph_kernel_shape_f(sph_kernel k, int dim, sph_real q)
         const sph_real e = sphi_pos(SPH_R(0.666666666666666667) - q);
         return sphi_over_q(SPH_R(3) * c * c - SPH_R(0.75) * a * a - SPH_R(2.25) * e * e, q);
     }
+    case SPH_SEXTIC_SPLINE: {
+        const sph_real e = sphi_pos(SPH_R(0.5) - q), s = q + e, u = sphi_pos(SPH_R(3.5) - s),
+                       v = sphi_pos(SPH_R(2.5) - s), t = sphi_pos(SPH_R(1.5) - s), u2 = u * u, v2 = v * v,
+                       t2 = t * t;
+        return SPH_R(-6) * (u2 * u2 * u - SPH_R(7) * (v2 * v2 * v) + SPH_R(21) * (t2 * t2 * t)) / s -
+               e * (SPH_R(360) - e * (SPH_R(240) + e * (SPH_R(240) - SPH_R(120) * e)));
+    }
+    case SPH_HEPTIC_SPLINE: {
+        const sph_real s = q + c, u = sphi_pos(SPH_R(4) - s), v = sphi_pos(SPH_R(3) - s),
+                       t = sphi_pos(SPH_R(2) - s), u3 = u * u * u, v3 = v * v * v, t3 = t * t * t;
+        return SPH_R(-7) * (u3 * u3 - SPH_R(8) * (v3 * v3) + SPH_R(28) * (t3 * t3)) / s -
+               c * (SPH_R(2345) + c * (SPH_R(350) - c * (SPH_R(910) + c * (SPH_R(385) - SPH_R(245) * c))));
+    }
+    case SPH_POLY6: {
+        const sph_real p = b * (SPH_R(1) + SPH_R(0.5) * q);
+        return SPH_R(-1.5) * p * p;
+    }
+    case SPH_SPIKY:
+        return sphi_over_q(SPH_R(-1.5) * b2, q);
     case SPH_KERNEL_COUNT:
     default:
         return SPH_R(0);
@@ -615,12 +762,12 @@ SPH_FN sph_real sph_kernel_shape_f(sph_kernel k, int dim, sph_real q)
 }
 
 /* d2w/dq2; 0 for q >= support, where it jumps for liu-quartic, hermite, schuessler-schmitt, johnson-beissel
-   and the Gaussians. At q = 0 of a kernel with a cusp it is the limit from q > 0. */
+   and the Gaussians. At q = 0 of a kernel with a cusp it is the limit from q > 0. Needs q >= 0. */
 SPH_FN sph_real sph_kernel_shape_d2(sph_kernel k, int dim, sph_real q)
 {
     const sph_real a = sphi_pos(SPH_R(2) - q), b = SPH_R(0.5) * a, c = sphi_pos(SPH_R(1) - q);
     const sph_real b2 = b * b, b4 = b2 * b2, inside = q < sph_kernel_support_ratio(k) ? SPH_R(1) : SPH_R(0);
-    SPH_ASSERT(q >= SPH_R(0));
+    SPH_ASSERT(SPHI_IS_KERNEL(k) && SPHI_IS_DIM(dim) && SPHI_IS_Q(q));
     switch (k) {
     case SPH_CUBIC_SPLINE:
         return SPH_R(1.5) * a - SPH_R(6) * c;
@@ -671,6 +818,24 @@ SPH_FN sph_real sph_kernel_shape_d2(sph_kernel k, int dim, sph_real q)
         return SPH_R(-1.6875) * q * sph_kernel_shape_f(SPH_WENDLAND_C4, dim, q);
     case SPH_CORE_TRIANGLE:
         return SPH_R(1.5) * a - SPH_R(6) * c + SPH_R(4.5) * sphi_pos(SPH_R(0.666666666666666667) - q);
+    case SPH_SEXTIC_SPLINE: {
+        const sph_real e = sphi_pos(SPH_R(0.5) - q), s = q + e, u = sphi_pos(SPH_R(3.5) - s),
+                       v = sphi_pos(SPH_R(2.5) - s), t = sphi_pos(SPH_R(1.5) - s), u2 = u * u, v2 = v * v,
+                       t2 = t * t;
+        return SPH_R(30) * (u2 * u2 - SPH_R(7) * (v2 * v2) + SPH_R(21) * (t2 * t2)) -
+               e * (SPH_R(960) - e * (SPH_R(360) + e * (SPH_R(1200) - SPH_R(600) * e)));
+    }
+    case SPH_HEPTIC_SPLINE: {
+        const sph_real s = q + c, u = sphi_pos(SPH_R(4) - s), v = sphi_pos(SPH_R(3) - s),
+                       t = sphi_pos(SPH_R(2) - s), u2 = u * u, v2 = v * v, t2 = t * t;
+        return SPH_R(42) * (u2 * u2 * u - SPH_R(8) * (v2 * v2 * v) + SPH_R(28) * (t2 * t2 * t)) -
+               c * (SPH_R(3990) +
+                    c * (SPH_R(3780) - c * (SPH_R(2100) + c * (SPH_R(3150) - SPH_R(1470) * c))));
+    }
+    case SPH_POLY6:
+        return SPH_R(-1.5) * b * (SPH_R(1) + SPH_R(0.5) * q) * (SPH_R(1) - SPH_R(1.25) * q * q);
+    case SPH_SPIKY:
+        return SPH_R(1.5) * b;
     case SPH_KERNEL_COUNT:
     default:
         return SPH_R(0);
@@ -681,7 +846,7 @@ SPH_FN sph_real sph_kernel_shape_d2(sph_kernel k, int dim, sph_real q)
 SPH_FN sph_real sph_kernel_w(sph_kernel k, int dim, sph_real r, sph_real h)
 {
     const sph_real u = SPH_R(1) / h;
-    SPH_ASSERT(h > SPH_R(0));
+    SPH_ASSERT(r >= SPH_R(0) && h > SPH_R(0));
     return sph_kernel_sigma(k, dim) * sphi_power(u, dim) * sph_kernel_shape(k, dim, r * u);
 }
 
@@ -690,7 +855,7 @@ SPH_FN sph_real sph_kernel_w(sph_kernel k, int dim, sph_real r, sph_real h)
 SPH_FN sph_real sph_kernel_f(sph_kernel k, int dim, sph_real r, sph_real h)
 {
     const sph_real u = SPH_R(1) / h;
-    SPH_ASSERT(h > SPH_R(0));
+    SPH_ASSERT(r >= SPH_R(0) && h > SPH_R(0));
     return sph_kernel_sigma(k, dim) * sphi_power(u, dim) * u * u * sph_kernel_shape_f(k, dim, r * u);
 }
 
@@ -699,7 +864,7 @@ SPH_FN sph_wf sph_kernel_wf(sph_kernel k, int dim, sph_real r, sph_real h)
 {
     const sph_real u = SPH_R(1) / h, scale = sph_kernel_sigma(k, dim) * sphi_power(u, dim), q = r * u;
     sph_wf v;
-    SPH_ASSERT(h > SPH_R(0));
+    SPH_ASSERT(r >= SPH_R(0) && h > SPH_R(0));
     v.w = scale * sph_kernel_shape(k, dim, q);
     v.f = scale * u * u * sph_kernel_shape_f(k, dim, q);
     return v;
@@ -715,7 +880,7 @@ SPH_FN sph_real sph_kernel_dwdr(sph_kernel k, int dim, sph_real r, sph_real h)
 SPH_FN sph_real sph_kernel_d2wdr2(sph_kernel k, int dim, sph_real r, sph_real h)
 {
     const sph_real u = SPH_R(1) / h;
-    SPH_ASSERT(h > SPH_R(0));
+    SPH_ASSERT(r >= SPH_R(0) && h > SPH_R(0));
     return sph_kernel_sigma(k, dim) * sphi_power(u, dim) * u * u * sph_kernel_shape_d2(k, dim, r * u);
 }
 
@@ -738,6 +903,7 @@ SPH_FN int sph_kernel_has_cusp(sph_kernel k)
     case SPH_CONVEX_WENDLAND_C2:
     case SPH_CONVEX_WENDLAND_C4:
     case SPH_CORE_TRIANGLE:
+    case SPH_SPIKY:
         return 1;
     default:
         return 0;
@@ -751,11 +917,53 @@ SPH_FN int sph_kernel_has_cusp(sph_kernel k)
 SPH_FN int sph_kernel_may_convexify(sph_kernel k, int dim)
 {
     int i;
+    SPH_ASSERT(SPHI_IS_KERNEL(k) && SPHI_IS_DIM(dim));
     for (i = 0; i <= 1024; i++) {
         const sph_real q = sph_kernel_support_ratio(k) * SPH_R(i) / SPH_R(1024);
         if (sph_kernel_shape(k, dim, q) < SPH_R(0) || sph_kernel_shape_f(k, dim, q) > SPH_R(0)) return 0;
     }
     return 1;
+}
+
+/* ================================================================ cohesion and adhesion
+ *
+ * The kernels of a force between particles that holds a drop together, and of one that makes it stick to a
+ * wall. They are no smoothing kernels: their integral is not 1, and they have no h but the support radius H,
+ * that is sph_kernel_support(k, h). With x = r / H, in three dimensions,
+ *     C = 32 / (pi H^3) { (1 - x)^3 x^3 for 1/2 < x < 1;  2 (1 - x)^3 x^3 - 1/64 for x <= 1/2 }
+ *     A = 0.007 / H^3 (-4 x^2 + 6 x - 2)^(1/4) for 1/2 < x < 1,
+ * and 0 elsewhere. The force on particle i, with x_ij = x_i - x_j and r = |x_ij|, is
+ *     -gamma m_i m_j C x_ij / r of a particle j,   -beta m_i psi_j A x_ij / r of a particle j of the wall,
+ * where psi_j = rho0 V_j. gamma and beta are found by trial: they are not a surface tension, and depend on H.
+ *     C rises from -1/(2 pi H^3) at r = 0, is 0 at 0.2729 H, 1/(2 pi H^3) at H/2, 0 at H. Its integral over
+ *     space is 79/336. C is smooth but at H/2, where its curvature jumps.
+ *     A is largest, 0.00495 / H^3, at 3 H/4. Its slope is infinite at H/2 and at H. Its integral over space
+ *     is 0.01578.
+ *
+ * Source: Akinci, Akinci & Teschner 2013, ACM Trans. Graph. 32(6), 182, (1), (2), (6), (7). The paper writes
+ * h for H. The 1/64 belongs inside the bracket that 32/(pi H^3) multiplies: only then is C continuous.
+ */
+
+/* -------- cohesion and adhesion: functions */
+
+/* C(r), in 1/length^3. Below r = 0.2729 support it is negative: there the force pushes apart. */
+SPH_FN sph_real sph_cohesion_kernel_akinci(sph_real r, sph_real support)
+{
+    /* t = min(x, 1/2) and s = max(x, 1/2) share 1/64 at 1/2; t (1 - t) = 1/4 - e^2 */
+    const sph_real u = SPH_R(1) / support, x = r * u, e = sphi_pos(SPH_R(0.5) - x), s = x + e;
+    const sph_real outer = s * sphi_pos(SPH_R(1) - s), inner = SPH_R(0.25) - e * e;
+    SPH_ASSERT(r >= SPH_R(0) && support > SPH_R(0));
+    return SPH_R(10.185916357881301489) * (u * u * u) *
+           (outer * outer * outer + SPH_R(2) * (inner * inner * inner) - SPH_R(0.03125));
+}
+
+/* A(r) >= 0, in 1/length^3. */
+SPH_FN sph_real sph_adhesion_kernel_akinci(sph_real r, sph_real support)
+{
+    const sph_real u = SPH_R(1) / support, x = r * u;
+    SPH_ASSERT(r >= SPH_R(0) && support > SPH_R(0));
+    return SPH_R(0.007) * (u * u * u) *
+           SPHI_SQRT(SPHI_SQRT(SPH_R(4) * sphi_pos(x - SPH_R(0.5)) * sphi_pos(SPH_R(1) - x)));
 }
 
 /* ================================================================ gravity
@@ -781,10 +989,11 @@ SPH_FN int sph_kernel_has_gravity(sph_kernel k)
 }
 
 /* (1/q) dphi^/dq = h^3 (1/r) dphi/dr. It is Newton's 1/q^3 beyond the support, and for kernels that have no
-   gravity. */
+   gravity. Needs q >= 0, and q > 0 for the latter. */
 SPH_FN sph_real sph_gravity_shape_f(sph_kernel k, sph_real q)
 {
     const sph_real a = q * q;
+    SPH_ASSERT(q > SPH_R(0) || (q >= SPH_R(0) && sph_kernel_has_gravity(k)));
     if (!(q < SPH_R(2)) || !sph_kernel_has_gravity(k)) return SPH_R(1) / (a * q);
     switch (k) {
     case SPH_WENDLAND_C2:
@@ -814,10 +1023,11 @@ SPH_FN sph_real sph_gravity_shape_f(sph_kernel k, sph_real q)
 }
 
 /* phi^ = h phi, which is negative. It is Newton's -1/q beyond the support, and for kernels that have no
-   gravity. */
+   gravity. Needs q >= 0, and q > 0 for the latter. */
 SPH_FN sph_real sph_gravity_shape(sph_kernel k, sph_real q)
 {
     const sph_real a = q * q;
+    SPH_ASSERT(q > SPH_R(0) || (q >= SPH_R(0) && sph_kernel_has_gravity(k)));
     if (!(q < SPH_R(2)) || !sph_kernel_has_gravity(k)) return SPH_R(-1) / q;
     switch (k) {
     case SPH_WENDLAND_C2:
@@ -850,7 +1060,7 @@ SPH_FN sph_real sph_gravity_shape(sph_kernel k, sph_real q)
     }
 }
 
-/* phi = phi^(r/h) / h. */
+/* phi = phi^(r/h) / h. This and the next two need a kernel with sph_kernel_has_gravity. */
 SPH_FN sph_real sph_gravity_potential(sph_kernel k, sph_real r, sph_real h)
 {
     SPH_ASSERT(r >= SPH_R(0) && h > SPH_R(0) && sph_kernel_has_gravity(k));
@@ -879,6 +1089,36 @@ SPH_FN sph_real sph_gravity_dphidh(sph_kernel k, sph_real r, sph_real h)
  * The names of the kernels, for programs that take them from the command line, and the codes that functions
  * answer, with their meaning in words. There is no mathematics here, and there are no sources. OpenCL has the
  * codes only.
+ *
+ * sph_kernel_from_name also knows what other codes call these kernels. A name stands for a shape. What h
+ * means differs from code to code: where it is not the h of this file, convert it first.
+ *   code           its names                                                 its h
+ *   Phantom        cubic, quartic, quintic, WendlandC2, -C4, -C6             h
+ *   Shamrock       M4 to M8, C2, C4, C6                                      h
+ *   SWIFT          cubic-, quartic-, quintic-spline, wendland-C2, -C4, -C6   support / gamma; gamma depends
+ *                                                                            on kernel and dim
+ *   PySPH          CubicSpline, QuinticSpline, Gaussian, SuperGaussian,      h
+ *                  WendlandQuintic, -C4, -C6, and with _1D
+ *   SPHinXsys      CubicBSpline, Wendland2CKernel, KernelWendlandC2,         h
+ *                  QuadraticKernel (johnson-beissel)
+ *   DualSPHysics   Cubic, Wendland                                           h
+ *   TrixiParticles SchoenbergCubicSplineKernel, -Quartic-, -Quintic-,        h; of Poly6 and Spiky the
+ *                  WendlandC2Kernel, -C4-, -C6-, GaussianKernel,             support radius
+ *                  Poly6Kernel, SpikyKernel
+ *   OpenSPH        cubic_spline, fourth_order_spline (M5), gaussian,         h; of Poly6 and Spiky the
+ *                  core_triangle, wendland_c2, -c4, -c6, Poly6, SpikyKernel  support radius
+ *   SPlisHSPlasH   Cubic spline, Wendland quintic C2, Poly6, Spiky, also     the support radius
+ *                  with 2D or Precomputed, and its classes
+ *   Spheral        BSplineKernel, QuinticSplineKernel, GaussianKernel,       h; of QuinticSplineKernel the
+ *                  SuperGaussianKernel, WendlandC2Kernel, -C4-, -C6-         support radius
+ * Some names mean different kernels in different places. Of these,
+ *   quintic          is M6. Wendland's C2, of degree 5 too, is wendland-quintic.
+ *   quartic          is M5, as in Phantom and SWIFT, and not the quartic of Liu & Liu.
+ *   w4               is Wendland's C4, and not the W4 of Monaghan (1985, JCP 60, 253).
+ *   QuarticSplineKernel is refused: in Spheral it is wendland-c2-1d. quartic-spline is M5.
+ *   W4SplineKernel   is refused: in Spheral it is the W4 of Monaghan, which is not here.
+ *   gaussian         is cut at 3 h and normalised for it. Codes that cut elsewhere, or normalise for no cut,
+ *                    differ by up to 1e-4 W(0), and as much in the normalisation.
  */
 
 /* -------- names and texts: types */
@@ -887,29 +1127,30 @@ SPH_FN sph_real sph_gravity_dphidh(sph_kernel k, sph_real r, sph_real h)
    After one of these codes nothing was written. */
 typedef enum sph_error {
     SPH_ERROR_NULL = -1,     /* a pointer is null */
-    SPH_ERROR_DIM = -2,      /* dim is not 1, 2 or 3 (or not 1 where only 1 makes sense) */
-    SPH_ERROR_KERNEL = -3,   /* no such kernel */
-    SPH_ERROR_COUNT = -4,    /* fewer than one particle, or a stride of 0 where positions need one */
-    SPH_ERROR_RANGE = -5,    /* not 0 <= first <= last <= n */
-    SPH_ERROR_H = -6,        /* h is not finite and positive */
-    SPH_ERROR_POSITION = -7, /* a position is not finite, or so large that the difference of two may not be */
-    SPH_ERROR_VALUE = -8,    /* a field value, mass or volume is not finite, or a parameter is out of range */
+    SPH_ERROR_DIM = -2,      /* dim is not 1, 2 or 3, or not that of the grid */
+    SPH_ERROR_KERNEL = -3,   /* no such kernel, or none for this function (gravity) */
+    SPH_ERROR_COUNT = -4,    /* a number of particles that cannot be; a stride or number of bins below 1 */
+    SPH_ERROR_RANGE = -5,    /* not 0 <= first <= last <= n; an end or a target that is not a particle */
+    SPH_ERROR_H = -6,        /* h, a radius or a distance is not finite and positive, or extreme */
+    SPH_ERROR_POSITION = -7, /* a position is not finite, or so large that the difference of two may not be;
+                                ends in the wrong order */
+    SPH_ERROR_VALUE = -8,    /* a value, parameter or option is not finite, or not allowed */
     SPH_ERROR_LIST = -9,     /* list rows do not ascend, or an entry is not a particle */
-    SPH_ERROR_SELF = -10,    /* a row holds its own particle, but this operator adds that term itself */
-    SPH_ERROR_CAPACITY = -11, /* the caller's memory is too small; the size that is needed was reported */
-    SPH_ERROR_BOX = -12,    /* a box length is negative or not finite, or a support exceeds half of the box */
+    SPH_ERROR_SELF = -10,    /* a row holds its own particle */
+    SPH_ERROR_CAPACITY = -11, /* the caller's memory is too small: see the function for what is needed */
+    SPH_ERROR_BOX = -12,    /* a box length that cannot be; a support beyond half of it; far positions */
     SPH_ERROR_RADIUS = -13, /* a radius exceeds what the grid was built for */
-    SPH_ERROR_PAIRS = -14   /* more pairs than sph_index can count */
+    SPH_ERROR_PAIRS = -14   /* more pairs than sph_index can count, or memory can hold */
 } sph_error;
 
 /* What they answer for each particle, where an array of such answers is asked for. The outputs of a particle
    are 0 if it is SPH_TOO_FEW, SPH_SINGULAR, SPH_NOT_AVAILABLE or SPH_NOT_FINITE. */
 typedef enum sph_status {
     SPH_OK = 0,
-    SPH_TOO_FEW = 1,         /* fewer neighbours inside the support than unknowns */
-    SPH_SINGULAR = 2,        /* the neighbours (collinear, coincident, ...) do not determine the derivative */
-    SPH_ILL_CONDITIONED = 3, /* computed, but the conditioning number is below the caller's limit */
-    SPH_FELL_BACK = 4,       /* as before, and replaced by the fallback that the caller allowed */
+    SPH_TOO_FEW = 1,         /* fewer neighbours inside the support than unknowns, or too little weight */
+    SPH_SINGULAR = 2,        /* the neighbours (collinear, coincident, ...) do not determine the answer */
+    SPH_ILL_CONDITIONED = 3, /* computed, but the conditioning is below the caller's limit; or no h fits */
+    SPH_FELL_BACK = 4,       /* computed by the fallback that the caller allowed */
     SPH_NOT_AVAILABLE = 5,   /* the operator is not defined at this particle */
     SPH_NOT_FINITE = 6,      /* the result overflowed */
     SPH_LIST_TOO_SHORT = 7   /* the list is too short for the answer; the operator says what it returns */
@@ -934,41 +1175,67 @@ SPH_FN const char *sph_kernel_name(sph_kernel k)
 #undef SPHI_KERNEL_NAME
 }
 
-/* 1 if two names are equal: a may have capital letters, and '_' or ' ' in the place of '-'. */
-SPH_FN int sphi_same_name(const char *a, const char *b)
+/* What follows in a after the name b, or null if a does not begin with it. a may have capital letters, and
+   nothing, '_' or ' ' in the place of '-'. */
+SPHI_LARGE const char *sphi_after_name(const char *a, const char *b)
 {
     for (;; a++, b++) {
         char c = *a;
         if (c >= 'A' && c <= 'Z') c = (char)(c - 'A' + 'a');
         if (c == '_' || c == ' ') c = '-';
-        if (c != *b) return 0;
-        if (c == '\0') return 1;
+        if (*b == '-' && c != '-') b++;
+        if (*b == '\0') return a;
+        if (c != *b) return NULL;
     }
+}
+
+/* 1 if two names are equal, where a may end in "kernel". */
+SPHI_LARGE int sphi_same_name(const char *a, const char *b)
+{
+    const char *const rest = sphi_after_name(a, b);
+    const char *const end = rest && *rest != '\0' ? sphi_after_name(rest, "-kernel") : rest;
+    return end && *end == '\0';
 }
 
 /* clang-format off */
 #define SPHI_KERNEL_ALIASES(each) \
-    each("m4", SPH_CUBIC_SPLINE) each("cubic", SPH_CUBIC_SPLINE) \
+    each("m4", SPH_CUBIC_SPLINE) each("cubic", SPH_CUBIC_SPLINE) each("m-4-cubic", SPH_CUBIC_SPLINE) \
+    each("b-spline", SPH_CUBIC_SPLINE) each("cubic-b-spline", SPH_CUBIC_SPLINE) \
+    each("schoenberg-cubic-spline", SPH_CUBIC_SPLINE) each("cubic-spline-2d", SPH_CUBIC_SPLINE) \
+    each("precomputed-cubic-spline", SPH_CUBIC_SPLINE) each("cubic-kernel-2d", SPH_CUBIC_SPLINE) \
     each("m5", SPH_QUARTIC_SPLINE) each("quartic", SPH_QUARTIC_SPLINE) \
+    each("m-5-quartic", SPH_QUARTIC_SPLINE) each("schoenberg-quartic-spline", SPH_QUARTIC_SPLINE) \
+    each("fourth-order-spline", SPH_QUARTIC_SPLINE) \
     each("m6", SPH_QUINTIC_SPLINE) each("quintic", SPH_QUINTIC_SPLINE) \
+    each("m-6-quintic", SPH_QUINTIC_SPLINE) each("schoenberg-quintic-spline", SPH_QUINTIC_SPLINE) \
+    each("m7", SPH_SEXTIC_SPLINE) each("sextic", SPH_SEXTIC_SPLINE) \
+    each("m8", SPH_HEPTIC_SPLINE) each("heptic", SPH_HEPTIC_SPLINE) each("septic", SPH_HEPTIC_SPLINE) \
+    each("septic-spline", SPH_HEPTIC_SPLINE) each("m-8-heptic", SPH_HEPTIC_SPLINE) \
     each("w2", SPH_WENDLAND_C2) each("c2", SPH_WENDLAND_C2) each("wendland", SPH_WENDLAND_C2) \
-    each("wendlandc2", SPH_WENDLAND_C2) \
-    each("w4", SPH_WENDLAND_C4) each("c4", SPH_WENDLAND_C4) each("wendlandc4", SPH_WENDLAND_C4) \
-    each("w6", SPH_WENDLAND_C6) each("c6", SPH_WENDLAND_C6) each("wendlandc6", SPH_WENDLAND_C6) \
+    each("wendland-2c", SPH_WENDLAND_C2) each("wendland-quintic", SPH_WENDLAND_C2) \
+    each("wendland-quintic-c2", SPH_WENDLAND_C2) each("wendland-quintic-c2-2d", SPH_WENDLAND_C2) \
+    each("wendland-quintic-c2-kernel-2d", SPH_WENDLAND_C2) \
+    each("w4", SPH_WENDLAND_C4) each("c4", SPH_WENDLAND_C4) each("wendland-quintic-c4", SPH_WENDLAND_C4) \
+    each("w6", SPH_WENDLAND_C6) each("c6", SPH_WENDLAND_C6) each("wendland-quintic-c6", SPH_WENDLAND_C6) \
     each("lucy", SPH_WENDLAND_C2_1D) each("w2-1d", SPH_WENDLAND_C2_1D) each("w4-1d", SPH_WENDLAND_C4_1D) \
-    each("w6-1d", SPH_WENDLAND_C6_1D) \
-    each("gauss", SPH_GAUSSIAN) each("supergaussian", SPH_SUPER_GAUSSIAN) each("liu", SPH_LIU_QUARTIC) \
+    each("w6-1d", SPH_WENDLAND_C6_1D) each("wendland-quintic-c2-1d", SPH_WENDLAND_C2_1D) \
+    each("wendland-quintic-c4-1d", SPH_WENDLAND_C4_1D) each("wendland-quintic-c6-1d", SPH_WENDLAND_C6_1D) \
+    each("gauss", SPH_GAUSSIAN) each("liu", SPH_LIU_QUARTIC) each("quadratic", SPH_JOHNSON_BEISSEL) \
     each("read", SPH_CORE_TRIANGLE) each("ct", SPH_CORE_TRIANGLE)
 /* clang-format on */
 
-/* The kernel of a name or alias, or -1 if there is none, or name is null. */
+/* The kernel of a name or alias, or -1 if there is none, or name is null. Capital letters count as small
+   ones, '_' and ' ' as '-', and a '-' may be left out: Wendland_C2 and WendlandC2 are wendland-c2, too.
+   "kernel" before or after a name is skipped. The names of other codes stand above. */
 SPH_FN int sph_kernel_from_name(const char *name)
 {
 #define SPHI_KERNEL_MATCH(unused, id, text, support, h_over_dx) \
-    if (sphi_same_name(name, text)) return (int)id;
+    if (sphi_same_name(bare, text)) return (int)id;
 #define SPHI_ALIAS_MATCH(text, id) \
-    if (sphi_same_name(name, text)) return (int)id;
-    if (!name) return -1;
+    if (sphi_same_name(bare, text)) return (int)id;
+    const char *bare = name ? sphi_after_name(name, "kernel-") : NULL;
+    if (!bare) bare = name;
+    if (!bare || sphi_same_name(bare, "quartic-spline-kernel")) return -1; /* which one is not certain */
     SPH_KERNELS(SPHI_KERNEL_MATCH, 0)
     SPHI_KERNEL_ALIASES(SPHI_ALIAS_MATCH)
     return -1;
@@ -983,45 +1250,51 @@ SPH_FN const char *sph_status_text(int status)
     case SPH_ERROR_NULL:
         return "a pointer is null";
     case SPH_ERROR_DIM:
-        return "dim must be 1, 2 or 3 (1 for a one-dimensional operator)";
+        return "dim must be 1, 2 or 3, and that of the grid";
     case SPH_ERROR_KERNEL:
-        return "no such kernel";
+        return "no such kernel, or none that this function knows";
     case SPH_ERROR_COUNT:
-        return "at least one particle and a stride of at least 1 are needed";
+        return "a count is negative, too large or not that of another argument, or a stride or the number "
+               "of bins is below 1";
     case SPH_ERROR_RANGE:
-        return "the range must obey 0 <= first <= last <= n";
+        return "the range must obey 0 <= first <= last <= n, ends must be particles, and targets sources";
     case SPH_ERROR_H:
-        return "h must be finite and positive";
+        return "h, a radius or a distance is not finite and positive, or too small or too large to be "
+               "squared safely";
     case SPH_ERROR_POSITION:
-        return "a position is not finite";
+        return "a position is not finite or too large, or the left end is not to the left of the right one";
     case SPH_ERROR_VALUE:
-        return "a value is not finite, or a parameter is out of range";
+        return "a value or option is not finite, or not allowed";
     case SPH_ERROR_LIST:
-        return "the neighbour list has descending rows or an entry that is no particle";
+        return "the rows of a list descend or begin below 0, or an entry of a list or permutation is no "
+               "particle";
     case SPH_ERROR_SELF:
-        return "a list row holds its own particle; this operator adds that term itself";
+        return "a row of the list holds its own particle, and the lists of this function must not";
     case SPH_ERROR_CAPACITY:
-        return "the memory is too small; the size that is needed has been reported";
+        return "the memory is too small: a size query, or the number that was reported, says what is needed";
     case SPH_ERROR_BOX:
-        return "a box length is negative or not finite, or a support reaches beyond half the box";
+        return "a box length is negative, not finite or too short, a support reaches beyond half of it, a "
+               "position lies more than 2^20 lengths out, or the axis must be open";
     case SPH_ERROR_RADIUS:
         return "a radius is more than 32 times the one that the grid was built for";
     case SPH_ERROR_PAIRS:
-        return "there are more pairs than sph_index can count: take a wider SPH_INDEX, or smaller radii";
+        return "there are more pairs than sph_index can count or memory can hold: take smaller radii, or a "
+               "wider SPH_INDEX";
     case SPH_OK:
         return "ok";
     case SPH_TOO_FEW:
-        return "too few neighbours inside the support";
+        return "too few neighbours, or too little weight in all of them";
     case SPH_SINGULAR:
-        return "singular: the neighbours do not determine the derivative";
+        return "singular: the neighbours do not determine the answer";
     case SPH_ILL_CONDITIONED:
-        return "ill-conditioned: the conditioning number is below the limit";
+        return "ill-conditioned: computed, but the conditioning is below the limit, or no h fits exactly";
     case SPH_FELL_BACK:
-        return "ill-conditioned: replaced by the fallback";
+        return "computed by the fallback, because what was asked for is singular, ill-conditioned or not "
+               "definite";
     case SPH_NOT_AVAILABLE:
         return "the operator is not available at this particle";
     case SPH_NOT_FINITE:
-        return "the result is not finite";
+        return "a result overflowed";
     case SPH_LIST_TOO_SHORT:
         return "the neighbour list does not reach far enough";
     default:
@@ -1031,7 +1304,40 @@ SPH_FN const char *sph_status_text(int status)
 
 #endif /* !SPH_OPENCL */
 
+SPHI_END
 #endif /* SPH_KERNELS_H */
+
+/* -------- the options are still those of the first inclusion
+ *
+ * Nobody calls these functions. Their types say which options this inclusion finds, so that the compiler
+ * refuses the second declaration of one whose option has changed. Of the macros it is known only that they
+ * were not defined. */
+/* clang-format off */
+#ifdef __GNUC__
+#  pragma GCC diagnostic push
+#  pragma GCC diagnostic ignored "-Wredundant-decls"
+#endif
+#ifdef __cplusplus
+extern "C" {
+#endif
+char (*sphi_SPH_SINGLE_must_not_change_between_inclusions(void))[1 + SPH_SINGLE];
+char (*sphi_SPH_SIMD_must_not_change_between_inclusions(void))[1 + SPH_SIMD];
+char (*sphi_SPH_PURE_SQRT_must_not_change_between_inclusions(void))[1 + SPH_PURE_SQRT];
+char (*sphi_SPH_CHECK_must_not_change_between_inclusions(void))[1 + SPH_CHECK];
+SPH_INDEX sphi_SPH_INDEX_must_not_change_between_inclusions(void);
+#ifdef SPHI_NO_ASSERT
+char (*sphi_SPH_ASSERT_must_not_change_between_inclusions(void))[SPHI_LENGTH(SPH_ASSERT(condition))];
+#endif
+#ifdef SPHI_NO_REFUSED
+char (*sphi_SPH_REFUSED_must_not_change_between_inclusions(void))[SPHI_LENGTH(SPH_REFUSED(a, p, e))];
+#endif
+#ifdef __cplusplus
+}
+#endif
+#ifdef __GNUC__
+#  pragma GCC diagnostic pop
+#endif
+/* clang-format on */
 
 /*
  * MIT License

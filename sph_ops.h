@@ -50,6 +50,22 @@
  *
  *   Nothing here allocates memory, and nothing is remembered between calls.
  *
+ * SYMBOLS that recur, in calls and in comments
+ *   k, dim               kernel and dimension (1, 2 or 3)
+ *   i, j                 a target and its neighbour, or the two sides of a pair; m_i belongs to i, v_j to j
+ *   x_ij, r              x_i - x_j and its length; e is x_j - x_i, where it is a vector
+ *   h, q, support        smoothing length, r / h, and the radius where the kernel ends
+ *   w_ij, f_ij           W and F of a pair
+ *   m, rho, p, c, v, mu  mass, density, pressure, sound speed, velocity, dynamic viscosity; in the chapter of
+ *                        the elliptic operator m is the mobility
+ *   vx, div_v, div_B     v_ij . x_ij, and the divergences of velocity and magnetic field
+ *   viscosity            of a pair: its Pi_ij
+ *   f, u, field          what an operator is applied to: one number, or one vector, for each source
+ *   volume, n            volumes m / rho; number of particles
+ *   out, options         where results go, and what else an operator is told
+ *   criterion, gradient, status, finding
+ *                        a constant of the enum whose name ends so: sph_criterion, sph_elliptic_gradient, ...
+ *
  * ANSWERS of sweeps: how many targets are not ok (0: all well), or a negative sph_error, and then nothing was
  *   written. `status` says more about each target. Outputs of a target that is SPH_TOO_FEW, SPH_SINGULAR,
  *   SPH_NOT_AVAILABLE or SPH_NOT_FINITE are 0, never a NaN (of several outputs, those that are not finite; h
@@ -168,10 +184,11 @@
  *                      call it once on a new cloud
  *                  sph_finding_text(finding)
  */
+#include "sph_kernels.h" /* each time, because it looks at the options each time */
+
 #ifndef SPH_OPS_H
 #define SPH_OPS_H
 
-#include "sph_kernels.h"
 #if SPH_VERSION != 200
 #error "sph_ops.h and sph_kernels.h are of different releases"
 #endif
@@ -190,6 +207,7 @@
 #  define SPHI_SIN(x) sin(x)
 #  define SPHI_COS(x) cos(x)
 #endif
+SPHI_BEGIN
 /* clang-format on */
 
 /* ================================================================ vectors
@@ -211,6 +229,7 @@ typedef struct sph_sym {
 SPH_FN sph_real sph_dot(int dim, sph_vec a, sph_vec b)
 {
     sph_real s = a.x * b.x;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
     if (dim > 1) s += a.y * b.y;
     if (dim > 2) s += a.z * b.z;
     return s;
@@ -226,6 +245,7 @@ SPH_FN sph_vec sph_scale(sph_real a, sph_vec v)
 /* a - b. Components beyond dim are those of a. */
 SPH_FN sph_vec sph_subtract(int dim, sph_vec a, sph_vec b)
 {
+    SPH_ASSERT(SPHI_IS_DIM(dim));
     a.x -= b.x;
     if (dim > 1) a.y -= b.y;
     if (dim > 2) a.z -= b.z;
@@ -278,8 +298,8 @@ typedef struct sph_list {
     const SPH_GLOBAL sph_index *start, *index;
 } sph_list;
 
-/* Points whose coordinates are `stride` numbers apart, as in an array of structs. Every axis is open. y and z
-   may be null where the dimension does not need them. */
+/* Points whose coordinates x, y, z are `stride` numbers apart, as in an array of structs. Every axis is open.
+   y and z may be null where the dimension does not need them. */
 SPH_FN sph_points sph_points_strided(sph_index n, const SPH_GLOBAL sph_real *x, const SPH_GLOBAL sph_real *y,
                                      const SPH_GLOBAL sph_real *z, size_t stride)
 {
@@ -298,7 +318,7 @@ SPH_FN sph_points sph_points_separate(sph_index n, const SPH_GLOBAL sph_real *x,
 {
     return sph_points_strided(n, x, y, z, 1);
 }
-/* Points in one array xyzxyz..., which has dim numbers for each particle. */
+/* Points in one array xyz of the order xyzxyz..., which has dim numbers for each particle. */
 SPH_FN sph_points sph_points_interleaved(sph_index n, int dim, const SPH_GLOBAL sph_real *xyz)
 {
     return sph_points_strided(n, xyz, dim > 1 && xyz ? xyz + 1 : xyz, dim > 2 && xyz ? xyz + 2 : xyz,
@@ -406,7 +426,7 @@ typedef struct sph_cloud {
     int checked;
     sph_real largest_h;
 } sph_cloud;
-/* A cloud whose targets are all particles. What a sweep does not need may be left out with
+/* A cloud of points whose targets are all particles. What a sweep does not need may be left out with
    sph_scalars_none(): volumes where it takes masses, h where it has no kernel. */
 SPH_FN sph_cloud sph_cloud_of(sph_points points, sph_list list, sph_scalars h, sph_scalars volume)
 {
@@ -973,9 +993,10 @@ SPH_FN void sphi_multiply_transposed(int rows, int cols, sph_real (*m)[SPHI_MAX]
  *     rho      = sigma / h^dim S,
  *     d rho/dh = (rho / h) (T / S - dim),
  *     Omega    = 1 + h / (dim rho) d rho/dh = T / (dim S).
- * The relation h = eta (m / rho)^(1/dim) is the same as sigma S / m = eta^dim. The left side only grows with
- * h: it begins at sigma w(0), or higher where other particles coincide with this one, and ends at
- * sigma w(0) sum_j m_j / m. So there is one solution at most, and none if eta^dim lies outside this range.
+ * The relation h = eta (m / rho)^(1/dim) is the same as sigma S / m = eta^dim. If the masses are positive and
+ * the kernel falls monotonically, the left side only grows with h: it begins at sigma w(0), or higher where
+ * other particles coincide with this one, and ends at sigma w(0) sum_j m_j / m. So there is one solution at
+ * most, and none if eta^dim lies outside this range.
  * Omega is near 1 where the density is uniform, above 1 where it rises with the distance from the particle,
  * and 0 for a particle without neighbours.
  *
@@ -989,7 +1010,8 @@ typedef struct sph_density_sums {
     sph_real weight, slope;
 } sph_density_sums;
 
-/* What a neighbour at q = r / h adds to S and T: m_j w(q) and -m_j q w'(q). The particle itself has q = 0. */
+/* What a neighbour at q = r / h adds to S and T: m_j w(q) and -m_j q w'(q). The particle itself has q = 0.
+   Needs q >= 0. */
 SPH_FN sph_density_sums sph_density_pair(sph_kernel k, int dim, sph_real q, sph_real m_j)
 {
     sph_density_sums c;
@@ -1000,15 +1022,21 @@ SPH_FN sph_density_sums sph_density_pair(sph_kernel k, int dim, sph_real q, sph_
 /* rho = sigma / h^dim S. Its unit is mass / length^dim. */
 SPH_FN sph_real sph_density_value(sph_kernel k, int dim, sph_density_sums s, sph_real h)
 {
+    SPH_ASSERT(h > SPH_R(0));
     return sph_kernel_sigma(k, dim) * sphi_power(SPH_R(1) / h, dim) * s.weight;
 }
-/* Omega = T / (dim S), without unit. S must not be 0. This form takes no difference of nearly equal numbers,
-   however few the neighbours are. */
-SPH_FN sph_real sph_density_omega(int dim, sph_density_sums s) { return s.slope / (SPH_R(dim) * s.weight); }
+/* Omega = T / (dim S), without unit. This form takes no difference of nearly equal numbers, however few the
+   neighbours are. Needs S > 0. */
+SPH_FN sph_real sph_density_omega(int dim, sph_density_sums s)
+{
+    SPH_ASSERT(SPHI_IS_DIM(dim) && s.weight > SPH_R(0));
+    return s.slope / (SPH_R(dim) * s.weight);
+}
 /* ln(eta (m / rho)^(1/dim) / h). It is 0 for the h that belongs to rho, and positive where h is too short.
-   Its derivative by ln h is -Omega. S, m and eta must be positive. */
+   Its derivative by ln h is -Omega. Needs S > 0, m > 0 and eta > 0. */
 SPH_FN sph_real sph_density_mismatch(sph_kernel k, int dim, sph_density_sums s, sph_real m, sph_real eta)
 {
+    SPH_ASSERT(s.weight > SPH_R(0) && m > SPH_R(0) && eta > SPH_R(0));
     return SPHI_LOG(eta) - SPHI_LOG(sph_kernel_sigma(k, dim) * s.weight / m) / SPH_R(dim);
 }
 
@@ -1048,9 +1076,9 @@ SPH_FN sph_index sph_shepard_sum(sph_kernel k, int dim, sph_cloud cloud, sph_sca
 }
 
 /* f_i = sum_j V_j f_j W_ij / sum_j V_j W_ij, the particle itself included. It is exact for constants; the
-   error is O(h^2) in the interior and O(h) at a boundary. Source: Shepard 1968. A target of volume 0 is a
-   probe. The result is 0 where the sum of weights is not positive (SPH_TOO_FEW) or a sum overflows
-   (SPH_NOT_FINITE). */
+   error is O(h^2) in the interior of a regular cloud, and O(h) in disorder and at a boundary. Shepard 1968. A
+   target of volume 0 is a probe. The result is 0 where the sum of weights is not positive (SPH_TOO_FEW) or a
+   sum overflows (SPH_NOT_FINITE). */
 SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                          sph_scalar_out out)
 {
@@ -1349,6 +1377,7 @@ SPH_FN sph_real sph_moment_weight_gradient(sph_kernel k, int dim, sph_real r, sp
 SPH_FN int sph_solve_gradient(int dim, sph_sym moment, sph_sym *inverse, sph_real *conditioning)
 {
     sph_real a, b, c, p, q, l, n, s, t;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
     if (dim < 3) moment.zz = SPH_R(1), moment.xz = moment.yz = SPH_R(0);
     if (dim < 2) moment.yy = SPH_R(1), moment.xy = SPH_R(0);
     if (!(moment.xx > SPH_R(0)) || !(moment.yy > SPH_R(0)) || !(moment.zz > SPH_R(0))) return SPH_SINGULAR;
@@ -1460,9 +1489,9 @@ SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points
 }
 
 /* grad f_i = K^-1 sum_j V_j (-F_ij) e (f_j - f_i) with K = sum_j V_j (-F_ij) e e^T and e = x_j - x_i. It is
-   exact for linear fields at any particle; the error is O(h^2) in the interior and O(h) at a boundary.
-   Sources: Randles & Libersky 1996, CMAME 139, 375; in 1D CSPM, (3.5) of the ICSPM paper (with W', where its
-   list under (5.17) prints W).
+   exact for linear fields at any particle; the error is O(h^2) in the interior of a regular cloud, and O(h)
+   in disorder and at a boundary. Sources: Randles & Libersky 1996, CMAME 139, 375; in 1D CSPM, (3.5) of the
+   ICSPM paper (with W', where its list under (5.17) prints W).
    Of out, gx (with gy and gz as dim needs them) is filled, and conditioning and status if they are not null.
    conditioning is the smallest pivot of K scaled to a unit diagonal, in [0, 1]. A target needs dim neighbours
    inside its support; in 2D not all may be on one line with it, in 3D not all in one plane with it. Else the
@@ -1645,7 +1674,7 @@ typedef struct sph_test_weights {
 } sph_test_weights;
 
 /* The weights of CSPM and ICSPM, g = -V_j F_ij and w = V_j W_ij / r^2, at q = r / h. Powers of h and the
-   normalisation of the kernel cancel and are left out. At q = 0, w is 0. */
+   normalisation of the kernel cancel and are left out. At q = 0, w is 0. Needs q >= 0. */
 SPH_FN sph_test_weights sph_test_weights_cspm(sph_kernel k, int dim, sph_real q, sph_real V_j)
 {
     sph_test_weights t;
@@ -1653,7 +1682,7 @@ SPH_FN sph_test_weights sph_test_weights_cspm(sph_kernel k, int dim, sph_real q,
     t.w = V_j * sphi_over_q(sph_kernel_shape(k, dim, q), q * q);
     return t;
 }
-/* The weights of WLS, g = w = V_j W_ij, likewise. */
+/* The weights of WLS, g = w = V_j W_ij, likewise. Needs q >= 0. */
 SPH_FN sph_test_weights sph_test_weights_wls(sph_kernel k, int dim, sph_real q, sph_real V_j)
 {
     sph_test_weights t;
@@ -1699,8 +1728,8 @@ typedef struct sph_moments {
 } sph_moments;
 /* clang-format on */
 
-/* All sums are 0. */
 #define SPHI_ZERO(name, formula) s.name = SPH_R(0);
+/* All sums are 0. */
 SPH_FN sph_moments sph_moments_zero(void)
 {
     sph_moments s;
@@ -1709,12 +1738,13 @@ SPH_FN sph_moments sph_moments_zero(void)
     return s;
 }
 
+#define SPHI_ADD(name, formula) s->name += formula;
 /* Adds what a neighbour contributes to the matrix: g e e, g e ee, w ee e and w ee ee. e is (x_j - x_i) / h_i;
    t comes from sph_test_weights_cspm (for CSPM and ICSPM) or sph_test_weights_wls. */
-#define SPHI_ADD(name, formula) s->name += formula;
 SPH_FN void sph_moments_add(int dim, sph_moments *s, sph_vec e, sph_test_weights t)
 {
     const sph_real x = e.x, y = e.y, z = e.z, g = t.g, w = t.w;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
     (void)y;
     (void)z;
     SPHI_MATRIX(dim, SPHI_ADD)
@@ -1723,6 +1753,7 @@ SPH_FN void sph_moments_add(int dim, sph_moments *s, sph_vec e, sph_test_weights
 SPH_FN void sph_moments_add_value(int dim, sph_moments *s, sph_vec e, sph_test_weights t, sph_real df)
 {
     const sph_real x = e.x, y = e.y, z = e.z, g = t.g, w = t.w;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
     (void)y;
     (void)z;
     SPHI_VALUE(dim, SPHI_ADD)
@@ -1742,6 +1773,7 @@ typedef struct sph_jet {
 SPH_FN sph_jet sph_jet_laplacian(int dim)
 {
     sph_jet d;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
     d.gradient.x = d.gradient.y = d.gradient.z = d.hessian.xy = d.hessian.xz = d.hessian.yz = SPH_R(0);
     d.hessian.xx = SPH_R(1);
     d.hessian.yy = dim > 1 ? SPH_R(1) : SPH_R(0);
@@ -1758,9 +1790,12 @@ SPH_FN sph_jet sph_jet_laplacian(int dim)
 /* The number of unknowns of the Hessian: dim (dim + 1) / 2. */
 SPH_FN int sphi_unknowns(int dim)
 {
-    SPH_ASSERT(dim >= 1 && dim <= 3);
-    return dim == 1 ? 1 : dim == 2 ? 3 : 6;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
+    return dim > 2 ? 6 : dim > 1 ? 3 : 1;
 }
+/* dim itself, which is 1, 2 or 3, in a form from which compilers and analysers that do not know dim see it:
+   a loop over the axes fills all that the branches for dim > 1 and dim > 2 read. */
+SPH_FN int sphi_dimensions(int dim) { return dim > 2 ? 3 : dim > 1 ? 2 : 1; }
 
 typedef struct sphi_blocks {
     sph_real kk[SPHI_MAX][SPHI_MAX], bb[SPHI_MAX][SPHI_MAX], aa[SPHI_MAX][SPHI_MAX], mm[SPHI_MAX][SPHI_MAX];
@@ -1769,11 +1804,11 @@ typedef struct sphi_blocks {
 
 #define SPHI_SET(m, i, j, value) b->m[i][j] = b->m[j][i] = (value);
 /* Fills and scales the blocks. Returns 1, or 0 if a diagonal entry is not positive: there is no neighbour in
-   that direction, or volumes are negative. */
+   that direction, or volumes are negative. That unknown is then not scaled. */
 SPH_FN int sphi_blocks_fill(int dim, const sph_moments *m, sphi_blocks *b)
 {
-    const int nh = sphi_unknowns(dim);
-    int i, j;
+    const int nd = sphi_dimensions(dim), nh = sphi_unknowns(dim);
+    int i, j, positive = 1;
     b->kk[0][0] = m->gxx;
     b->bb[0][0] = m->gxxx;
     b->aa[0][0] = m->wxxx;
@@ -1825,16 +1860,18 @@ SPH_FN int sphi_blocks_fill(int dim, const sph_moments *m, sphi_blocks *b)
         SPHI_SET(mm, 4, 5, m->wyzzz)
         b->mm[5][5] = m->wzzzz;
     }
-    for (i = 0; i < dim; i++) {
-        if (!(b->kk[i][i] > SPH_R(0))) return 0;
-        b->s[i] = SPH_R(1) / SPHI_SQRT(b->kk[i][i]);
+    for (i = 0; i < nd; i++) {
+        const int ok = b->kk[i][i] > SPH_R(0);
+        b->s[i] = ok ? SPH_R(1) / SPHI_SQRT(b->kk[i][i]) : SPH_R(1);
+        positive = positive && ok;
     }
     for (i = 0; i < nh; i++) {
-        if (!(b->mm[i][i] > SPH_R(0))) return 0;
-        b->d[i] = SPH_R(1) / SPHI_SQRT(b->mm[i][i]);
+        const int ok = b->mm[i][i] > SPH_R(0);
+        b->d[i] = ok ? SPH_R(1) / SPHI_SQRT(b->mm[i][i]) : SPH_R(1);
+        positive = positive && ok;
     }
-    for (i = 0; i < dim; i++) {
-        for (j = 0; j < dim; j++) b->kk[i][j] *= b->s[i] * b->s[j];
+    for (i = 0; i < nd; i++) {
+        for (j = 0; j < nd; j++) b->kk[i][j] *= b->s[i] * b->s[j];
         for (j = 0; j < nh; j++) {
             b->bb[i][j] *= b->s[i] * b->d[j];
             b->aa[j][i] *= b->s[i] * b->d[j];
@@ -1842,7 +1879,7 @@ SPH_FN int sphi_blocks_fill(int dim, const sph_moments *m, sphi_blocks *b)
     }
     for (i = 0; i < nh; i++)
         for (j = 0; j < nh; j++) b->mm[i][j] *= b->d[i] * b->d[j];
-    return 1;
+    return positive;
 }
 #undef SPHI_SET
 
@@ -1918,24 +1955,25 @@ SPH_FN void sphi_lu_load(int n, sphi_lu *s, sph_real (*m)[SPHI_MAX])
    gradient or a Hessian at all. */
 SPH_FN int sphi_blocks_factor(int dim, const sph_moments *m, sphi_blocks *b, sphi_lu *kk, sphi_lu *mm)
 {
-    if (!sphi_blocks_fill(dim, m, b)) return SPH_SINGULAR;
-    sphi_lu_load(dim, kk, b->kk);
+    const int positive = sphi_blocks_fill(dim, m, b);
+    sphi_lu_load(sphi_dimensions(dim), kk, b->kk);
     sphi_lu_load(sphi_unknowns(dim), mm, b->mm);
-    return kk->pivot_min < SPHI_PIVOT_MIN || mm->pivot_min < SPHI_PIVOT_MIN ? SPH_SINGULAR : SPH_OK;
+    return !positive || kk->pivot_min < SPHI_PIVOT_MIN || mm->pivot_min < SPHI_PIVOT_MIN ? SPH_SINGULAR
+                                                                                         : SPH_OK;
 }
 
 /* The Schur complement S = M - A K^-1 B = M kappa, or its transpose, factored. */
 SPH_FN void sphi_schur(int dim, const sphi_blocks *b, const sphi_lu *kk, int transposed, sphi_lu *schur)
 {
-    const int nh = sphi_unknowns(dim);
+    const int nd = sphi_dimensions(dim), nh = sphi_unknowns(dim);
     int i, j, c;
     for (j = 0; j < nh; j++) {
         sph_real x[SPHI_MAX];
-        for (i = 0; i < dim; i++) x[i] = b->bb[i][j];
-        sphi_lu_solve(dim, kk, x);
+        for (i = 0; i < nd; i++) x[i] = b->bb[i][j];
+        sphi_lu_solve(nd, kk, x);
         for (i = 0; i < nh; i++) {
             sph_real y = b->mm[i][j];
-            for (c = 0; c < dim; c++) y -= b->aa[i][c] * x[c];
+            for (c = 0; c < nd; c++) y -= b->aa[i][c] * x[c];
             schur->a[transposed ? j : i][transposed ? i : j] = y;
         }
     }
@@ -1968,15 +2006,16 @@ SPH_FN sph_real sphi_conditioning(int dim, const sphi_blocks *b, const sphi_lu *
    null. */
 SPH_FN int sph_solve_cspm(int dim, const sph_moments *m, sph_real h, sph_jet *jet, sph_real *conditioning)
 {
-    const int nh = sphi_unknowns(dim);
+    const int nd = sphi_dimensions(dim), nh = sphi_unknowns(dim);
     sphi_blocks b;
     sphi_lu kk, mm;
     sph_real u[SPHI_MAX], v[SPHI_MAX], t[SPHI_MAX];
     int i;
+    SPH_ASSERT(h > SPH_R(0));
     if (sphi_blocks_factor(dim, m, &b, &kk, &mm)) return SPH_SINGULAR;
     sphi_blocks_values(dim, m, &b, u, v);
-    sphi_lu_solve(dim, &kk, u);
-    sphi_multiply(nh, dim, b.aa, u, t);
+    sphi_lu_solve(nd, &kk, u);
+    sphi_multiply(nh, nd, b.aa, u, t);
     for (i = 0; i < nh; i++) v[i] -= t[i];
     sphi_lu_solve(nh, &mm, v);
     *jet = sphi_jet_unscaled(dim, &b, h, u, v);
@@ -1990,23 +2029,24 @@ SPH_FN int sph_solve_cspm(int dim, const sph_moments *m, sph_real h, sph_jet *je
    pointer may be null. */
 SPH_FN int sph_solve_block(int dim, const sph_moments *m, sph_real h, sph_jet *jet, sph_real *conditioning)
 {
-    const int nh = sphi_unknowns(dim);
+    const int nd = sphi_dimensions(dim), nh = sphi_unknowns(dim);
     sphi_blocks b;
     sphi_lu kk, mm, schur;
     sph_real u[SPHI_MAX], v[SPHI_MAX], x[SPHI_MAX], t[SPHI_MAX];
     int i;
+    SPH_ASSERT(h > SPH_R(0));
     if (sphi_blocks_factor(dim, m, &b, &kk, &mm)) return SPH_SINGULAR;
     sphi_schur(dim, &b, &kk, 0, &schur);
     if (schur.pivot_min < SPHI_PIVOT_MIN) return SPH_SINGULAR;
     sphi_blocks_values(dim, m, &b, u, v);
-    for (i = 0; i < dim; i++) x[i] = u[i];
-    sphi_lu_solve(dim, &kk, x);
-    sphi_multiply(nh, dim, b.aa, x, t);
+    for (i = 0; i < nd; i++) x[i] = u[i];
+    sphi_lu_solve(nd, &kk, x);
+    sphi_multiply(nh, nd, b.aa, x, t);
     for (i = 0; i < nh; i++) v[i] -= t[i];
     sphi_lu_solve(nh, &schur, v);
-    sphi_multiply(dim, nh, b.bb, v, t);
-    for (i = 0; i < dim; i++) u[i] -= t[i];
-    sphi_lu_solve(dim, &kk, u);
+    sphi_multiply(nd, nh, b.bb, v, t);
+    for (i = 0; i < nd; i++) u[i] -= t[i];
+    sphi_lu_solve(nd, &kk, u);
     *jet = sphi_jet_unscaled(dim, &b, h, u, v);
     if (conditioning) *conditioning = sphi_conditioning(dim, &b, &schur);
     return SPH_OK;
@@ -2025,10 +2065,10 @@ typedef struct sph_coefficients {
 } sph_coefficients;
 
 /* weight_j of the neighbour at e = (x_j - x_i) / h_i, whose test weights are t. */
-
 SPH_FN sph_real sph_coefficients_weight(int dim, sph_coefficients c, sph_vec e, sph_test_weights t)
 {
     sph_real second = c.second.xx * e.x * e.x;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
     if (dim > 1) second += (c.second.xy * e.x + c.second.yy * e.y) * e.y;
     if (dim > 2) second += (c.second.xz * e.x + c.second.yz * e.y + c.second.zz * e.z) * e.z;
     return t.g * sph_dot(dim, c.first, e) + t.w * second;
@@ -2062,17 +2102,18 @@ SPH_FN sph_coefficients sphi_row_unscaled(int dim, const sphi_blocks *b, const s
 SPH_FN int sph_coefficients_cspm(int dim, const sph_moments *m, sph_real h, sph_jet op, sph_coefficients *c,
                                  sph_real *conditioning)
 {
-    const int nh = sphi_unknowns(dim);
+    const int nd = sphi_dimensions(dim), nh = sphi_unknowns(dim);
     sphi_blocks b;
     sphi_lu kk, mm;
     sph_real u[SPHI_MAX], v[SPHI_MAX], t[SPHI_MAX];
     int i;
+    SPH_ASSERT(h > SPH_R(0));
     if (sphi_blocks_factor(dim, m, &b, &kk, &mm)) return SPH_SINGULAR;
     sphi_operator_scaled(dim, &b, h, op, u, v);
     sphi_lu_solve(nh, &mm, v); /* K and M are symmetric */
-    sphi_multiply_transposed(nh, dim, b.aa, v, t);
-    for (i = 0; i < dim; i++) u[i] -= t[i];
-    sphi_lu_solve(dim, &kk, u);
+    sphi_multiply_transposed(nh, nd, b.aa, v, t);
+    for (i = 0; i < nd; i++) u[i] -= t[i];
+    sphi_lu_solve(nd, &kk, u);
     *c = sphi_row_unscaled(dim, &b, u, v, SPH_R(1));
     if (conditioning) *conditioning = kk.pivot_min < mm.pivot_min ? kk.pivot_min : mm.pivot_min;
     return SPH_OK;
@@ -2087,11 +2128,12 @@ SPH_FN int sph_coefficients_cspm(int dim, const sph_moments *m, sph_real h, sph_
 SPH_FN int sph_coefficients_block(int dim, int icspm, const sph_moments *m, sph_real h, sph_jet op,
                                   sph_coefficients *c, sph_real *conditioning)
 {
-    const int nh = sphi_unknowns(dim);
+    const int nd = sphi_dimensions(dim), nh = sphi_unknowns(dim);
     sphi_blocks b;
     sphi_lu kk, mm, schur;
     sph_real u[SPHI_MAX], v[SPHI_MAX], y[SPHI_MAX], t[SPHI_MAX], factor = SPH_R(1);
     int i;
+    SPH_ASSERT(h > SPH_R(0));
     if (sphi_blocks_factor(dim, m, &b, &kk, &mm)) return SPH_SINGULAR;
     if (conditioning || !icspm) {
         sphi_schur(dim, &b, &kk, 0, &schur);
@@ -2099,9 +2141,9 @@ SPH_FN int sph_coefficients_block(int dim, int icspm, const sph_moments *m, sph_
         if (conditioning) *conditioning = sphi_conditioning(dim, &b, &schur);
     }
     sphi_operator_scaled(dim, &b, h, op, u, y);
-    for (i = 0; i < dim; i++) t[i] = u[i];
-    sphi_lu_solve(dim, &kk, t);
-    sphi_multiply_transposed(dim, nh, b.bb, t, v);
+    for (i = 0; i < nd; i++) t[i] = u[i];
+    sphi_lu_solve(nd, &kk, t);
+    sphi_multiply_transposed(nd, nh, b.bb, t, v);
     for (i = 0; i < nh; i++) y[i] = v[i] = y[i] - v[i];
     sphi_schur(dim, &b, &kk, 1, &schur);
     sphi_lu_solve(nh, &schur, v);
@@ -2115,11 +2157,11 @@ SPH_FN int sph_coefficients_block(int dim, int icspm, const sph_moments *m, sph_
         }
         if (yy > SPH_R(0) && tt > SPH_R(0)) factor = yt < SPH_R(0) ? -SPHI_SQRT(yy / tt) : SPHI_SQRT(yy / tt);
         for (i = 0; i < nh; i++) v[i] *= factor;
-        for (i = 0; i < dim; i++) u[i] *= factor;
+        for (i = 0; i < nd; i++) u[i] *= factor;
     }
-    sphi_multiply_transposed(nh, dim, b.aa, v, t);
-    for (i = 0; i < dim; i++) u[i] -= t[i];
-    sphi_lu_solve(dim, &kk, u);
+    sphi_multiply_transposed(nh, nd, b.aa, v, t);
+    for (i = 0; i < nd; i++) u[i] -= t[i];
+    sphi_lu_solve(nd, &kk, u);
     *c = sphi_row_unscaled(dim, &b, u, v, factor);
     return SPH_OK;
 }
@@ -2352,9 +2394,9 @@ SPH_FN sph_index sph_derivatives_icspm(sph_kernel k, int dim, sph_cloud cloud, s
 }
 
 /* Gradient, Hessian and Laplacian by weighted least squares, the robust sibling of ICSPM. They are exact for
-   quadratic fields; the matrix is definite wherever the neighbours determine a quadratic field. conditioning
-   is that of ICSPM, here in [0, 1]. conditioning_min, and the values and the status where there is no answer,
-   are as for ICSPM; there is no fallback. */
+   quadratic fields. Where kernel and volumes are not negative, the matrix is definite wherever the neighbours
+   determine a quadratic field, and conditioning, which is that of ICSPM, is in [0, 1]. conditioning_min, and
+   the values and the status where there is no answer, are as for ICSPM; there is no fallback. */
 SPH_FN sph_index sph_derivatives_wls(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                      sph_derivatives_options options, sph_derivatives_out out)
 {
@@ -2443,9 +2485,10 @@ SPH_FN sph_index sph_derivatives_rows_wls(sph_kernel k, int dim, sph_cloud cloud
    The outer normal is +1 at the right end and -1 at the left end, so that the weight is positive inside.
    Sources: Macia, Gonzalez, Cercos-Pita & Souto-Iglesias 2012, Prog. Theor. Phys. 128, 439; (4.9) of the
    ICSPM paper, where the braces are lost in print: the factor 2 / gamma multiplies the boundary terms, too.
-   At the end itself (e = 0) the term is undefined (0/0): do not call the function there. */
+   Needs normal = 1 and e > 0, or normal = -1 and e < 0: at the end itself (e = 0) the term is undefined. */
 SPH_FN sph_real sph_boundary_weight_bim(sph_kernel k, sph_real e, sph_real normal, sph_real h)
 {
+    SPH_ASSERT((normal == SPH_R(1) && e > SPH_R(0)) || (normal == SPH_R(-1) && e < SPH_R(0)));
     return SPH_R(2) * normal * sph_kernel_w(k, 1, SPHI_ABS(e), h) / e;
 }
 
@@ -2514,8 +2557,8 @@ SPH_FN sph_index sph_second_derivative_bim(sph_kernel k, sph_cloud cloud, sph_sc
     return failed;
 }
 
-/* The same as rows: f''_i = sum_p row[p] (f_j - f_i), with factor 1. The ends must be in the lists of the
-   targets whose support reaches them. The row of a target that is not SPH_OK is 0. */
+/* The same as rows: f''_i = sum_p row[p] (f_j - f_i), with factor 1. The ends left and right must be in the
+   lists of the targets whose support reaches them. The row of a target that is not SPH_OK is 0. */
 SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_cloud cloud, sph_index left,
                                                 sph_index right, sph_rows_out out)
 {
@@ -2576,8 +2619,8 @@ SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_cloud cloud, s
  * Only the trace of the second derivatives is normalised (nearly: see options.trace). In disorder, the
  * pointwise errors of all four are therefore O(1). At a boundary they are O(1) for the last two and O(1/h)
  * for the first two.
- * Signs: L is negative semi-definite where all T >= 0, that is, where 1 - xi . e > 0 ((92), (93);
- * sph_elliptic_diagnose tells). The equation (1) of the paper is -L u - g.
+ * Signs: no eigenvalue of L has a positive real part where all T >= 0, that is, where 1 - xi . e > 0 ((92),
+ * (93); sph_elliptic_diagnose tells). The equation (1) of the paper is -L u - g.
  *
  * Misprints and misreadings that are corrected here:
  *   - Schwaiger's scheme (52) has the two-point form, too, because m_j u_j - m_i u_i - u_i (m_j - m_i) +
@@ -2604,6 +2647,8 @@ typedef enum sph_elliptic_gradient {
     SPH_GRADIENT_SHEPARD_FULL     /* (18) grad_j (W / nu): of nu, only the neighbour's part varies */
 } sph_elliptic_gradient;
 
+#define SPHI_IS_GRADIENT(gradient) ((gradient) >= 0 && (gradient) <= (int)SPH_GRADIENT_SHEPARD_FULL)
+
 /* The mean of two mobilities. */
 typedef enum sph_mobility_mean {
     SPH_MOBILITY_ARITHMETIC, /* (m_i + m_j) / 2: as published */
@@ -2625,10 +2670,11 @@ typedef struct sph_kernel_gradient {
 
 /* g of a pair, for one of sph_elliptic_gradient. v: W and F of the pair; s: nu and grad nu of the target.
    V_j is read for SPH_GRADIENT_SHEPARD_FULL only, s for all but SPH_GRADIENT_DIFFUSE, s.gradient for
-   SPH_GRADIENT_FULL only. */
+   SPH_GRADIENT_FULL only. Needs one of the four gradients, and s.nu not 0 where it is read. */
 SPH_FN sph_kernel_gradient sph_elliptic_gradient_pair(int gradient, sph_wf v, sph_real V_j, sph_shepard s)
 {
     sph_kernel_gradient g;
+    SPH_ASSERT(SPHI_IS_GRADIENT(gradient) && (gradient == (int)SPH_GRADIENT_DIFFUSE || s.nu != SPH_R(0)));
     g.radial = -v.f;
     g.rest.x = g.rest.y = g.rest.z = SPH_R(0);
     if (gradient == (int)SPH_GRADIENT_FULL) {
@@ -2642,6 +2688,7 @@ SPH_FN sph_kernel_gradient sph_elliptic_gradient_pair(int gradient, sph_wf v, sp
 SPH_FN sph_vec sph_elliptic_gradient_vector(int dim, int gradient, sph_vec e, sph_kernel_gradient g)
 {
     sph_vec v = sph_scale(g.radial, e);
+    SPH_ASSERT(SPHI_IS_DIM(dim) && SPHI_IS_GRADIENT(gradient));
     if (gradient == (int)SPH_GRADIENT_FULL) {
         v.x += g.rest.x;
         if (dim > 1) v.y += g.rest.y;
@@ -2652,15 +2699,17 @@ SPH_FN sph_vec sph_elliptic_gradient_vector(int dim, int gradient, sph_vec e, sp
 /* t = e . g / |e|^2. For coincident particles it is the radial part alone. */
 SPH_FN sph_real sph_elliptic_projection(int dim, int gradient, sph_vec e, sph_kernel_gradient g)
 {
+    SPH_ASSERT(SPHI_IS_DIM(dim) && SPHI_IS_GRADIENT(gradient));
     return gradient == (int)SPH_GRADIENT_FULL
                ? g.radial + sphi_over_q(sph_dot(dim, e, g.rest), sph_dot(dim, e, e))
                : g.radial;
 }
 
 /* mu_ij, which is twice the mean of the mobilities. upstream = potential_i - potential_j; it is read for
-   SPH_MOBILITY_UPWIND only. */
+   SPH_MOBILITY_UPWIND only. Needs one of the three means, m_i >= 0 and m_j >= 0. */
 SPH_FN sph_real sph_mobility_pair(int mean, sph_real m_i, sph_real m_j, sph_real upstream)
 {
+    SPH_ASSERT(mean >= 0 && mean <= (int)SPH_MOBILITY_UPWIND && m_i >= SPH_R(0) && m_j >= SPH_R(0));
     if (mean == (int)SPH_MOBILITY_HARMONIC) return SPH_R(4) * m_i * (m_j / (m_i + m_j + SPHI_TINY));
     if (mean == (int)SPH_MOBILITY_UPWIND) return SPH_R(2) * (upstream >= SPH_R(0) ? m_i : m_j);
     return m_i + m_j;
@@ -2690,7 +2739,7 @@ typedef struct sph_elliptic_moments {
     sph_vec n, n_tilde, kx, ky, kz;
 } sph_elliptic_moments;
 
-/* The moments of a radial gradient, for which K = Gamma and N~ = N. */
+/* The moments of a radial gradient from gamma and n, its Gamma and N, because K = Gamma and N~ = N. */
 SPH_FN sph_elliptic_moments sph_elliptic_moments_radial(sph_sym gamma, sph_vec n)
 {
     sph_elliptic_moments m;
@@ -2713,6 +2762,7 @@ typedef struct sph_elliptic_inverse {
 SPH_FN sph_vec sph_elliptic_inverse_times(int dim, sph_elliptic_inverse a, sph_vec v)
 {
     sph_vec u;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
     u.x = sph_dot(dim, a.x, v);
     u.y = dim > 1 ? sph_dot(dim, a.y, v) : SPH_R(0);
     u.z = dim > 2 ? sph_dot(dim, a.z, v) : SPH_R(0);
@@ -2724,6 +2774,7 @@ SPH_FN sph_vec sph_elliptic_inverse_times(int dim, sph_elliptic_inverse a, sph_v
 SPH_FN int sph_elliptic_invert(int dim, int gradient, const sph_elliptic_moments *m, sph_elliptic_inverse *a,
                                sph_real *conditioning)
 {
+    SPH_ASSERT(SPHI_IS_DIM(dim) && SPHI_IS_GRADIENT(gradient));
     if (gradient == (int)SPH_GRADIENT_FULL) {
         /* K is not symmetric. Its entries are of order one, because g is normalised by nu. */
         sphi_lu s;
@@ -2765,6 +2816,7 @@ SPH_FN sph_vec sph_sym_eigenvalues(int dim, sph_sym s)
     sph_real a[3][3], t;
     sph_vec v;
     int sweep, p, q, r;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
     a[0][0] = s.xx;
     a[1][1] = dim > 1 ? s.yy : SPH_R(0);
     a[2][2] = dim > 2 ? s.zz : SPH_R(0);
@@ -2879,7 +2931,7 @@ SPH_FN sph_shepard sphi_elliptic_shepard(sph_kernel k, int dim, const sphi_ellip
             if (dim > 2) sz -= V_j * v.f * e.z;
         }
     }
-    s.nu = nu;
+    s.nu = nu != SPH_R(0) ? nu : SPH_R(1); /* 0: nobody is there, so that nothing is divided by it */
     s.gradient.x = sx;
     s.gradient.y = sy;
     s.gradient.z = sz;
@@ -3190,37 +3242,44 @@ SPH_FN sph_index sph_elliptic_brookshaw(sph_kernel k, int dim, sph_cloud cloud, 
 {
     return sphi_elliptic_sweep(SPHI_ELLIPTIC_BROOKSHAW, k, dim, cloud, m, options, u, out);
 }
+/* The same by (51): Brookshaw's scheme times tr K^-1 / dim. */
 SPH_FN sph_index sph_elliptic_brookshaw_corrected(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                                   sph_elliptic_options options, sph_scalars u,
                                                   sph_scalar_out out)
 {
     return sphi_elliptic_sweep(SPHI_ELLIPTIC_CORRECTED, k, dim, cloud, m, options, u, out);
 }
+/* The same by (52), Schwaiger's scheme: exact for linear u where m is constant. */
 SPH_FN sph_index sph_elliptic_schwaiger(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                         sph_elliptic_options options, sph_scalars u, sph_scalar_out out)
 {
     return sphi_elliptic_sweep(SPHI_ELLIPTIC_SCHWAIGER, k, dim, cloud, m, options, u, out);
 }
+/* The same by (69), M-SPH: for radial gradients the same numbers as Schwaiger's scheme. */
 SPH_FN sph_index sph_elliptic_msph(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                    sph_elliptic_options options, sph_scalars u, sph_scalar_out out)
 {
     return sphi_elliptic_sweep(SPHI_ELLIPTIC_MSPH, k, dim, cloud, m, options, u, out);
 }
+/* The rows of sph_elliptic_brookshaw (meshless transmissibilities), without its source. */
 SPH_FN sph_index sph_elliptic_rows_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                              sph_elliptic_options options, sph_rows_out out)
 {
     return sphi_elliptic_rows(SPHI_ELLIPTIC_BROOKSHAW, k, dim, cloud, m, options, out);
 }
+/* The rows of sph_elliptic_brookshaw_corrected. */
 SPH_FN sph_index sph_elliptic_rows_brookshaw_corrected(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                                        sph_elliptic_options options, sph_rows_out out)
 {
     return sphi_elliptic_rows(SPHI_ELLIPTIC_CORRECTED, k, dim, cloud, m, options, out);
 }
+/* The rows of sph_elliptic_schwaiger. */
 SPH_FN sph_index sph_elliptic_rows_schwaiger(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                              sph_elliptic_options options, sph_rows_out out)
 {
     return sphi_elliptic_rows(SPHI_ELLIPTIC_SCHWAIGER, k, dim, cloud, m, options, out);
 }
+/* The rows of sph_elliptic_msph. */
 SPH_FN sph_index sph_elliptic_rows_msph(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                         sph_elliptic_options options, sph_rows_out out)
 {
@@ -3715,7 +3774,7 @@ typedef struct sph_csr {
    sph_csr_size(cloud). *entries (the pointer may be null) is the number of entries. The output must not
    overlap the input.
    Returns 0 or a negative sph_error, and then nothing was written. It is SPH_ERROR_CAPACITY if capacity is
-   below sph_csr_size(cloud), or if that number is beyond the range of sph_index. */
+   below sph_csr_size(cloud), and SPH_ERROR_PAIRS if that number is beyond the range of sph_index. */
 SPH_FN sph_index sph_csr_assemble(sph_cloud cloud, const sph_real *row, sph_scalars diagonal, int drop_zeros,
                                   sph_csr out, int64_t *entries)
 {
@@ -3730,9 +3789,8 @@ SPH_FN sph_index sph_csr_assemble(sph_cloud cloud, const sph_real *row, sph_scal
     }
     if (!error && !diagonal.p) error = sphi_refuse("diagonal", -1, SPH_ERROR_NULL);
     if (!error && (!start || !column || !value)) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
-    if (!error && (out.capacity < sph_csr_size(cloud) ||
-                   (int64_t)(sph_index)sph_csr_size(cloud) != sph_csr_size(cloud)))
-        error = SPH_ERROR_CAPACITY;
+    if (!error && (int64_t)(sph_index)sph_csr_size(cloud) != sph_csr_size(cloud)) error = SPH_ERROR_PAIRS;
+    if (!error && out.capacity < sph_csr_size(cloud)) error = SPH_ERROR_CAPACITY;
     if (error) return error;
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_index begin = at;
@@ -3772,6 +3830,16 @@ SPH_FN sph_index sph_csr_assemble(sph_cloud cloud, const sph_real *row, sph_scal
  * between the two particles. Momentum and angular momentum are then conserved to round-off. Since F <= 0,
  * positive pressure and viscosity push particles apart.
  *
+ * The order of a step: pressures from densities, then wall pressures (sph_wall_adami), then forces; with them
+ * the new velocities, and with these the positions. A density by summation is computed before the pressures.
+ * A density that follows its rate takes the rate by the new velocities:
+ *     v += dt a(x, p(rho));   rho += dt rate(x, v);   x += dt v.
+ * Call sph_divergence_difference after the first of these: rate = -rho div v. With the rate by the old
+ * velocities, such as the one of the sweep that computes the forces, each step makes sound of the angular
+ * frequency w grow by sqrt(1 + (w dt)^2). Then a column at rest boils, unless viscosity is so large, about
+ * c^2 dt, that it damps faster: with new velocities the speeds of its particles fall below
+ * 0.002 sqrt(g height), with old ones they exceed 2 sqrt(g height) (tests/test_fluid.c).
+ *
  * Sources: Korzilius, Schilders & Anthonissen (the paper on particle clustering; equation numbers without
  * a name are those of this paper), Monaghan 1992, ARA&A 30, 543, and those that each function names.
  */
@@ -3801,23 +3869,34 @@ typedef struct sph_tait {
 
 /* -------- fluid: pair functions */
 
+/* What physical and artificial viscosities need. */
+#define SPHI_ARE_VISCOUS(i, j, e) \
+    ((i).rho > SPH_R(0) && (j).rho > SPH_R(0) && (i).mu >= SPH_R(0) && (j).mu >= SPH_R(0) && \
+     (e).r >= SPH_R(0) && (e).h > SPH_R(0))
+#define SPHI_IS_ENCOUNTER(e) \
+    ((e).r >= SPH_R(0) && (e).h > SPH_R(0) && (e).rho > SPH_R(0) && (e).c >= SPH_R(0))
+
 /* P_ij = p_i / rho_i^2 + p_j / rho_j^2, the variational partner of the summation density. (2.3);
    Monaghan 1992, (3.3). Do not use it where the density jumps: there, it differs between particles of
-   the same pressure. */
+   the same pressure. Needs rho > 0 on both sides. */
 SPH_FN sph_real sph_pressure_pair_monaghan(sph_fluid_side i, sph_fluid_side j)
 {
+    SPH_ASSERT(i.rho > SPH_R(0) && j.rho > SPH_R(0));
     return i.p / (i.rho * i.rho) + j.p / (j.rho * j.rho);
 }
 /* P_ij = (p_i + p_j) / (rho_i rho_j), the partner of the continuity equation in volumes. (5.23), (5.24);
-   Colagrossi & Landrini 2003, JCP 191, 448. Valid where the density jumps. */
+   Colagrossi & Landrini 2003, JCP 191, 448. Valid where the density jumps. Needs rho > 0 on both sides. */
 SPH_FN sph_real sph_pressure_pair_colagrossi(sph_fluid_side i, sph_fluid_side j)
 {
+    SPH_ASSERT(i.rho > SPH_R(0) && j.rho > SPH_R(0));
     return (i.p + j.p) / (i.rho * j.rho);
 }
 /* P_ij = (V_i^2 p_i + V_j^2 p_j) / (m_i m_j) with V = m / rho, the partner of rho_i = m_i sum_j W_ij
-   (sph_density_number). Hu & Adams 2006, JCP 213, 844, (16). Valid where the density jumps. */
+   (sph_density_number). Hu & Adams 2006, JCP 213, 844, (16). Valid where the density jumps. Needs rho > 0
+   and m > 0 on both sides. */
 SPH_FN sph_real sph_pressure_pair_hu_adams(sph_fluid_side i, sph_fluid_side j)
 {
+    SPH_ASSERT(i.rho > SPH_R(0) && j.rho > SPH_R(0) && i.m > SPH_R(0) && j.m > SPH_R(0));
     return i.m / j.m * i.p / (i.rho * i.rho) + j.m / i.m * j.p / (j.rho * j.rho);
 }
 
@@ -3825,51 +3904,59 @@ SPH_FN sph_real sph_pressure_pair_hu_adams(sph_fluid_side i, sph_fluid_side j)
        Pi_ij = (-alpha c mu + beta mu^2) / rho >= 0,   mu = h min(vx, 0) / (r^2 + eta^2 h^2)
    with the means of c and rho; here mu is a velocity. Monaghan & Gingold 1983, JCP 52, 374; Monaghan 1992,
    (4.1), (4.2). Usually eta^2 = 0.01. It is 0 for coincident particles. If all pairs counted, the linear
-   term would be a kinematic shear viscosity of about alpha h c / (2 (dim + 2)). */
+   term would be a kinematic shear viscosity of about alpha h c / (2 (dim + 2)). Needs rho > 0 and c >= 0. */
 SPH_FN sph_real sph_viscosity_pair_monaghan(sph_viscosity_terms terms, sph_encounter e)
 {
     const sph_real mu = e.h * SPH_R(0.5) * (e.vx - SPHI_ABS(e.vx)) /
                         (e.r * e.r + terms.eta * terms.eta * e.h * e.h + SPHI_TINY);
+    SPH_ASSERT(SPHI_IS_ENCOUNTER(e));
     return (terms.beta * mu - terms.alpha * e.c) * mu / e.rho;
 }
 /* The linear term for all pairs: Pi_ij = -alpha c h vx / ((r^2 + eta^2 h^2) rho), which is negative for
    particles that recede. It acts as the shear and bulk viscosity of the Navier-Stokes equations. Monaghan
-   2005, Rep. Prog. Phys. 68, 1703, section 4. */
+   2005, Rep. Prog. Phys. 68, 1703, section 4. Needs rho > 0 and c >= 0. */
 SPH_FN sph_real sph_viscosity_pair_linear(sph_viscosity_terms terms, sph_encounter e)
 {
+    SPH_ASSERT(SPHI_IS_ENCOUNTER(e));
     return -terms.alpha * e.c * e.h * e.vx /
            ((e.r * e.r + terms.eta * terms.eta * e.h * e.h + SPHI_TINY) * e.rho);
 }
 /* The signal speed of a pair, v_sig = (c_i + c_j + beta |w|) / 2 with w = v_ij . x_ij / r;
    beta_w = beta |w|. c is the sound speed, or sph_mhd_fast_speed in a magnetised gas. Monaghan 1997, JCP
-   136, 298; Price 2012, JCP 231, 759, (105). */
+   136, 298; Price 2012, JCP 231, 759, (105). Needs c_i >= 0 and c_j >= 0. */
 SPH_FN sph_real sph_signal_speed(sph_real c_i, sph_real c_j, sph_real beta_w)
 {
+    SPH_ASSERT(!(c_i < SPH_R(0)) && !(c_j < SPH_R(0))); /* NaN: the squares of fast speeds overflowed */
     return SPH_R(0.5) * (c_i + c_j + beta_w);
 }
 /* Pi_ij = alpha v_sig |w| / rho where particles approach (w < 0), else 0. alpha_speed = alpha v_sig,
-   per_rho = 1 / rho. */
+   per_rho = 1 / rho. Needs per_rho >= 0. */
 SPH_FN sph_real sph_viscosity_signal(sph_real alpha_speed, sph_real w, sph_real per_rho)
 {
+    SPH_ASSERT(per_rho >= SPH_R(0));
     return SPH_R(0.5) * alpha_speed * (SPHI_ABS(w) - w) * per_rho;
 }
 /* Artificial viscosity by the signal speed: Pi_ij = alpha v_sig |w| / rho where particles approach, else
    0, with w = vx / r and v_sig = c + beta |w| / 2. Monaghan 1997, JCP 136, 298, (4.13) with K = alpha / 2;
-   his v_sig is twice this one, and his beta is 3. It does not depend on h; eta is not read. */
+   his v_sig is twice this one, and his beta is 3. It does not depend on h; neither h nor eta is read. Needs
+   rho > 0 and c >= 0. */
 SPH_FN sph_real sph_viscosity_pair_signal(sph_viscosity_terms terms, sph_encounter e)
 {
     const sph_real w = e.vx / (e.r + SPHI_TINY), speed = sph_signal_speed(e.c, e.c, terms.beta * SPHI_ABS(w));
+    SPH_ASSERT(e.r >= SPH_R(0) && e.rho > SPH_R(0) && e.c >= SPH_R(0));
     return sph_viscosity_signal(terms.alpha * speed, w, SPH_R(1) / e.rho);
 }
 
 /* Physical viscosity of Morris: the coefficient B <= 0 of a_i = sum_j m_j B v_ij,
        B = (mu_i + mu_j) / (rho_i rho_j) F r^2 / (r^2 + eta^2 h^2).
-   Exact for linear velocities in the interior. It conserves momentum, but not angular momentum.
-   Morris, Fox & Zhu 1997, JCP 136, 214, (22). Of the pair e, r and h are read; eta is taken as it is
-   (0: no softening). */
+   Exact for linear velocities in the interior of a lattice; in disorder for constant ones only. It conserves
+   momentum, but not angular momentum. Morris, Fox & Zhu 1997, JCP 136, 214, (22). Of the pair e, r and h are
+   read; eta is taken as it is (0: no softening). f_ij comes from sph_kernel_f_apart. Needs rho > 0 and
+   mu >= 0 on both sides. */
 SPH_FN sph_real sph_viscosity_mu_pair_morris(sph_fluid_side i, sph_fluid_side j, sph_encounter e,
                                              sph_real f_ij, sph_real eta)
 {
+    SPH_ASSERT(SPHI_ARE_VISCOUS(i, j, e));
     return (i.mu + j.mu) / (i.rho * j.rho) * f_ij *
            (e.r * e.r / (e.r * e.r + eta * eta * e.h * e.h + SPHI_TINY));
 }
@@ -3877,10 +3964,13 @@ SPH_FN sph_real sph_viscosity_mu_pair_morris(sph_fluid_side i, sph_fluid_side j,
        B = 2 (dim + 2) [2 mu_i mu_j / (mu_i + mu_j)] / (rho_i rho_j) vx / (r^2 + eta^2 h^2) F,
    positive for particles that approach. The force acts along the line between the particles, so that
    angular momentum is conserved, too. Valid where mu jumps. Cleary & Monaghan 1999, JCP 148, 227; Monaghan
-   2005, (4.13). The factor 2 (dim + 2) makes it div(mu grad v) / rho for incompressible flow. */
+   2005, (4.13). The factor 2 (dim + 2) makes it div(mu grad v) / rho for incompressible flow, where the
+   neighbours lie alike in all directions (see sph_viscosity_mu_monaghan_cleary). f_ij comes from
+   sph_kernel_f_apart. Needs rho > 0 and mu >= 0 on both sides. */
 SPH_FN sph_real sph_viscosity_mu_pair_monaghan_cleary(int dim, sph_fluid_side i, sph_fluid_side j,
                                                       sph_encounter e, sph_real f_ij, sph_real eta)
 {
+    SPH_ASSERT(SPHI_IS_DIM(dim) && SPHI_ARE_VISCOUS(i, j, e));
     return SPH_R(4 * (dim + 2)) * i.mu * (j.mu / (i.mu + j.mu + SPHI_TINY)) / (i.rho * j.rho) * e.vx /
            (e.r * e.r + eta * eta * e.h * e.h + SPHI_TINY) * f_ij;
 }
@@ -3897,9 +3987,11 @@ SPH_FN sph_real sph_density_rate_pair_mass(sph_fluid_side j, sph_real vx, sph_re
 {
     return j.m * vx * f_ij;
 }
-/* The same in volumes, valid where the density jumps: rho_i (m_j / rho_j) v_ij . grad_i W_ij. (5.23). */
+/* The same in volumes, valid where the density jumps: rho_i (m_j / rho_j) v_ij . grad_i W_ij. (5.23). Needs
+   rho > 0 on both sides. */
 SPH_FN sph_real sph_density_rate_pair_volume(sph_fluid_side i, sph_fluid_side j, sph_real vx, sph_real f_ij)
 {
+    SPH_ASSERT(i.rho > SPH_R(0) && j.rho > SPH_R(0));
     return j.m * i.rho / j.rho * vx * f_ij;
 }
 
@@ -3923,7 +4015,7 @@ SPH_FN sph_fluid_change sphi_fluid_change(sph_real m_j, sph_real push, sph_real 
 }
 /* A whole interaction: what j adds to i. The sweep sph_fluid_rates_monaghan is the sum of these.
    vx = v_ij . x_ij; f_ij comes from sph_kernel_f_apart; viscosity is Pi_ij, or 0. The density rate is that
-   of sph_density_rate_pair_mass. */
+   of sph_density_rate_pair_mass. This and the next two need what their pressure term needs. */
 SPH_FN sph_fluid_change sph_fluid_pair_monaghan(sph_fluid_side i, sph_fluid_side j, sph_vec x_ij, sph_real vx,
                                                 sph_real f_ij, sph_real viscosity)
 {
@@ -3947,9 +4039,10 @@ SPH_FN sph_fluid_change sph_fluid_pair_hu_adams(sph_fluid_side i, sph_fluid_side
 }
 
 /* XSPH: 2 m_j / (rho_i + rho_j) W_ij, the weight of (v_j - v_i). Epsilon times the sum is added to the
-   velocity that moves particle i. Monaghan 1989, JCP 82, 1. */
+   velocity that moves particle i. Monaghan 1989, JCP 82, 1. Needs rho > 0 on both sides. */
 SPH_FN sph_real sph_velocity_pair_xsph(sph_fluid_side i, sph_fluid_side j, sph_real w_ij)
 {
+    SPH_ASSERT(i.rho > SPH_R(0) && j.rho > SPH_R(0));
     return SPH_R(2) * j.m / (i.rho + j.rho) * w_ij;
 }
 
@@ -3971,12 +4064,17 @@ SPH_FN sph_wall_sums sph_wall_pair_adami(int dim, sph_fluid_side j, sph_vec v_j,
     c.v = sph_scale(w_ij, v_j);
     return c;
 }
-/* The pressure of the wall particle: the sum p over that of W. Only where weight > 0. */
-SPH_FN sph_real sph_wall_pressure(sph_wall_sums s) { return s.p / s.weight; }
-/* The mean velocity of the fluid in front of the wall: the sum v over that of W. Only where weight > 0. */
+/* The pressure of the wall particle: the sum p over that of W. Needs weight > 0. */
+SPH_FN sph_real sph_wall_pressure(sph_wall_sums s)
+{
+    SPH_ASSERT(s.weight > SPH_R(0));
+    return s.p / s.weight;
+}
+/* The mean velocity of the fluid in front of the wall: the sum v over that of W. Needs weight > 0. */
 SPH_FN sph_vec sph_wall_fluid_velocity(sph_wall_sums s)
 {
     sph_vec mean;
+    SPH_ASSERT(s.weight > SPH_R(0));
     mean.x = s.v.x / s.weight;
     mean.y = s.v.y / s.weight;
     mean.z = s.v.z / s.weight;
@@ -3989,8 +4087,8 @@ SPH_FN sph_vec sph_wall_velocity_no_slip(int dim, sph_vec mean, sph_vec wall)
     return sph_subtract(dim, sph_scale(SPH_R(2), wall), mean);
 }
 /* The velocity of a wall particle with free slip: the mean, of which the part along the normal is
-   reversed relative to the wall, mean - 2 ((mean - u) . n) n / n^2. The length of n does not matter.
-   If n = 0, it is the mean. */
+   reversed relative to the wall, mean - 2 ((mean - u) . n) n / n^2. The length of n does not matter, if
+   its square is in the range of numbers. If n^2 = 0, it is the mean. */
 SPH_FN sph_vec sph_wall_velocity_free_slip(int dim, sph_vec mean, sph_vec wall, sph_vec normal)
 {
     const sph_real nn = sph_dot(dim, normal, normal),
@@ -4001,47 +4099,55 @@ SPH_FN sph_vec sph_wall_velocity_free_slip(int dim, sph_vec mean, sph_vec wall, 
 /* p = p0 + rho0 c^2 / gamma ((rho / rho0)^gamma - 1), the equation of state that is called after Tait, in
    Macdonald's form (2.4). For gamma = 1 it is p0 + c^2 (rho - rho0); gamma = 7 is usual for water. p0 is
    the pressure at rho0, 0 or a background pressure. Cole 1948; Macdonald 1966, Rev. Mod. Phys. 38, 669;
-   Monaghan 1994, JCP 110, 399. */
+   Monaghan 1994, JCP 110, 399. Needs rho >= 0, rho0 > 0, c >= 0 and gamma > 0. */
 SPH_FN sph_real sph_pressure_tait(sph_real rho, sph_tait t)
 {
     const sph_real e = rho / t.rho0, stiffness = t.rho0 * t.c * t.c / t.gamma;
+    SPH_ASSERT(rho >= SPH_R(0) && t.rho0 > SPH_R(0) && t.c >= SPH_R(0) && t.gamma > SPH_R(0));
     return t.p0 + stiffness * (t.gamma == SPH_R(1) ? e - SPH_R(1) : SPHI_POW(e, t.gamma) - SPH_R(1));
 }
 /* The density at the pressure p, the inverse of sph_pressure_tait. It is 0 where no density
-   has this pressure. */
+   has this pressure. Needs rho0 > 0, c > 0 and gamma > 0. */
 SPH_FN sph_real sph_density_tait(sph_real p, sph_tait t)
 {
     const sph_real e = SPH_R(1) + t.gamma * (p - t.p0) / (t.rho0 * t.c * t.c);
+    SPH_ASSERT(sphi_finite(p) && t.rho0 > SPH_R(0) && t.c > SPH_R(0) && t.gamma > SPH_R(0));
     if (!(e > SPH_R(0))) return SPH_R(0);
     return t.rho0 * (t.gamma == SPH_R(1) ? e : SPHI_POW(e, SPH_R(1) / t.gamma));
 }
-/* The sound speed sqrt(dp/drho) = c (rho / rho0)^((gamma - 1) / 2). */
+/* The sound speed sqrt(dp/drho) = c (rho / rho0)^((gamma - 1) / 2). Needs what sph_pressure_tait needs, and
+   rho > 0 if gamma < 1. */
 SPH_FN sph_real sph_sound_speed_tait(sph_real rho, sph_tait t)
 {
+    SPH_ASSERT((rho > SPH_R(0) || (rho >= SPH_R(0) && t.gamma >= SPH_R(1))) && t.rho0 > SPH_R(0) &&
+               t.c >= SPH_R(0) && t.gamma > SPH_R(0));
     return t.gamma == SPH_R(1) ? t.c : t.c * SPHI_POW(rho / t.rho0, SPH_R(0.5) * (t.gamma - SPH_R(1)));
 }
 
-/* a / b, or 1/SPHI_TINY if b is so small that nothing is limited. */
+/* a / b, or 1/SPHI_TINY if b is so small that nothing is limited. A NaN is not small: it stays one. */
 SPH_FN sph_real sphi_limit(sph_real a, sph_real b)
 {
-    return b > SPHI_TINY * a ? a / b : SPH_R(1) / SPHI_TINY;
+    return b <= SPHI_TINY * a ? SPH_R(1) / SPHI_TINY : a / b;
 }
 /* The longest step of an explicit scheme for one particle, by sound (Courant): 0.25 h / (c + |v|);
    speed = |v|. Source of this and the next two functions: Monaghan 1992; Morris, Fox & Zhu 1997,
    (33)-(35). Take the least of all particles. Where nothing limits the step the answer is 1/SPHI_TINY, or
-   for the force 0.25 sqrt(1/SPHI_TINY). */
+   for the force 0.25 sqrt(1/SPHI_TINY). Needs c >= 0 and speed >= 0. */
 SPH_FN sph_real sph_time_step_sound(sph_real h, sph_real c, sph_real speed)
 {
+    SPH_ASSERT(h > SPH_R(0) && c >= SPH_R(0) && speed >= SPH_R(0));
     return sphi_limit(SPH_R(0.25) * h, c + speed);
 }
-/* The longest step by the force: 0.25 sqrt(h / |a|); acceleration = |a|. */
+/* The longest step by the force: 0.25 sqrt(h / |a|); acceleration = |a|. Needs acceleration >= 0. */
 SPH_FN sph_real sph_time_step_force(sph_real h, sph_real acceleration)
 {
+    SPH_ASSERT(h > SPH_R(0) && acceleration >= SPH_R(0));
     return SPH_R(0.25) * SPHI_SQRT(sphi_limit(h, acceleration));
 }
-/* The longest step by viscosity: 0.125 h^2 / nu, with the kinematic viscosity nu. */
+/* The longest step by viscosity: 0.125 h^2 / nu, with the kinematic viscosity nu. Needs nu >= 0. */
 SPH_FN sph_real sph_time_step_viscous_nu(sph_real h, sph_real nu)
 {
+    SPH_ASSERT(h > SPH_R(0) && nu >= SPH_R(0));
     return sphi_limit(SPH_R(0.125) * h * h, nu);
 }
 
@@ -4084,7 +4190,7 @@ typedef enum sph_viscosity {
 /* The state of a fluid, one number for each particle, all sources. A pair uses (h_i + h_j) / 2: lists by
    SPH_MEAN, or by any criterion if all particles have the same h. */
 typedef struct sph_fluid {
-    sph_scalars m, rho, p, c; /* mass, density, pressure, sound speed (for artificial viscosity) */
+    sph_scalars m, rho, p, c; /* mass, density, pressure, sound speed >= 0 (for artificial viscosity) */
     sph_vectors v;            /* velocity */
     int viscosity;            /* the artificial viscosity: an sph_viscosity */
     sph_real alpha, beta;     /* its coefficients, pure numbers */
@@ -4191,7 +4297,8 @@ SPH_FN sph_index sphi_fluid_rates(int form, sph_kernel k, int dim, sph_cloud clo
     if (!error) error = sphi_check_positive("m", f.m, cloud.points.n);
     if (!error) error = sphi_check_positive("rho", f.rho, cloud.points.n);
     if (!error) error = sphi_check_field("p", f.p, cloud.points.n);
-    if (!error && f.viscosity != (int)SPH_VISCOSITY_NONE) error = sphi_check_field("c", f.c, cloud.points.n);
+    if (!error && f.viscosity != (int)SPH_VISCOSITY_NONE)
+        error = sphi_check_not_negative("c", f.c, cloud.points.n);
     if (!error) error = sphi_check_vectors("v", dim, f.v, cloud.points.n);
     if (!error) error = sphi_check_out("out.acceleration", dim, out.acceleration);
     if (error) return sphi_answer_of(error);
@@ -4208,20 +4315,22 @@ SPH_FN sph_index sphi_fluid_rates(int form, sph_kernel k, int dim, sph_cloud clo
      hu_adams    weighted by volumes. The density comes from sph_density_number, or from the rate (5.23),
                  which is the one that this sweep writes.
    Signs: F <= 0, so that pressure pushes particles apart. Gravity and the work of the pressure on u
-   are not contained. out.rate and out.heating may be null. Pairs closer than 1e-12 h exert no force on
-   each other (sph_coincident_count finds them). Returns the number of targets of which a result
-   overflowed (it is 0 then), or a negative sph_error: SPH_ERROR_VALUE also for densities and masses
-   that are not positive. */
+   are not contained. out.rate is that of the velocities given: see the order of a step above. out.rate and
+   out.heating may be null. Pairs closer than 1e-12 h exert no force on each other (sph_coincident_count finds
+   them). Returns the number of targets of which a result overflowed (it is 0 then), or a negative sph_error:
+   SPH_ERROR_VALUE also for densities and masses that are not positive, and sound speeds that are negative. */
 SPH_FN sph_index sph_fluid_rates_monaghan(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                           sph_fluid_out out)
 {
     return sphi_fluid_rates(SPHI_MONAGHAN, k, dim, cloud, fluid, out);
 }
+/* The same by Colagrossi & Landrini, (5.23), (5.24): for densities that jump. */
 SPH_FN sph_index sph_fluid_rates_colagrossi(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                             sph_fluid_out out)
 {
     return sphi_fluid_rates(SPHI_COLAGROSSI, k, dim, cloud, fluid, out);
 }
+/* The same by Hu & Adams, weighted by volumes: for densities that jump. */
 SPH_FN sph_index sph_fluid_rates_hu_adams(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                           sph_fluid_out out)
 {
@@ -4238,7 +4347,7 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, 
     int error = sphi_check_sweep(k, dim, cloud, "m", m);
     sph_index i, p, failed = 0;
     if (!error) error = sphi_check_positive("rho", rho, cloud.points.n);
-    if (!error) error = sphi_check_field("mu", mu, cloud.points.n);
+    if (!error) error = sphi_check_not_negative("mu", mu, cloud.points.n);
     if (!error) error = sphi_check_vectors("v", dim, v, cloud.points.n);
     if (!error) error = sphi_check_out("a", dim, a);
     if (!error && !sphi_finite(fluid.eta)) error = sphi_refuse("fluid.eta", -1, SPH_ERROR_VALUE);
@@ -4255,7 +4364,7 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, 
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)),
                           v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
             const sph_real r = sph_length(dim, x_ij), h_ij = sphi_mean_h(0, cloud.h, h_i, j),
-                           f_ij = sph_kernel_f(k, dim, r, h_ij), m_j = sphi_at(m, j);
+                           f_ij = sph_kernel_f_apart(k, dim, r, h_ij), m_j = sphi_at(m, j);
             const sph_fluid_side other = sphi_fluid_side(SPHI_READ_RHO + SPHI_READ_MU, &fluid, mu, j);
             sph_encounter e;
             sph_real b;
@@ -4280,14 +4389,20 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, 
     return failed;
 }
 /* a_i = (1 / rho) div(mu grad v), physical viscosity by sph_viscosity_mu_pair_morris. mu is the dynamic
-   viscosity (nu rho) of each particle. Of fluid, the members m, rho, v and eta are read. Returns the
-   number of targets whose result overflowed (it is 0 then), or a negative sph_error. */
+   viscosity (nu rho) of each particle, and not negative. Of fluid, the members m, rho, v and eta are read.
+   Pairs closer than 1e-12 h exert no force on each other. Returns the number of targets whose result
+   overflowed (it is 0 then), or a negative sph_error. */
 SPH_FN sph_index sph_viscosity_mu_morris(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                          sph_scalars mu, sph_vector_out acceleration)
 {
     return sphi_viscous(SPHI_MORRIS, k, dim, cloud, fluid, mu, acceleration);
 }
-/* The same by sph_viscosity_mu_pair_monaghan_cleary. */
+/* The same by sph_viscosity_mu_pair_monaghan_cleary. It also conserves angular momentum. But on a square
+   lattice that nothing has disturbed it depends on the direction: with the cubic spline and h = 1.2 dx a
+   shear wave is damped as by
+       0.79 mu along an axis and 1.17 mu along the diagonal,
+   where Morris's form has 0.98 mu. A longer h and disorder make the difference smaller, and a hexagonal
+   lattice has none: see the table of examples/OPERATORS.md. */
 SPH_FN sph_index sph_viscosity_mu_monaghan_cleary(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                                   sph_scalars mu, sph_vector_out acceleration)
 {
@@ -4295,9 +4410,10 @@ SPH_FN sph_index sph_viscosity_mu_monaghan_cleary(sph_kernel k, int dim, sph_clo
 }
 
 /* What XSPH adds to the velocity that moves a particle: epsilon sum_j 2 m_j / (rho_i + rho_j) (v_j - v_i)
-   W_ij. Monaghan 1989, JCP 82, 1. epsilon = 0.5 is usual. It conserves linear and angular momentum. Of
-   fluid, the members m, rho and v are read. Returns the number of targets whose result overflowed (it is 0
-   then), or a negative sph_error. */
+   W_ij. Monaghan 1989, JCP 82, 1. epsilon = 0.5 is usual. It conserves linear momentum, and also angular
+   momentum if it moves particles only: do not add it to the velocity that a particle keeps. Of fluid, the
+   members m, rho and v are read. Returns the number of targets whose result overflowed (it is 0 then), or a
+   negative sph_error. */
 SPH_FN sph_index sph_velocity_xsph(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid, sph_real epsilon,
                                    sph_vector_out change)
 {
@@ -4453,10 +4569,13 @@ typedef struct sph_impact {
     sph_real w_i, w_j, vx, r2;
 } sph_impact;
 
-/* The coefficient -(1 + C_R) w_i / (w_i + w_j) vx / r^2 of dv_i = coefficient x_ij. It is positive where
-   particles approach, and undefined for r = 0 and for two walls. */
+/* The coefficient -(1 + restitution) w_i / (w_i + w_j) vx / r^2 of dv_i = coefficient x_ij. It is positive
+   where particles approach. Needs restitution >= 0, w_i >= 0, w_j >= 0, w_i + w_j > 0 (two walls do not
+   move) and r^2 > 0 (else there is no direction). */
 SPH_FN sph_real sph_collision_pair(sph_real restitution, sph_impact c)
 {
+    SPH_ASSERT(restitution >= SPH_R(0) && c.w_i >= SPH_R(0) && c.w_j >= SPH_R(0) &&
+               c.w_i + c.w_j > SPH_R(0) && c.r2 > SPH_R(0));
     return -(SPH_R(1) + restitution) * (c.w_i / (c.w_i + c.w_j)) * c.vx / c.r2;
 }
 
@@ -4581,9 +4700,9 @@ SPH_FN sph_index sph_collision_sequential(int dim, sph_cloud cloud, sph_collisio
 }
 #endif
 
-/* The number of collisions of each target: the first half of the simultaneous form. Full lists. A host
-   with halo particles exchanges these numbers before the second half. Returns the number of targets that
-   coincide with a neighbour (they do not collide with it), or a negative sph_error. */
+/* count[i] is the number of collisions of target i: the first half of the simultaneous form. Full lists. A
+   host with halo particles exchanges these numbers before the second half. Returns the number of targets
+   that coincide with a neighbour (they do not collide with it), or a negative sph_error. */
 SPH_FN sph_index sph_collision_count(int dim, sph_cloud cloud, sph_collision collision, sph_vectors v,
                                      SPH_GLOBAL sph_index *count)
 {
@@ -4657,6 +4776,12 @@ SPH_FN sph_index sph_collision_change_weighted(int dim, sph_cloud cloud, sph_col
 
 /* ================================================================ magnetohydrodynamics and cleaning
  *
+ * The order of a step: density, h and Omega from positions (sph_density_adaptive), then pressure and sound
+ * speed from density and u, then sph_mhd_rates. All rates belong to one instant: v, u, B and psi must be
+ * those of the positions. Stages of Runge-Kutta's kind have them. In kick-drift-kick, where v is half a step
+ * behind x, predict them from their last rates: otherwise du/dt does not balance the work of the forces, and
+ * the energy has an error of first order in dt (tests/test_cleaning.c: 1.6e-3 instead of 6e-6).
+ *
  * Units with mu_0 = 1: divide a field B of other units by sqrt(mu_0). With grad_i W_ij = F x_ij and
  * F_i = F(r, h_i) we write
  *     g_i = F_i / (Omega_i rho_i^2),   g_j = F_j / (Omega_j rho_j^2),
@@ -4703,16 +4828,20 @@ SPH_FN sph_real sphi_fast_speed(sph_real sound2, sph_real alfven2, sph_real alon
 }
 /* The fast magnetosonic speed v along the pair, with vA^2 = B^2 / rho and B_along = B . x_ij / r:
        v^2 = (cs^2 + vA^2 + sqrt((cs^2 + vA^2)^2 - 4 cs^2 B_along^2 / rho)) / 2.
-   All three components of field are read. With B_along = 0 it is the largest speed, that across the field. */
+   All three components of field are read. With B_along = 0 it is the largest speed, that across the field.
+   Needs rho > 0, and |B_along| not above |B| but for rounding. */
 SPH_FN sph_real sph_mhd_fast_speed(sph_real cs, sph_vec field, sph_real rho, sph_real B_along)
 {
     const sph_real per_rho = SPH_R(1) / rho;
+    SPH_ASSERT(rho > SPH_R(0) &&
+               B_along * B_along <= (SPH_R(1) + SPH_R(64) * SPH_EPSILON) * sph_dot(3, field, field));
     return sphi_fast_speed(cs * cs, sph_dot(3, field, field) * per_rho, B_along * B_along * per_rho);
 }
 /* The signal speed of the artificial conductivity: sqrt(|P_i - P_j| / rho). per_rho is 1 over the mean
-   density. Price 2008, JCP 227, 10040. */
+   density. Price 2008, JCP 227, 10040. Needs per_rho >= 0. */
 SPH_FN sph_real sph_conductivity_speed(sph_real P_i, sph_real P_j, sph_real per_rho)
 {
+    SPH_ASSERT(per_rho >= SPH_R(0));
     return SPHI_SQRT(SPHI_ABS(P_i - P_j) * per_rho);
 }
 
@@ -4722,38 +4851,46 @@ typedef struct sph_cleaning_wave {
     sph_real ch, sigma, h;
     SPHI_TCC_PAD
 } sph_cleaning_wave;
+#define SPHI_IS_WAVE(w) ((w).ch >= SPH_R(0) && (w).sigma >= SPH_R(0) && (w).h > SPH_R(0))
 
 /* dpsi/dt = -ch^2 div B - sigma ch psi / h - psi div v / 2: (2) and (25), with 1/tau = sigma ch / h, (19).
    psi has the unit of B times a velocity. sigma: 0.2 to 0.3 in 2D, 0.8 to 1.2 in 3D (Tricco & Price 2012);
-   see sph_cleaning_sigma. */
+   see sph_cleaning_sigma. This and the other two rates need ch >= 0 and sigma >= 0. */
 SPH_FN sph_real sph_cleaning_rate(sph_cleaning_wave w, sph_real psi, sph_real div_B, sph_real div_v)
 {
+    SPH_ASSERT(SPHI_IS_WAVE(w));
     return -w.ch * w.ch * div_B - (w.sigma * w.ch / w.h + SPH_R(0.5) * div_v) * psi;
 }
-/* The same for psi / ch: d(psi/ch)/dt = -ch div B - sigma ch (psi/ch) / h - (psi/ch) div v / 2. For a ch
-   that changes with time; the energy sum m (psi/ch)^2 / (2 rho) then does not change with ch. Tricco,
-   Price & Bate 2016, JCP 322, 326. Where grad psi is needed, take psi = ch (psi/ch). */
+/* The same for psi_over_ch = psi / ch: d(psi/ch)/dt = -ch div B - sigma ch (psi/ch) / h - (psi/ch) div v / 2.
+   For a ch that changes with time; the energy sum m (psi/ch)^2 / (2 rho) then does not change with ch.
+   Tricco, Price & Bate 2016, JCP 322, 326. Where grad psi is needed, take psi = ch (psi/ch). */
 SPH_FN sph_real sph_cleaning_rate_scaled(sph_cleaning_wave w, sph_real psi_over_ch, sph_real div_B,
                                          sph_real div_v)
 {
+    SPH_ASSERT(SPHI_IS_WAVE(w));
     return -w.ch * div_B - (w.sigma * w.ch / w.h + SPH_R(0.5) * div_v) * psi_over_ch;
 }
 /* A usual damping sigma of cleaning waves: 0.3 in 1D and 2D, 1 in 3D. */
-SPH_FN sph_real sph_cleaning_sigma(int dim) { return dim < 3 ? SPH_R(0.3) : SPH_R(1); }
+SPH_FN sph_real sph_cleaning_sigma(int dim)
+{
+    SPH_ASSERT(SPHI_IS_DIM(dim));
+    return dim < 3 ? SPH_R(0.3) : SPH_R(1);
+}
 /* Velocity cleaning, (29)-(39), in which psi is a pressure. The acceleration is that of
-   sph_fluid_rates_monaghan with p + psi in the place of p. Its density rate, (28), then gives
+   sph_fluid_rates_monaghan with p + psi in the place of p. Its density_rate drho/dt, (28), then gives
        dpsi/dt = ch^2 drho/dt - sigma ch psi / h.
    It conserves linear and angular momentum and, without damping and with a fixed rho, the energy sum m
    (v^2/2 + psi^2 / (2 ch^2 rho^2)). The Courant limit takes the speed sqrt(cs^2 + ch^2). */
 SPH_FN sph_real sph_cleaning_rate_velocity(sph_cleaning_wave w, sph_real psi, sph_real density_rate)
 {
+    SPH_ASSERT(SPHI_IS_WAVE(w));
     return w.ch * w.ch * density_rate - w.sigma * w.ch / w.h * psi;
 }
 
-/* B = grad alpha x grad beta, with the Euler potentials alpha and beta. In 2D alpha = A_z and beta = z:
-   B = (dA_z/dy, -dA_z/dx). With gradients by sph_gradient_cspm it is exact for linear potentials. div B is
-   0 in the continuum. The potentials move with the particles, without change: Rosswog & Price 2007, MNRAS
-   379, 915; Price 2012, JCP 231, 759.
+/* B = grad_alpha x grad_beta, with the gradients of the Euler potentials alpha and beta. In 2D alpha = A_z
+   and beta = z: B = (dA_z/dy, -dA_z/dx). With gradients by sph_gradient_cspm it is exact for linear
+   potentials. div B is 0 in the continuum. The potentials move with the particles, without change: Rosswog &
+   Price 2007, MNRAS 379, 915; Price 2012, JCP 231, 759.
    What they cannot represent: with A = alpha grad beta we have A . B = 0. A field whose lines are linked
    or knotted, so that its helicity (the integral of A . B) is not 0, therefore has no single-valued
    potentials. Potentials that do not change along the motion also exclude resistivity and reconnection.
@@ -4774,18 +4911,21 @@ typedef struct sph_switch {
 } sph_switch;
 
 /* dalpha/dt of the viscosity switch: (least - alpha) 0.1 v_sig / h + max(-div v, 0) (most - alpha). Morris
-   & Monaghan 1997, JCP 136, 41. */
+   & Monaghan 1997, JCP 136, 41. Needs least <= most and v_sig >= 0. */
 SPH_FN sph_real sph_viscosity_switch_rate(sph_switch s, sph_real v_sig, sph_real h, sph_real div_v)
 {
+    SPH_ASSERT(s.least <= s.most && v_sig >= SPH_R(0) && h > SPH_R(0));
     return (s.least - s.alpha) * SPH_R(0.1) * v_sig / h +
            SPH_R(0.5) * (SPHI_ABS(div_v) - div_v) * (s.most - s.alpha);
 }
 /* alpha_B / alpha_max = min(1, h change / B), which lets resistivity act only where the field changes
    within h. strength: B = |B|. change: |grad B|, the root of the sum of the squares of all its components
    (Tricco & Price 2013, MNRAS 436, 2810, with alpha_max = 1), or |curl B|, which leaves the divergence to
-   the cleaning. It is 0 where nothing changes, and 1 where B = 0 but change is not. */
+   the cleaning. It is 0 where nothing changes, and 1 where B = 0 but change is not. Needs change >= 0 and
+   strength >= 0. */
 SPH_FN sph_real sph_resistivity_switch(sph_real h, sph_real change, sph_real strength)
 {
+    SPH_ASSERT(h > SPH_R(0) && change >= SPH_R(0) && strength >= SPH_R(0));
     return strength > h * change ? h * change / strength : change > SPH_R(0) ? SPH_R(1) : SPH_R(0);
 }
 
@@ -4808,8 +4948,12 @@ typedef struct sph_pair_weights {
     sph_real i, j;
 } sph_pair_weights;
 
-/* 1 / (Omega rho^2), so that g is F times it. */
-SPH_FN sph_real sph_medium_weight(sph_medium_side a) { return SPH_R(1) / (a.omega * a.rho * a.rho); }
+/* 1 / (Omega rho^2), so that g is F times it. Needs rho > 0 and Omega > 0. */
+SPH_FN sph_real sph_medium_weight(sph_medium_side a)
+{
+    SPH_ASSERT(a.rho > SPH_R(0) && a.omega > SPH_R(0));
+    return SPH_R(1) / (a.omega * a.rho * a.rho);
+}
 /* The weights m_j g_i and m_j g_j; weight_i and weight_j come from sph_medium_weight. */
 SPH_FN sph_pair_weights sph_pair_weights_of(sph_real m_j, sph_pair_kernel f, sph_real weight_i,
                                             sph_real weight_j)
@@ -4838,10 +4982,15 @@ SPH_FN sph_vec sph_curl_pair_difference(sph_real weight, sph_vec a_ij, sph_vec x
     c.z = d.x * x_ij.y - d.y * x_ij.x;
     return c;
 }
-/* Makes the derivative at i of a sum of difference forms with the weights m_j F_i: -sum / (Omega_i rho_i). */
-SPH_FN sph_real sph_medium_difference(sph_medium_side i, sph_real sum) { return -sum / (i.omega * i.rho); }
+/* Makes the derivative at i of a sum of difference forms with the weights m_j F_i: -sum / (Omega_i rho_i).
+   Needs rho > 0 and Omega > 0. */
+SPH_FN sph_real sph_medium_difference(sph_medium_side i, sph_real sum)
+{
+    SPH_ASSERT(i.rho > SPH_R(0) && i.omega > SPH_R(0));
+    return -sum / (i.omega * i.rho);
+}
 
-/* What j adds to the symmetric form of the divergence: A_i . x_ij m_j g_i + A_j . x_ij m_j g_j. div A_i is
+/* What j adds to the symmetric form of the divergence: a_i . x_ij m_j g_i + a_j . x_ij m_j g_j. div a_i is
    rho_i times the sum. It is what (9) subtracts. Not 0 for constants. This form and the difference form of
    the gradient are conjugate. */
 SPH_FN sph_real sph_divergence_pair_symmetric(int dim, sph_pair_weights w, sph_vec a_i, sph_vec a_j,
@@ -4900,7 +5049,7 @@ typedef struct sph_mhd_sums {
 } sph_mhd_sums;
 
 /* The whole interaction of a pair: what j adds to i by (6), (7), (10), (23), artificial viscosity and
-   conductivity. See sph_mhd_rates. */
+   conductivity. See sph_mhd_rates. Needs rho > 0 and Omega > 0 on both sides, and dim <= parts <= 3. */
 SPH_FN sph_mhd_sums sph_mhd_pair(int dim, sph_mhd_terms terms, sph_mhd_side i, sph_mhd_side j,
                                  sph_pair_kernel f, sph_vec x_ij)
 {
@@ -4931,6 +5080,9 @@ SPH_FN sph_mhd_sums sph_mhd_pair(int dim, sph_mhd_terms terms, sph_mhd_side i, s
     const sph_vec t_i = sph_mhd_traction(i.field, i.p, Bx_i, x_ij),
                   t_j = sph_mhd_traction(j.field, j.p, Bx_j, x_ij);
     sph_mhd_sums c;
+    SPH_ASSERT(SPHI_IS_DIM(dim) && dim <= terms.parts && terms.parts <= 3 && f.r >= SPH_R(0) &&
+               i.medium.rho > SPH_R(0) && i.medium.omega > SPH_R(0) && j.medium.rho > SPH_R(0) &&
+               j.medium.omega > SPH_R(0));
     c.force.x = t_i.x * g.i + t_j.x * g.j - push * x_ij.x;
     c.force.y = t_i.y * g.i + t_j.y * g.j - push * x_ij.y;
     c.force.z = t_i.z * g.i + t_j.z * g.j - push * x_ij.z;
@@ -4952,8 +5104,8 @@ typedef struct sph_mhd_change {
     sph_vec acceleration, rate_B;
     sph_real rate_u, rate_psi, div_B, div_v;
 } sph_mhd_change;
-/* The rates of particle i from its sums. tensile: see sph_mhd. wave: with the h of the particle, which
-   must not be 0; ch = 0 without cleaning. */
+/* The rates of particle i from its sums. tensile: see sph_mhd. wave: with the h of the particle; ch = 0
+   without cleaning. Needs rho > 0 and Omega > 0, and what sph_cleaning_rate needs. */
 SPH_FN sph_mhd_change sph_mhd_value(sph_mhd_side i, sph_mhd_sums s, sph_real tensile, sph_cleaning_wave wave)
 {
     const sph_real per = SPH_R(1) / (i.medium.omega * i.medium.rho), rho = i.medium.rho;
@@ -5373,7 +5525,7 @@ SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_cloud cloud, sph_mhd s
     const int parts = sphi_components(dim, state.v), cleans = state.psi.p != 0;
     int error = sphi_check_medium(k, dim, cloud, state.medium);
     if (!error) error = sphi_check_field("p", state.p, cloud.points.n);
-    if (!error) error = sphi_check_field("cs", state.cs, cloud.points.n);
+    if (!error) error = sphi_check_not_negative("cs", state.cs, cloud.points.n);
     if (!error) error = sphi_check_vectors("v", parts, state.v, cloud.points.n);
     if (!error) error = sphi_check_vectors("field", parts, state.field, cloud.points.n);
     if (!error && !sphi_finite(state.beta)) error = sphi_refuse("state.beta", -1, SPH_ERROR_VALUE);
@@ -5408,7 +5560,8 @@ SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_cloud cloud, sph_mhd s
 /* -------- gravity: pair functions */
 
 /* The mean of (1/r) dphi/dr with h_i and with h_j, >= 0: a_i = -G sum_j m_j sph_gravity_pair x_ij. Beyond
-   both supports it is Newton's 1/r^3. Coincident particles feel no force, because x_ij = 0. */
+   both supports it is Newton's 1/r^3. Coincident particles feel no force, because x_ij = 0. Needs a kernel
+   with sph_kernel_has_gravity. */
 SPH_FN sph_real sph_gravity_pair(sph_kernel k, sph_real r, sph_real h_i, sph_real h_j)
 {
     return SPH_R(0.5) * (sph_gravity_force(k, r, h_i) + sph_gravity_force(k, r, h_j));
@@ -5421,9 +5574,10 @@ SPH_FN sph_real sph_gravity_correction_pair(sph_pair_kernel f, sph_real scaled_i
     return SPH_R(0.5) * (scaled_i * f.f_i + scaled_j * f.f_j);
 }
 /* zeta_i = dh_i/drho_i sum_j m_j dphi/dh(r, h_i) with dh/drho = -h / (3 rho): Price & Monaghan 2007, (22).
-   The sum contains the particle itself. */
+   The sum contains the particle itself. Needs rho > 0. */
 SPH_FN sph_real sph_gravity_zeta_value(sph_real h, sph_real rho, sph_real sum)
 {
+    SPH_ASSERT(h > SPH_R(0) && rho > SPH_R(0));
     return -h / (SPH_R(3) * rho) * sum;
 }
 
@@ -5637,7 +5791,7 @@ SPH_FN sph_index sph_hexatic_order(sph_cloud cloud, sph_scalar_out out)
 }
 
 /* The radial distribution function: g[b] is the number of pairs with b <= r / width < b + 1, width =
-   farthest / bins, divided by the number that is expected at the number density (particles per
+   farthest / bins, divided by the number that is expected at the number_density (particles per
    length^dim). In a large cloud it is 1 far from a particle. Full lists that hold every pair with r <
    farthest. Without targets g is not changed. Returns the number of shells that are so small or large that
    g overflows (it is 0 there), or a negative sph_error. */
@@ -5699,9 +5853,10 @@ SPH_FN sph_index sph_coincident_count(int dim, sph_cloud cloud, sph_real distanc
 }
 /* Separates targets from the sources that they coincide with, within the distance `within`: neither
    forces, nor kernels, nor collisions do so, because such a pair has no direction. A target that coincides
-   with another moves by `distance` in a direction that depends on its index only (by the golden angle, so
-   that close indices get different directions). The new positions of all targets are written; those that
-   coincide with none keep theirs. The host wraps and stores them. Returns the number of targets that
+   with another moves by `distance` in a direction that depends on its index only: in 2D and 3D by the golden
+   angle, so that close indices get different directions; in 1D to the left if its index is even, else to the
+   right, so that two of the same parity stay together. The new positions of all targets are written; those
+   that coincide with none keep theirs. The host wraps and stores them. Returns the number of targets that
    coincide, or a negative sph_error. */
 SPH_FN sph_index sph_coincident_separate(int dim, sph_cloud cloud, sph_real within, sph_real distance,
                                          sph_vector_out position)
@@ -6522,6 +6677,7 @@ SPH_FN const char *sph_finding_text(int finding)
 }
 #endif
 
+SPHI_END
 #endif /* SPH_OPS_H */
 
 /*

@@ -10,6 +10,7 @@
  * from the water in front of them (sph_wall_adami). The column is A by 2 A, as in Martin & Moyce 1952,
  * Phil. Trans. R. Soc. A 244, 312; the tank is 5 A wide. Lengths are in A, times in sqrt(A / g).
  */
+#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -165,7 +166,6 @@ static int test(void)
     if (lost) failed = printf("FAILED: %d particles are outside of the tank\n", lost);
     return failed ? 1 : puts("ok") < 0;
 }
-
 static void run(int csv)
 {
     const int terminal = !csv && isatty(1);
@@ -184,7 +184,7 @@ static int save(const char *name) /* as NAME.part, renamed when it is whole; a d
 {
     char part[4096];
     snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
-    if (!freopen(part, "w", stdout)) return perror(name), 2;
+    if (!setlocale(LC_NUMERIC, "C") || !freopen(part, "wb", stdout)) return perror(name), 2; /* no "1,5" */
     run(1);
     if (!ferror(stdout) && !fclose(stdout) && (!rename(part, name) || (!remove(name) && !rename(part, name))))
         return 0;

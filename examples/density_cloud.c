@@ -13,6 +13,7 @@
  * which the sum is taken, whose own m W(0) makes the density too large by that much. The table has it both
  * ways.
  */
+#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -176,13 +177,12 @@ static int save(const char *name) /* as NAME.part, renamed when it is whole; a d
 {
     char part[4096];
     snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
-    if (!freopen(part, "w", stdout)) return perror(name), 2;
+    if (!setlocale(LC_NUMERIC, "C") || !freopen(part, "wb", stdout)) return perror(name), 2; /* no "1,5" */
     table();
     if (!ferror(stdout) && !fclose(stdout) && (!rename(part, name) || (!remove(name) && !rename(part, name))))
         return 0;
     return perror(name), strcmp(part, name) && remove(part), 2;
 }
-
 int main(int argc, char **argv)
 {
     const int writes = argc == 3 && strcmp(argv[1], "-o") == 0, asks = argc == 2 && argv[1][0] == '-';

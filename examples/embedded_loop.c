@@ -116,6 +116,7 @@ int main(void)
     return error;
 }
 #else
+#include <locale.h>
 #include <stdio.h>
 #include <string.h>
 /* at rest: does the water lie on the floor, 8 deep, and carry its weight? */
@@ -181,13 +182,12 @@ static int save(const char *name) /* as NAME.part, renamed when it is whole; a d
 {
     char part[4096];
     snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
-    if (!freopen(part, "w", stdout)) return perror(name), 2;
+    if (!setlocale(LC_NUMERIC, "C") || !freopen(part, "wb", stdout)) return perror(name), 2; /* no "1,5" */
     const int failed = run(1, 0);
     if (!ferror(stdout) && !fclose(stdout) && (!rename(part, name) || (!remove(name) && !rename(part, name))))
         return failed;
     return perror(name), strcmp(part, name) && remove(part), 2;
 }
-
 int main(int argc, char **argv)
 {
     if (argc == 3 && strcmp(argv[1], "-o") == 0) return save(argv[2]);

@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: MIT
 # The pictures of the gallery, from the tables that the examples write with -o:
-#     gnuplot -e "dir='build/gallery/'" examples/gallery.gp          (make gallery does it all)
+#     gnuplot -c examples/gallery.gp build/gallery          (make gallery does it all)
+cd ARG1
 set datafile separator ","
 set palette defined (0 "#352a87", 0.25 "#0f7ec9", 0.5 "#1fb5a3", 0.75 "#d5ba58", 1 "#f9fb0e")
-there(name) = system(sprintf("test -r %s%s.csv && echo yes", dir, name)) eq "yes"
-csv(name) = dir.name.".csv"
+there(name) = system(sprintf("test -r %s.csv && echo yes", name)) eq "yes"
+csv(name) = name.".csv"
 set style data points
 unset key
 dots = 7
 
 if (there("hello_kernel")) {
     set terminal pngcairo size 600,360 font "sans,10"
-    set output dir."hello_kernel.png"
+    set output "hello_kernel.png"
     set key top right
     set xlabel "r / h"
     set grid linecolor rgb "#dddddd"
@@ -35,7 +36,7 @@ set border linecolor rgb "#888888"
 
 if (there("density_cloud")) {
     set terminal pngcairo size 600,440 font "sans,10"
-    set output dir."density_cloud.png"
+    set output "density_cloud.png"
     set title "density of 6000 particles drawn from a Gaussian"
     set logscale cb
     set cbrange [0.001:0.16]
@@ -49,7 +50,7 @@ if (there("density_cloud")) {
 
 if (there("gradient_correction")) {
     set terminal pngcairo size 600,330 font "sans,10"
-    set output dir."gradient_correction.png"
+    set output "gradient_correction.png"
     set multiplot layout 1,2 title "error of the gradient of sin(2 pi x) cos(pi y), per cent of its largest value"
     set xrange [0:1]
     set yrange [0:1]
@@ -67,7 +68,7 @@ if (there("gradient_correction")) {
 unset colorbox
 if (there("dam_break")) {
     set terminal pngcairo size 600,400 font "sans,10"
-    set output dir."dam_break.png"
+    set output "dam_break.png"
     set multiplot layout 2,2 title "a column of water collapses; colour: speed"
     set xrange [-0.2:5.2]
     set yrange [-0.2:3]
@@ -82,7 +83,7 @@ if (there("dam_break")) {
 
 if (there("heat_plate")) {
     set terminal pngcairo size 600,250 font "sans,10"
-    set output dir."heat_plate.png"
+    set output "heat_plate.png"
     set multiplot layout 1,3 title "temperature of a plate with a hot left edge"
     set xrange [0:1]
     set yrange [0:1]
@@ -97,7 +98,7 @@ if (there("heat_plate")) {
 
 if (there("poisson_scattered")) {
     set terminal pngcairo size 600,420 font "sans,10"
-    set output dir."poisson_scattered.png"
+    set output "poisson_scattered.png"
     set title "lap u = f on 1089 scattered points"
     set xrange [0:1]
     set yrange [0:1]
@@ -111,7 +112,7 @@ if (there("poisson_scattered")) {
 
 if (there("clean_field")) {
     set terminal pngcairo size 600,250 font "sans,10"
-    set output dir."clean_field.png"
+    set output "clean_field.png"
     set multiplot layout 1,3 title "h div B: carried away as waves, and damped"
     set xrange [0:1]
     set yrange [0:1]
@@ -127,7 +128,7 @@ if (there("clean_field")) {
 
 if (there("spread_cloud")) {
     set terminal pngcairo size 600,250 font "sans,10"
-    set output dir."spread_cloud.png"
+    set output "spread_cloud.png"
     set multiplot layout 1,3 title "clumps of four particles fly about"
     set xrange [0:1]
     set yrange [0:1]
@@ -141,7 +142,7 @@ if (there("spread_cloud")) {
 
 if (there("host_structs")) {
     set terminal pngcairo size 600,440 font "sans,10"
-    set output dir."host_structs.png"
+    set output "host_structs.png"
     set title "a hill: Laplacian of its height (colour), and where water runs"
     set xrange [0:1]
     set yrange [0:1]
@@ -153,7 +154,7 @@ if (there("host_structs")) {
 
 if (there("host_lists")) {
     set terminal pngcairo size 600,440 font "sans,10"
-    set output dir."host_lists.png"
+    set output "host_lists.png"
     set title "a hot spot bursts: pressure (colour) and acceleration"
     set xrange [0:1]
     set yrange [0:1]
@@ -167,7 +168,7 @@ unset colorbox
 set palette defined (0 "#0f7ec9", 0.5 "#1fb5a3", 1 "#d5ba58")
 if (there("drop_3d")) {
     set terminal pngcairo size 600,250 font "sans,10"
-    set output dir."drop_3d.png"
+    set output "drop_3d.png"
     set multiplot layout 1,3 title "a drop is squeezed flat: pressure on the plane y = 0, and the exact outline"
     set xrange [-1.7:1.7]
     set yrange [-1.1:1.1]
@@ -188,7 +189,7 @@ if (there("drop_3d")) {
 
 if (there("embedded_loop")) {
     set terminal pngcairo size 600,190 font "sans,10"
-    set output dir."embedded_loop.png"
+    set output "embedded_loop.png"
     set multiplot layout 1,4 title "16 x 16 lights: water runs to wherever is down; colour: pressure"
     set xrange [0:16]
     set yrange [0:16]

@@ -9,6 +9,7 @@
  * of the cloud half of them are missing, and half of the gradient with them. sph_gradient_cspm multiplies
  * by the inverse of what the sum makes of the coordinates themselves: exact for linear fields, anywhere.
  */
+#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -181,7 +182,7 @@ static int save(const char *name) /* as NAME.part, renamed when it is whole; a d
 {
     char part[4096];
     snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
-    if (!freopen(part, "w", stdout)) return perror(name), 2;
+    if (!setlocale(LC_NUMERIC, "C") || !freopen(part, "wb", stdout)) return perror(name), 2; /* no "1,5" */
     table();
     if (!ferror(stdout) && !fclose(stdout) && (!rename(part, name) || (!remove(name) && !rename(part, name))))
         return 0;

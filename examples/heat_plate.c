@@ -9,6 +9,7 @@
  * so the operator is made once, as rows of weights: each step then is one pass over them, sph_rows_apply,
  * and the longest stable step comes from the rows, too. The left edge has T = 1, the others T = 0.
  */
+#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -159,7 +160,7 @@ static int save(const char *name) /* as NAME.part, renamed when it is whole; a d
 {
     char part[4096];
     snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
-    if (!freopen(part, "w", stdout)) return perror(name), 2;
+    if (!setlocale(LC_NUMERIC, "C") || !freopen(part, "wb", stdout)) return perror(name), 2; /* no "1,5" */
     run(1);
     if (!ferror(stdout) && !fclose(stdout) && (!rename(part, name) || (!remove(name) && !rename(part, name))))
         return 0;

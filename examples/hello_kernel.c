@@ -5,8 +5,10 @@
  *     cc -O2 -I. -o hello_kernel examples/hello_kernel.c -lm
  *     ./hello_kernel -k quintic-spline
  *
- * The smallest use of the toolkit: functions of numbers, no particles yet.
+ * The smallest use of the toolkit: functions of numbers, no particles yet. -l says what each kernel makes of
+ * the density of a perfect lattice.
  */
+#include <locale.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -42,6 +44,29 @@ static void draw(sph_kernel k)
     printf("F(h) = (1/r) dW/dr = %.6f\n", sph_kernel_f(k, DIM, h, h));
 }
 
+/* The density that a kernel sums up on a lattice of spacing 1 and density 1, at the recommended h. */
+static double lattice_density(sph_kernel k, int dim)
+{
+    const double wide = sph_kernel_h_over_dx(k);
+    const int n = (int)sph_kernel_support(k, wide), ny = dim > 1 ? n : 0, nz = dim > 2 ? n : 0;
+    double rho = 0;
+    for (int z = -nz; z <= nz; z++)
+        for (int y = -ny; y <= ny; y++)
+            for (int x = -n; x <= n; x++) rho += sph_kernel_w(k, dim, sqrt(x * x + y * y + z * z), wide);
+    return rho;
+}
+
+static int lattices(void)
+{
+    puts("kernel                h/dx     1D     2D     3D");
+    for (int k = 0; k < (int)SPH_KERNEL_COUNT; k++) {
+        printf("%-20s %5.1f", sph_kernel_name((sph_kernel)k), sph_kernel_h_over_dx((sph_kernel)k));
+        for (int dim = 1; dim <= 3; dim++) printf("  %.3f", lattice_density((sph_kernel)k, dim));
+        printf("\n");
+    }
+    return 0;
+}
+
 static void table(void)
 {
     static const sph_kernel kernels[] = {SPH_CUBIC_SPLINE, SPH_QUINTIC_SPLINE, SPH_WENDLAND_C2,
@@ -58,7 +83,7 @@ static int save(const char *name) /* as NAME.part, renamed when it is whole; a d
 {
     char part[4096];
     snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
-    if (!freopen(part, "w", stdout)) return perror(name), 2;
+    if (!setlocale(LC_NUMERIC, "C") || !freopen(part, "wb", stdout)) return perror(name), 2; /* no "1,5" */
     table();
     if (!ferror(stdout) && !fclose(stdout) && (!rename(part, name) || (!remove(name) && !rename(part, name))))
         return 0;
@@ -104,8 +129,8 @@ static int usage(const char *option)
     FILE *const to = help ? stdout : stderr;
     int k;
     if (!help) fprintf(to, "hello_kernel: unknown option, or no (good) value for it: %s\n", option);
-    fprintf(to, "hello_kernel [-k KERNEL] [-o FILE.csv] [-t]   ");
-    fprintf(to, "draw a kernel, write a few for a plot, or test them all\nKERNEL:");
+    fprintf(to, "hello_kernel [-k KERNEL] [-o FILE.csv] [-l] [-t]\n");
+    fprintf(to, "draw a kernel, write a few for a plot, list the density of a lattice, or test\nKERNEL:");
     for (k = 0; k < (int)SPH_KERNEL_COUNT; k++)
         fprintf(to, "%s %s", k % 5 ? "" : "\n   ", sph_kernel_name((sph_kernel)k));
     fprintf(to, "\n");
@@ -117,6 +142,7 @@ int main(int argc, char **argv)
     int k = (int)SPH_WENDLAND_C2, i;
     for (i = 1; i < argc; i++) {
         if (strcmp(argv[i], "-t") == 0) return test();
+        if (strcmp(argv[i], "-l") == 0) return lattices();
         if (strcmp(argv[i], "-o") == 0 && i + 1 < argc) return save(argv[i + 1]);
         if (strcmp(argv[i], "-k") != 0 || ++i == argc) return usage(argv[i < argc ? i : argc - 1]);
         k = sph_kernel_from_name(argv[i]);

@@ -12,6 +12,7 @@
  *      into rows by counting, adding up and filling.
  * Both give the same accelerations: those of a gas with a hot spot, which bursts.
  */
+#include <locale.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -65,7 +66,6 @@ static void find_pairs(void)
 }
 
 /* -------- 1. the host's loop, the toolkit's formulas: each pair once, for both of its particles */
-
 static void by_pairs(void)
 {
     const sph_viscosity_terms viscosity = {.alpha = 1, .beta = 2, .eta = 0.1};
@@ -180,7 +180,7 @@ static int save(const char *name) /* as NAME.part, renamed when it is whole; a d
 {
     char part[4096];
     snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
-    if (!freopen(part, "w", stdout)) return perror(name), 2;
+    if (!setlocale(LC_NUMERIC, "C") || !freopen(part, "wb", stdout)) return perror(name), 2; /* no "1,5" */
     table();
     if (!ferror(stdout) && !fclose(stdout) && (!rename(part, name) || (!remove(name) && !rename(part, name))))
         return 0;

@@ -11,6 +11,7 @@
  * exactly; with a restitution of 1 energy, too. Here clumps of four fly about in a periodic box, with
  * collisions and, to compare, without.
  */
+#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -182,13 +183,12 @@ static int save(const char *name) /* as NAME.part, renamed when it is whole; a d
 {
     char part[4096];
     snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
-    if (!freopen(part, "w", stdout)) return perror(name), 2;
+    if (!setlocale(LC_NUMERIC, "C") || !freopen(part, "wb", stdout)) return perror(name), 2; /* no "1,5" */
     table();
     if (!ferror(stdout) && !fclose(stdout) && (!rename(part, name) || (!remove(name) && !rename(part, name))))
         return 0;
     return perror(name), strcmp(part, name) && remove(part), 2;
 }
-
 int main(int argc, char **argv)
 {
     if (argc == 3 && strcmp(argv[1], "-o") == 0) return save(argv[2]);

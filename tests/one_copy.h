@@ -6,6 +6,11 @@
 #if !defined(SPH_FN) && (defined(__GNUC__) || defined(__clang__))
 #define SPH_FN static __attribute__((noinline, unused))
 #endif
+/* and what the sweeps pass to the pair functions is what those need */
+#ifndef SPH_ASSERT
+#include <assert.h>
+#define SPH_ASSERT(x) assert(x)
+#endif
 #if defined(__clang__)
 #pragma clang diagnostic ignored "-Wpass-failed" /* loops over a run-time kernel do not vectorise */
 #endif

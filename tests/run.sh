@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Runs test programs and scripts, each of which prints 'name: N passed, N failed', and prints the sum as its last line. One that ends with an error without
-# having counted a failure (a crash, a missing program) counts as one.
+# having counted a failure (a crash, a missing program) counts as one, and so does one that checked nothing without a reason, and a reason to skip that is not so (skips.sh).
 #     tests/run.sh PROGRAM_OR_SCRIPT ...          from the root of the repository; JOBS=2: two at a time
 BUILD=${BUILD:-build}
 export BUILD
@@ -25,12 +25,16 @@ for t in "$@"; do
     counts=$(printf '%s\n' "$output" | sed -n 's/^.*: \([0-9][0-9]*\) passed, \([0-9][0-9]*\) failed$/\1 \2/p' | awk '{ p += $1; f += $2 } END { print p + 0, f + 0 }')
     passed=$((passed + ${counts% *}))
     failed=$((failed + ${counts#* }))
+    if ! untrue=$(printf '%s\n' "$output" | sh tests/skips.sh); then
+        printf '%s: skipped what is installed: %s\n' "$t" "$untrue"
+        failed=$((failed + 1))
+    fi
     if [ $status -ne 0 ] && [ "${counts#* }" -eq 0 ]; then
         echo "$t: ended with status $status"
         failed=$((failed + 1))
     elif [ "$counts" = "0 0" ]; then
         case $output in
-        *skipped*) ;;
+        *"skipped: "*": "*) ;;
         *)
             echo "$t: checked nothing"
             failed=$((failed + 1))

@@ -8,9 +8,8 @@ most=7 median=5 run=3
 
 # name, number of arguments, longest run, 1 if it takes a cloud
 signatures() {
-    cat sph_kernels.h sph_ops.h sph.h | tr '\n' ' ' | sed 's,/\*,\n&,g; s,\*/,&\n,g' | grep -v '^/\*' | tr '\n' ' ' |
-        sed 's/SPH_FN /\n/g' | sed -n 's/^\([^(){};]*[ *]\)\(sph_[a-z0-9_]*\)(\([^(){};]*\)) *{.*/\2|\3/p' | awk -F '|' '{
-            n = $2 ~ /^ *(void)? *$/ ? 0 : split($2, a, ","); same = longest = cloud = 0; last = ""
+    sh tests/prototypes.sh | awk -F '|' '{
+            n = $3 ~ /^ *(void)? *$/ ? 0 : split($3, a, ","); same = longest = cloud = 0; last = ""
             for (i = 1; i <= n; i++) {
                 type = a[i]; sub(/[a-zA-Z0-9_]+ *$/, "", type); gsub(/SPH_GLOBAL|SPH_RESTRICT|const| /, "", type)
                 if (type == "sph_cloud") cloud = 1
@@ -18,7 +17,7 @@ signatures() {
                 if (same > longest) longest = same
                 last = type
             }
-            print $1, n, longest, cloud
+            print $2, n, longest, cloud
         }'
 }
 signatures > "$scratch/signatures"

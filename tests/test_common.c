@@ -214,6 +214,61 @@ static void test_statistics(void)
     CHECK(isnan(statistics_slope(x, y, 1)));
 }
 
+/* ---- number.h ---------------------------------------------------------- */
+
+static void check_number(const char *text, double value, int length)
+{
+    const char *end;
+    const double found = number_of(text, &end);
+    CHECK(end == text + length);
+    CHECK(length == 0 || found == value);
+}
+
+/* In the locale that is set. */
+static void check_numbers(void)
+{
+    static const char *const text[] = {"0", "-0.5", "1e+300", "1.5", "0.333333333", "-1.25e-07", "12345.678"};
+    static const double value[] = {0, -0.5, 1e300, 1.5, 1.0 / 3, -1.25e-7, 12345.678};
+    char buffer[NUMBER_TEXT], longest[NUMBER_LONGEST + 1];
+    for (int k = 0; k < 7; ++k) {
+        CHECK(strcmp(number_text(buffer, 9, value[k]), text[k]) == 0);
+        check_number(number_text(buffer, 17, value[k]), value[k], (int)strlen(number_text(buffer, 17, value[k])));
+    }
+    CHECK(strcmp(number_text(buffer, 9, HUGE_VAL), "inf") == 0);
+    check_number("1.5mm", 1.5, 3);
+    check_number("1,5", 1, 1);
+    check_number(".5", 0.5, 2);
+    check_number("5.", 5, 2);
+    check_number("+2.5E+1-1", 25, 7);
+    check_number("1.5.5", 1.5, 3);
+    check_number("1.5e", 1.5, 3);
+    check_number("1.e", 1, 2);
+    check_number("0x10", 0, 1);
+    static const char *const none[] = {"", " 1", "nan", "inf", "x", ".", "-", "e5", "+.e1"};
+    for (int k = 0; k < 9; ++k)
+        check_number(none[k], 0, 0);
+    memset(longest, '0', sizeof longest);
+    memcpy(longest, "1.5", 3);
+    longest[NUMBER_LONGEST - 1] = '\0';
+    check_number(longest, 1.5, NUMBER_LONGEST - 1);
+    longest[NUMBER_LONGEST - 1] = '0';
+    longest[NUMBER_LONGEST] = '\0';
+    check_number(longest, 0, 0);
+}
+
+static void test_numbers(void)
+{
+    static const char *const comma[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE", "de-DE"};
+    char before[256];
+    int k = 0;
+    snprintf(before, sizeof before, "%s", setlocale(LC_ALL, NULL));
+    check_numbers();
+    while (k < 5 && (!setlocale(LC_ALL, comma[k]) || strcmp(localeconv()->decimal_point, ",") != 0))
+        ++k;
+    if (k < 5) check_numbers(); /* tests/files.sh makes such a locale where none is installed */
+    CHECK(setlocale(LC_ALL, before) != NULL);
+}
+
 /* ---- options.h --------------------------------------------------------- */
 
 static void test_options(void)
@@ -228,10 +283,10 @@ static void test_options(void)
     };
     static const char *const bad_int[] = {"", "x", "7x", "7.0", "1e1", "0", "101",
                                           "99999999999999999999", "nan"};
-    static const char *const bad_real[] = {"", "x", "1.5mm", "-0.1", "2.1", "nan", "inf", "1e999"};
+    static const char *const bad_real[] = {"", "x", "1.5mm", "-0.1", "2.1", "nan", "inf", "1e999", "1,5"};
     for (int k = 0; k < 9; ++k)
         CHECK(!option_set(&specs[0], bad_int[k]) && n == 5);
-    for (int k = 0; k < 8; ++k)
+    for (int k = 0; k < 9; ++k)
         CHECK(!option_set(&specs[2], bad_real[k]) && h == 0.5);
     CHECK(!option_set(&specs[1], "2147483648"));
     CHECK(option_set(&specs[1], "-2147483647") && any == -2147483647);
@@ -395,6 +450,13 @@ static void test_series(const char *dir)
         remove(path);
     }
     snprintf(path, sizeof path, "%s/test_series.pvd", dir);
+    FILE *const other = fopen(path, "wb"); /* another program's line ends, and a time that is none */
+    CHECK(other && fputs("<DataSet timestep=\"0.5\" file=\"a\"/>\r\n<DataSet timestep=\"\" file=\"b\"/>\r\n", other) >= 0 &&
+          fclose(other) == 0);
+    vtk_series_begin(&s, dir, "test_series");
+    vtk_series_resume(&s, 8);
+    CHECK(s.count == 1 && s.time[0] == 0.5);
+    vtk_series_end(&s);
     CHECK(remove(path) == 0);
     vtk_series_begin(&s, dir, "test_series");
     vtk_series_resume(&s, 8);
@@ -430,14 +492,16 @@ static void test_progress(void)
 
 int main(int argc, char **argv)
 {
+    const char *dir = argc > 1 ? argv[1] : getenv("BUILD"); /* where files are written */
     test_random();
     test_banded_solutions();
     test_banded_refusals();
     test_statistics();
-    test_options();
-    test_report(argc > 1 ? argv[1] : ".");
-    test_series(argc > 1 ? argv[1] : ".");
+    test_numbers();
+    test_report(dir ? dir : ".");
+    test_series(dir ? dir : ".");
     test_malformed();
     test_progress();
+    test_options(); /* last: from here on the locale of numbers is "C" */
     return check_report("test_common");
 }

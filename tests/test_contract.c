@@ -14,6 +14,9 @@
 #if defined(__unix__) || defined(__APPLE__)
 #define _POSIX_C_SOURCE 200809L /* alarm */
 #endif
+/* what no input may bring a sweep to: to ask a pair function for what it cannot answer (but for overlaps) */
+static const char *asserted;
+#define SPH_ASSERT(x) ((x) ? (void)0 : (void)(asserted = #x))
 #include "one_copy.h"
 #include "refusal.h"
 #include "../sph.h"
@@ -376,8 +379,8 @@ CALL(fluid_rates_monaghan, RANGE, fluid_of(w), fluid_out_of(w))
 CALL(fluid_rates_colagrossi, RANGE, fluid_of(w), fluid_out_of(w))
 CALL(fluid_rates_hu_adams, RANGE, fluid_of(w), fluid_out_of(w))
 CALL(density_number, RANGE, A(M), scalar_out_of(w))
-CALL(viscosity_mu_morris, RANGE, fluid_of(w), A(U), vector_out_of(w, O0))
-CALL(viscosity_mu_monaghan_cleary, RANGE, fluid_of(w), A(U), vector_out_of(w, O0))
+CALL(viscosity_mu_morris, RANGE, fluid_of(w), A(MX), vector_out_of(w, O0))
+CALL(viscosity_mu_monaghan_cleary, RANGE, fluid_of(w), A(MX), vector_out_of(w, O0))
 CALL(velocity_xsph, RANGE, fluid_of(w), X(PARAMETER_C), vector_out_of(w, O0))
 CALL(collision_count, LIST, collision_of(w), vectors_of(w, VX), I(I0))
 CALL(collision_change_weighted, LIST, collision_of(w), vectors_of(w, VX), I(COUNT), vector_out_of(w, O0))
@@ -534,7 +537,7 @@ typedef struct function {
 /* arrays by what they hold */
 #define WEIGHTS (BIT(V) | BIT(M)) /* of any sign unless HEAVY */
 #define MUST_BE_POSITIVE (BIT(RHO) | BIT(OMEGA))
-#define NOT_BELOW_0 (BIT(INVERSE_M) | XYZ(MX))
+#define NOT_BELOW_0 (BIT(INVERSE_M) | BIT(C) | XYZ(MX))
 #define NEED_NOT_BE_0 (BIT(GUESS) | BIT(S1) | BIT(S2)) /* where there is no answer: h, conditioning, factor */
 
 /* clang-format off */
@@ -594,8 +597,8 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(fluid_rates_colagrossi, SMOOTHED | HEAVY | PARTS, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1) | BIT(STATUS), VISCOUS),
     FUNCTION(fluid_rates_hu_adams, SMOOTHED | HEAVY | PARTS, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1) | BIT(STATUS), VISCOUS),
     FUNCTION(density_number, SMOOTHED, ALL, MASSES, 0, BIT(S0), BIT(STATUS), 0),
-    FUNCTION(viscosity_mu_morris, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(U) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
-    FUNCTION(viscosity_mu_monaghan_cleary, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(U) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
+    FUNCTION(viscosity_mu_morris, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(MX) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
+    FUNCTION(viscosity_mu_monaghan_cleary, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(MX) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
     FUNCTION(velocity_xsph, SMOOTHED, ALL, MASSES | BIT(RHO) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
     FUNCTION(wall_adami, SMOOTHED | KEEPS, ALL, MASSES | BIT(U) | BIT(P) | XYZ(VX) | XYZ(BX), BIT(MX), BIT(S0) | XYZ(O0), BIT(STATUS), N(GRAVITY)),
     FUNCTION(collision_sequential, LISTED | OPAQUE | TOTALS, ALL, COLLIDERS, 0, XYZ(VX), BIT(REPORT),
@@ -1052,7 +1055,7 @@ static const char *argument_of(const function *f, int a)
                  {"sph_mhd", BIT(F), "psi"},
                  {"sph_mhd", BIT(C), "cs"},
                  {"sph_mhd", BIT(U), "u"},
-                 {"sph_viscosity", BIT(U), "mu"},
+                 {"sph_viscosity", BIT(MX), "mu"},
                  {"sph_gravity", BIT(F), "zeta"},
                  {"sph_", BIT(PX) | BIT(QX), "x"},
                  {"sph_", BIT(PY) | BIT(QY), "y"},
@@ -1337,8 +1340,21 @@ static const struct {
 } errors[] = {{"NULL", SPH_ERROR_NULL},    {"DIM", SPH_ERROR_DIM},   {"KERNEL", SPH_ERROR_KERNEL},     {"COUNT", SPH_ERROR_COUNT},
               {"RANGE", SPH_ERROR_RANGE},  {"H", SPH_ERROR_H},       {"POSITION", SPH_ERROR_POSITION}, {"VALUE", SPH_ERROR_VALUE},
               {"LIST", SPH_ERROR_LIST},    {"SELF", SPH_ERROR_SELF}, {"CAPACITY", SPH_ERROR_CAPACITY}, {"BOX", SPH_ERROR_BOX},
-              {"RADIUS", SPH_ERROR_RADIUS}};
+              {"RADIUS", SPH_ERROR_RADIUS}, {"PAIRS", SPH_ERROR_PAIRS}};
 enum { ERRORS = sizeof errors / sizeof *errors };
+
+static const struct {
+    const char *name;
+    int answer;
+} states[] = {{"ok", SPH_OK},
+              {"TOO_FEW", SPH_TOO_FEW},
+              {"SINGULAR", SPH_SINGULAR},
+              {"ILL_CONDITIONED", SPH_ILL_CONDITIONED},
+              {"FELL_BACK", SPH_FELL_BACK},
+              {"NOT_AVAILABLE", SPH_NOT_AVAILABLE},
+              {"NOT_FINITE", SPH_NOT_FINITE},
+              {"LIST_TOO_SHORT", SPH_LIST_TOO_SHORT}};
+enum { STATES = sizeof states / sizeof *states };
 
 static const char *now_function = "", *now_column = "", *now_answer = "";
 static int now_dim;
@@ -1472,12 +1488,39 @@ static const char *judge_totals(const function *f, const world *w, sph_index ans
     return 0;
 }
 
+/* What was answered, and why: an error and the argument that was refused (or the function, where the room was too
+   small), or the status of a target and the function. */
+enum { FACTS = 1024 };
+static struct {
+    int code, explained;
+    char about[64];
+} facts[FACTS];
+static int facts_known;
+static void fact_add(int code, const char *about)
+{
+    int i;
+    for (i = 0; i < facts_known; i++)
+        if (facts[i].code == code && strcmp(facts[i].about, about) == 0) return;
+    if (!check_count(facts_known < FACTS)) return;
+    facts[facts_known].code = code;
+    snprintf(facts[facts_known++].about, sizeof facts->about, "%s", about);
+}
+static void facts_of_targets(const function *f, const world *w)
+{
+    const unsigned char *const status = (const unsigned char *)w->a[STATUS];
+    sph_index i;
+    if (!status || !((f->writes | f->may_write) & BIT(STATUS)) || f->has & COUNTS) return;
+    for (i = w->first; i < w->last; i++) fact_add(status[i], f->name);
+}
+
 /* Once for each call that is refused, with its error, and never for another. That there is too little room is no
    refusal, but an answer. Of functions of sph.h only how often and with which error. */
 static const char *judge_refusal(const function *f, sph_index answer)
 {
     const int room = answer == SPH_ERROR_CAPACITY || answer == SPH_ERROR_PAIRS;
     const int fails = answer < 0 && !room && !(f->has & SIZE);
+    if (refusal.count) fact_add(refusal.error, refusal.argument);
+    else if (room) fact_add((int)answer, f->name);
     if (!fails) return refusal.count == 0 ? 0 : "SPH_REFUSED in a call that is not refused";
     if (refusal.count == 0) return "SPH_REFUSED is not called";
     if (refusal.count > 1) return "SPH_REFUSED is called more than once";
@@ -1592,15 +1635,18 @@ static int run_cell(const function *f, const struct column *c, const char *expec
             memcpy(here->before, here->live, here->total);
             memcpy(here->spoiled, here->live, here->total);
             refusal.count = 0;
+            asserted = 0;
             ground_guards(here, 1);
             answer = f->call(&w);
             ground_guards(here, 0);
+            if (!check_count(!asserted || c->spoil == spoil_alias)) complain(asserted, (long)answer);
             wrong = judge(f, &w, expected, answer);
             if (!check_count(!wrong)) complain(wrong, (long)answer);
             wrong = judge_totals(f, &w, answer);
             if (!check_count(!wrong)) complain(wrong, (long)answer);
             wrong = judge_refusal(f, answer);
             if (!check_count(!wrong)) complain_refusal(wrong, (long)answer);
+            if (answer >= 0) facts_of_targets(f, &w);
             wrong = judge_marked(f, &w, answer);
             if (!check_count(!wrong)) complain(wrong, (long)answer);
             if (c->spoil != spoil_nothing) continue;
@@ -1639,6 +1685,51 @@ static int split(char *line, char *cell[CELLS])
         *next = '\0';
     }
     return n;
+}
+/* A row of the causes: what it says stands in the text of its error or status, and some facts are explained. */
+static void test_cause(char *cell[CELLS], int n)
+{
+    char *about, *next;
+    int i, code = -1000, used = 0;
+    if (n != 4) {
+        problem("a cause with missing cells", cell[0]);
+        return;
+    }
+    for (i = 0; i < ERRORS; i++)
+        if (strcmp(errors[i].name, cell[0]) == 0) code = errors[i].answer;
+    for (i = 0; i < STATES; i++)
+        if (strcmp(states[i].name, cell[0]) == 0) code = states[i].answer;
+    if (!strstr(sph_status_text(code), cell[1])) problem("words that are not in the text of the code", cell[1]);
+    for (about = cell[2]; about && *about; about = next) {
+        next = strstr(about, "; ");
+        if (next) *next = '\0', next += 2;
+        for (i = 0; i < facts_known; i++)
+            if (facts[i].code == code && (about[strlen(about) - 1] == '*'
+                                              ? strncmp(facts[i].about, about, strlen(about) - 1) == 0
+                                              : strcmp(facts[i].about, about) == 0))
+                facts[i].explained = used = 1;
+    }
+    if (SPH_CHECK && !used && strncmp(cell[3], "elsewhere", 9) != 0) problem("a cause that was never met", cell[1]);
+}
+static void test_causes(const char *path)
+{
+    FILE *const file = fopen(path, "r");
+    char line[LINE], *cell[CELLS];
+    int i, causes = 0;
+    while (file && fgets(line, sizeof line, file)) {
+        if (line[0] != '|' || line[2] == '-') {
+            if (line[0] != '|') causes = 0;
+            continue;
+        }
+        i = split(line, cell);
+        if (causes) test_cause(cell, i);
+        else causes = strcmp(cell[0], "code") == 0;
+    }
+    if (file) fclose(file);
+    for (i = 0; i < facts_known; i++)
+        if (!check_count(facts[i].explained))
+            fprintf(stderr, "test_contract.c: failed: no cause of %d (%s): %s\n", facts[i].code,
+                    sph_status_text(facts[i].code), facts[i].about);
 }
 static int column_of(const char *name)
 {
@@ -1748,6 +1839,7 @@ int main(void)
     test_complete("sph_ops.h");
     test_complete("sph.h");
     test_tables("tests/CONTRACT.md");
+    test_causes("tests/CONTRACT.md");
     for (dim = 1; dim <= 3; dim++) ground_free(&grounds[dim]);
     return check_report(SPH_CHECK ? "test_contract" : "test_contract_unchecked");
 }

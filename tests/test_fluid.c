@@ -402,7 +402,7 @@ static void test_xsph(void)
     const sph_fluid s = fluid(&f, SPH_VISCOSITY_NONE, 0.0, 0.0);
     sph_conserved q;
     sph_index i;
-    double drop = 0.0, size = 0.0;
+    double drop = 0.0, size = 0.0, turned = 0.0;
     int k;
     CHECK(sph_velocity_xsph(KERNEL, 2, cloud_view(&f.c), s, SPH_R(0.5), flow_a(&f)) == 0);
     q = conserved(&f, f.a);
@@ -414,6 +414,10 @@ static void test_xsph(void)
     CHECK_CLOSE((double)q.momentum.x, 0.0, 50.0 * EPSILON * size);
     CHECK_CLOSE((double)q.momentum.y, 0.0, 50.0 * EPSILON * size);
     CHECK(drop < -0.1 * size * 0.1);
+    /* moved by v + a, with v as it was: d/dt sum m x cross v = sum m (v + a) cross v; but not if v becomes v + a */
+    for (i = 0; i < f.c.n; i++) turned += (double)f.m[i] * ((double)f.a[0][i] * (double)f.v[1][i] - (double)f.a[1][i] * (double)f.v[0][i]);
+    CHECK_CLOSE(turned, 0.0, 50.0 * EPSILON * size);
+    CHECK(fabs((double)q.angular_momentum.z) > 1e-4 * size);
     for (i = 0; i < f.c.n; i++) { /* one by one: dv_i = -epsilon sum m_j v_ij W / (mean density) */
         double by_hand[2] = {0.0, 0.0};
         sph_index p;
@@ -658,8 +662,9 @@ static void test_hexatic_and_separation(void)
 static void test_coincident(void)
 {
     flow f = flow_of(cloud_lattice(2, 9, 1.4, 0.2, 2), 4);
+    const sph_real one = SPH_R(1);
     sph_index i;
-    int viscosity;
+    int viscosity, form;
     f.c.x[30] = f.c.x[31];
     f.c.y[30] = f.c.y[31];
     cloud_neighbors(&f.c, 2.05 * (double)f.c.h);
@@ -671,6 +676,183 @@ static void test_coincident(void)
                          sphi_finite(f.heating[i]));
     }
     flow_free(&f);
+    f = flow_of(cloud_new(1, 2), 4); /* too near for a direction: no physical viscosity either, not even without softening */
+    f.c.h = one;
+    f.c.index = (sph_index *)cloud_memory(2, sizeof *f.c.index);
+    for (i = 0; i < 2; i++) {
+        f.c.x[i] = SPH_R(i * 1e-13);
+        f.m[i] = f.rho[i] = one;
+        f.v[0][i] = SPH_R(i);
+        f.c.start[i + 1] = i + 1;
+        f.c.index[i] = 1 - i;
+    }
+    for (form = 0; form < 2; form++) {
+        sph_fluid s = fluid(&f, SPH_VISCOSITY_NONE, 0.0, 0.0);
+        s.eta = SPH_R(-1);
+        CHECK((form ? sph_viscosity_mu_monaghan_cleary(KERNEL, 1, flow_cloud(&f, cloud_h(&f.c)), s, sph_scalars_same(&one), flow_a(&f))
+                    : sph_viscosity_mu_morris(KERNEL, 1, flow_cloud(&f, cloud_h(&f.c)), s, sph_scalars_same(&one), flow_a(&f))) == 0);
+        for (i = 0; i < 2; i++) CHECK_NEAR(check_words("physical viscosity of a coincident pair, form %d", form), i, f.a[0][i], 0.0, 0.0);
+    }
+    flow_free(&f);
+}
+
+/* ---- physical viscosity of a shear wave: the table of examples/OPERATORS.md, row by row ---- */
+
+/* SIDE x SIDE particles in a periodic box, dx^2 the area of each. On the hexagonal lattice rows are nearer. */
+enum { SIDE = 40 };
+static flow periodic_lattice(int hexagonal, double h_over_dx, double jitter, sph_kernel k, double box[2])
+{
+    flow f = flow_of(cloud_new(2, SIDE * SIDE), 1);
+    const double dx = 0.1, sx = dx * (hexagonal ? sqrt(2.0 / sqrt(3.0)) : 1.0), sy = dx * dx / sx;
+    pcg32 g;
+    sph_points x;
+    sph_grid grid;
+    sph_real reach;
+    const size_t size = sph_grid_workspace(2, f.c.n);
+    void *const work = cloud_memory(size, 1);
+    sph_index i;
+    pcg32_seed(&g, 8, 5);
+    for (i = 0; i < f.c.n; i++) {
+        const int row = i / SIDE;
+        f.c.x[i] = SPH_R(sx * (i % SIDE + (hexagonal ? 0.5 * (row % 2) : 0.0)) + jitter * dx * cloud_symmetric(&g));
+        f.c.y[i] = SPH_R(sy * row + jitter * dx * cloud_symmetric(&g));
+        f.m[i] = SPH_R(dx * dx);
+        f.rho[i] = SPH_R(1);
+    }
+    box[0] = SIDE * sx;
+    box[1] = SIDE * sy;
+    f.c.h = SPH_R(h_over_dx * dx);
+    reach = sph_kernel_support(k, f.c.h);
+    x = sph_points_periodic(cloud_points(&f.c), SPH_R(box[0]), SPH_R(box[1]), SPH_R(0));
+    CHECK(sph_grid_build(2, x, reach, work, size, &grid) == 0);
+    CHECK(sph_grid_count(2, &grid, sph_query_of(x, SPH_GATHER, sph_scalars_same(&reach), 0), f.c.start, &f.c.pairs) == 0);
+    f.c.index = (sph_index *)cloud_memory((size_t)f.c.pairs, sizeof *f.c.index);
+    CHECK(sph_grid_lists(2, &grid, sph_query_of(x, SPH_GATHER, sph_scalars_same(&reach), 0), f.c.start, f.c.index, f.c.pairs, &f.c.pairs) == 0);
+    free(work);
+    return f;
+}
+/* The viscosity that damps the wave v = t sin(k . x), over the given one. t is at right angles to k, which goes once
+   around the box along x, or along both axes. */
+static double shear_viscosity(const flow *f, sph_kernel kernel, const double box[2], int form, int diagonal)
+{
+    const double kx = 2.0 * PI / box[0], ky = diagonal ? 2.0 * PI / box[1] : 0.0, k = hypot(kx, ky);
+    const sph_real mu = SPH_R(1);
+    const sph_cloud all = sph_cloud_of(sph_points_periodic(cloud_points(&f->c), SPH_R(box[0]), SPH_R(box[1]), SPH_R(0)),
+                                       cloud_list(&f->c), cloud_h(&f->c), sph_scalars_none());
+    const sph_fluid s = fluid(f, SPH_VISCOSITY_NONE, 0.0, 0.0);
+    double loss = 0.0, size = 0.0;
+    sph_index i;
+    for (i = 0; i < f->c.n; i++) {
+        const double wave = sin(kx * (double)f->c.x[i] + ky * (double)f->c.y[i]);
+        f->v[0][i] = SPH_R(-ky / k * wave);
+        f->v[1][i] = SPH_R(kx / k * wave);
+    }
+    CHECK((form ? sph_viscosity_mu_monaghan_cleary(kernel, 2, all, s, sph_scalars_same(&mu), flow_a(f))
+                : sph_viscosity_mu_morris(kernel, 2, all, s, sph_scalars_same(&mu), flow_a(f))) == 0);
+    for (i = 0; i < f->c.n; i++) {
+        loss -= (double)f->a[0][i] * (double)f->v[0][i] + (double)f->a[1][i] * (double)f->v[1][i];
+        size += (double)f->v[0][i] * (double)f->v[0][i] + (double)f->v[1][i] * (double)f->v[1][i];
+    }
+    return loss / (size * k * k);
+}
+static void test_shear_waves(void)
+{
+    FILE *page = fopen("examples/OPERATORS.md", "r");
+    char line[400], kernel[40], lattice[40];
+    double jitter, h_over_dx, printed[4];
+    int rows = 0;
+    CHECK(page != 0);
+    while (page && fgets(line, sizeof line, page)) {
+        sph_kernel k;
+        double box[2];
+        flow f;
+        int c;
+        if (sscanf(line, "| %39[a-z0-9-] | %39[a-z] | %lf | %lf | %lf | %lf | %lf | %lf |", kernel, lattice, &jitter,
+                   &h_over_dx, &printed[0], &printed[1], &printed[2], &printed[3]) != 8)
+            continue;
+        rows++;
+        k = (sph_kernel)sph_kernel_from_name(kernel);
+        f = periodic_lattice(strcmp(lattice, "hexagonal") == 0, h_over_dx, jitter, k, box);
+        for (c = 0; c < 4; c++)
+            CHECK_CLOSE(shear_viscosity(&f, k, box, c / 2, c % 2), printed[c], BY_PRECISION(0.00501, 0.0055));
+        flow_free(&f);
+    }
+    if (page) fclose(page);
+    CHECK(rows >= 12);
+    page = fopen("sph_ops.h", "r"); /* what the header says of the cubic spline at its own h */
+    while (page && fgets(line, sizeof line, page))
+        if (sscanf(line, " %lf mu along an axis and %lf mu along the diagonal", &printed[0], &printed[1]) == 2) {
+            double box[2];
+            flow f = periodic_lattice(0, (double)sph_kernel_h_over_dx(SPH_CUBIC_SPLINE), 0.0, SPH_CUBIC_SPLINE, box);
+            int c;
+            for (c = 0; c < 2; c++)
+                CHECK_CLOSE(shear_viscosity(&f, SPH_CUBIC_SPLINE, box, 1, c), printed[c], BY_PRECISION(0.00501, 0.0055));
+            flow_free(&f);
+            rows = -1;
+        }
+    if (page) fclose(page);
+    CHECK(rows == -1);
+}
+
+/* ---- the order of a step: the density by the new velocities. A column of water at rest on a wall: its largest speed
+   in the second half of the run, over sqrt(g height). ---- */
+
+static double column_speed(int by_new_velocities)
+{
+    enum { WATER = 20, WALL = 2, ALL = WATER + WALL };
+    const double dx = 1.0 / WATER, dt = 0.25 * 1.3 * dx / 20.0;
+    const sph_tait state = {.rho0 = SPH_R(1), .c = SPH_R(20), .gamma = SPH_R(7)};
+    const sph_real zero = SPH_R(0), one = SPH_R(1), c = state.c;
+    flow f = flow_of(cloud_new(1, ALL), 1);
+    sph_real share[ALL], p[ALL], v[ALL];
+    double fastest = 0.0;
+    sph_index i, pairs = 0, j;
+    int step;
+    f.c.h = SPH_R(1.3 * dx);
+    f.c.index = (sph_index *)cloud_memory(ALL * (ALL - 1), sizeof *f.c.index);
+    for (i = 0; i < ALL; i++) { /* the water from below, then the wall; everyone is in the list of everyone */
+        f.c.x[i] = SPH_R(dx * (i < WATER ? i + 0.5 : WATER - i - 0.5));
+        f.v[0][i] = SPH_R(0);
+        share[i] = SPH_R(i < WATER);
+        f.p[i] = SPH_R(i < WATER ? 1.0 - (double)f.c.x[i] : 0.0);
+        f.rho[i] = sph_density_tait(f.p[i], state);
+        f.m[i] = SPH_R(dx);
+        for (j = 0; j < ALL; j++)
+            if (j != i) f.c.index[pairs++] = j;
+        f.c.start[i + 1] = pairs;
+    }
+    for (step = 0; step < 4000; step++) { /* to t = 3.25 sqrt(height / g) */
+        const sph_cloud all = flow_cloud(&f, cloud_h(&f.c));
+        const sph_medium g = {sph_scalars_array(f.m), sph_scalars_array(f.rho), sph_scalars_same(&one)};
+        const sph_vectors none = sph_vectors_separate(0, 0, 0);
+        sph_fluid s = fluid(&f, SPH_VISCOSITY_MONAGHAN, 0.05, 0.0);
+        sph_wall wall = {sph_scalars_array(share), s.rho, s.p, s.v, {sph_scalars_same(&zero), none.y, none.z}, none, {SPH_R(-1), 0, 0}};
+        const sph_wall_out out = {.p = p, .v = sph_vector_out_separate(v, 0, 0)};
+        s.c = sph_scalars_same(&c);
+        if (step == 2000) fastest = 0.0;
+        CHECK(sph_wall_adami(KERNEL, 1, sph_cloud_range(all, WATER, ALL), wall, out) == 0);
+        for (i = WATER; i < ALL; i++) f.rho[i] = sph_density_tait(f.p[i] = p[i], state);
+        if (!by_new_velocities)
+            CHECK(sph_divergence_difference(KERNEL, 1, sph_cloud_range(all, 0, WATER), g, s.v, sph_scalar_out_array(f.rate, 0)) == 0);
+        CHECK(sph_fluid_rates_monaghan(KERNEL, 1, sph_cloud_range(all, 0, WATER), s, (sph_fluid_out){.acceleration = flow_a(&f)}) == 0);
+        for (i = 0; i < WATER; i++) f.v[0][i] += SPH_R(dt * ((double)f.a[0][i] - 1.0));
+        if (by_new_velocities)
+            CHECK(sph_divergence_difference(KERNEL, 1, sph_cloud_range(all, 0, WATER), g, s.v, sph_scalar_out_array(f.rate, 0)) == 0);
+        for (i = 0; i < WATER; i++) {
+            f.c.x[i] += SPH_R(dt) * f.v[0][i];
+            f.rho[i] -= SPH_R(dt) * f.rho[i] * f.rate[i];
+            f.p[i] = sph_pressure_tait(f.rho[i], state);
+            fastest = worse(fastest, (double)f.v[0][i]);
+        }
+        if (!(fabs(fastest) < 2.0)) break; /* it boils */
+    }
+    flow_free(&f);
+    return fabs(fastest);
+}
+static void test_order_of_a_step(void)
+{
+    CHECK(column_speed(1) < 0.002);
+    CHECK(!(column_speed(0) < 2.0));
 }
 
 int main(void)
@@ -681,6 +863,8 @@ int main(void)
     test_conserved_sums();
     test_conservation();
     test_linear();
+    test_shear_waves();
+    test_order_of_a_step();
     test_jump();
     test_xsph();
     test_wall();

@@ -731,8 +731,47 @@ static void test_overflow(void)
         }
 }
 
+/* interpolation and corrected gradient in the interior: errors of second order on a lattice, of less in disorder */
+static void test_orders(void)
+{
+    static const int side[] = {40, 80};
+    int jittered, which;
+    for (jittered = 0; jittered < 2; jittered++) {
+        double error[2][2] = {{0, 0}, {0, 0}};
+        for (which = 0; which < 2; which++) {
+            cloud c = cloud_lattice(2, side[which], 2.0, jittered ? 0.25 : 0.0, 3);
+            const views v = views_of(&c);
+            const vectors g = vectors_new(c.n);
+            sph_real *const out = (sph_real *)cloud_memory((size_t)c.n, sizeof *out);
+            sph_index i, n = 0;
+            cloud_set(&c, field_smooth);
+            CHECK(interpolate(2, &v, out, 0) == 0);
+            CHECK(corrected(2, &v, g.p, 0, 0) == 0);
+            for (i = 0; i < c.n; i++) {
+                double p[3], d[12], f;
+                cloud_position(&c, i, p);
+                if (fabs(p[0] - 0.5) > 0.25 || fabs(p[1] - 0.5) > 0.25) continue;
+                f = field_smooth(p, d);
+                error[0][which] += pow((double)out[i] - f, 2.0);
+                error[1][which] += pow((double)g.p[0][i] - d[0], 2.0);
+                n++;
+            }
+            error[0][which] = sqrt(error[0][which] / n);
+            error[1][which] = sqrt(error[1][which] / n);
+            free(out);
+            free(g.p[0]);
+            cloud_free(&c);
+        }
+        for (which = 0; which < 2; which++) {
+            const double order = log2(error[which][0] / error[which][1]);
+            CHECK(jittered ? order > 0.9 && order < 1.8 : order > 1.9);
+        }
+    }
+}
+
 int main(void)
 {
+    test_orders();
     test_shepard_sum();
     test_interpolation();
     test_probes();

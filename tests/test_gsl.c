@@ -42,7 +42,7 @@ static void test_integral(which *a, gsl_integration_workspace *space)
     const double edge = a->h * (double)sph_kernel_support_ratio(a->kernel);
     /* the knots of all kernels; those of others do no harm. The last one is the edge */
     static const double knot[] = {0.0, 0.5, 2.0 / 3.0, 1.0, 1.5, 2.0, 2.5, 3.0};
-    double point[sizeof knot / sizeof knot[0]], sum = 0.0, error = 0.0;
+    double point[sizeof knot / sizeof knot[0] + 1], sum = 0.0, error = 0.0;
     size_t n = 0;
     gsl_function f;
     int status;

@@ -149,8 +149,49 @@ static void test_sweep(sph_index length)
     free(index);
 }
 
+/* A matrix with more entries than can be counted, one for each entry of the lists and for each diagonal. */
+static void test_matrix(sph_index length, sph_index expected)
+{
+    enum { N = 3 };
+    sph_real diagonal[N] = {0, 0, 0}, *const row = (sph_real *)cloud_memory(MOST, sizeof *row),
+             *const value = (sph_real *)cloud_memory(MOST, sizeof *value);
+    sph_index start[N + 1], begin[N + 1], *const index = (sph_index *)cloud_memory(MOST, sizeof *index),
+                                          *const column = (sph_index *)cloud_memory(MOST, sizeof *column);
+    sph_list list;
+    sph_cloud cloud;
+    sph_csr out;
+    sph_real x[N] = {0, 1, 2};
+    int64_t entries = -1;
+    int q;
+    start[0] = 0;
+    for (q = 0; q < N; q++) start[q + 1] = length;
+    for (q = 0; q < MOST; q++) {
+        index[q] = 1;
+        row[q] = SPH_R(1);
+    }
+    list.start = start;
+    list.index = index;
+    cloud = sph_cloud_of(sph_points_separate(N, x, 0, 0), list, sph_scalars_none(), sph_scalars_none());
+    out.start = begin;
+    out.column = column;
+    out.value = value;
+    out.capacity = INT64_MAX;
+    CHECK(sph_csr_size(cloud) == (int64_t)length + N);
+    CHECK(sph_csr_assemble(cloud, row, sph_scalars_array(diagonal), 0, out, &entries) == expected);
+    CHECK(entries == (expected ? -1 : N + 1)); /* a neighbour that is named often is one entry */
+    out.capacity = (int64_t)length + N - 1;
+    CHECK(sph_csr_assemble(cloud, row, sph_scalars_array(diagonal), 0, out, &entries) ==
+          (expected ? expected : SPH_ERROR_CAPACITY));
+    free(row);
+    free(value);
+    free(index);
+    free(column);
+}
+
 int main(void)
 {
+    test_matrix(MOST - 3, 0);
+    test_matrix(MOST - 2, SPH_ERROR_PAIRS);
     test_search();
     test_too_many();
     test_sweep(MOST);

@@ -19,7 +19,7 @@
 
 /* All knots are multiples of 1/6. In a stretch of that length the phase k q turns by at most 10; 20 nodes integrate that, times any of the kernels, to
    rounding, in the first stretch, too, where the phase is not linear. */
-enum { PARTS = 6, NODES = 20, POINTS = 3 * PARTS * NODES, WAVES = 1200 };
+enum { PARTS = 6, NODES = 20, STRETCHES = 4 * PARTS, POINTS = STRETCHES * NODES, WAVES = 1200 };
 static const double k_step = 0.05;
 
 static double q_of[POINTS], dq_of[POINTS];
@@ -42,7 +42,7 @@ static void make_points(void)
         }
         s = 0.5 * (1.0 + x);
         weight = 1.0 / ((1.0 - x * x) * slope * slope);
-        for (part = 0; part < 3 * PARTS; part++) { /* in the first stretch q = s^2 / 6, for the square root's sake */
+        for (part = 0; part < STRETCHES; part++) { /* in the first stretch q = s^2 / 6, for the square root's sake */
             q_of[part * NODES + i] = (part == 0 ? s * s : part + s) / PARTS;
             dq_of[part * NODES + i] = weight * (part == 0 ? 2.0 * s : 1.0) / PARTS;
         }
@@ -53,7 +53,7 @@ static void make_points(void)
    With 2 n points over pi, the error is 2 J_4n(z): none once 4 n exceeds z by some. */
 static double bessel_j0(double z)
 {
-    enum { MOST = 64 };
+    enum { MOST = 80 };
     static double sine[MOST + 1][MOST];
     const int n = (int)(0.25 * z) + 14;
     double sum = 0.0;
@@ -144,6 +144,10 @@ static const expectation expected[] = {
     {SPH_GAUSSIAN, {-1.4e-5, -1.2e-5, -9.6e-6}, {0, 0, 0}},         /* that of the truncation */
     {SPH_SUPER_GAUSSIAN, {-1.0e-4, -7.8e-5, -7.1e-5}, {0, 0, 0}},
     {SPH_CORE_TRIANGLE, {POSITIVE, POSITIVE, POSITIVE}, {0, 0, 0}},
+    {SPH_SEXTIC_SPLINE, {-2.3e-5, -8.3e-6, -3.2e-6}, {8.99, 0, 0}}, /* in 1D that of sin(x) / x to the seventh power, at tan x = x */
+    {SPH_HEPTIC_SPLINE, {ZERO, -1.0e-6, -8.5e-7}, {0, 0, 0}},
+    {SPH_POLY6, {-2.2e-2, -1.6e-2, -1.2e-2}, {0, 0, 0}},
+    {SPH_SPIKY, {POSITIVE, POSITIVE, POSITIVE}, {0, 0, 0}},
 };
 
 /* Half a unit of the second digit of a number that is printed with two. */
@@ -179,9 +183,9 @@ static void test_minimum(const expectation *e, int dim, int verbose)
 /* What is known in closed form: the B-spline of n boxes has the transform (sin(k/2) / (k/2))^n in 1D. */
 static void test_splines(void)
 {
-    static const sph_kernel spline[3] = {SPH_CUBIC_SPLINE, SPH_QUARTIC_SPLINE, SPH_QUINTIC_SPLINE};
+    static const sph_kernel spline[5] = {SPH_CUBIC_SPLINE, SPH_QUARTIC_SPLINE, SPH_QUINTIC_SPLINE, SPH_SEXTIC_SPLINE, SPH_HEPTIC_SPLINE};
     int n, j;
-    for (n = 0; n < 3; n++) {
+    for (n = 0; n < 5; n++) {
         make_transform(spline[n], 1);
         for (j = 1; j <= WAVES; j++) {
             const double half = 0.5 * j * k_step;

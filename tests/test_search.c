@@ -248,6 +248,10 @@ static void test_block(void)
                 CHECK(sph_grid_build(dim, x, one, b.at, b.size - 1, &grid) == SPH_ERROR_CAPACITY);
                 CHECK(block_marked(b.at, b.at + b.size));
                 CHECK(sph_grid_build(dim, x, one, b.at, b.size, &grid) == 0);
+                CHECK((uintptr_t)grid.x % sizeof *grid.x == 0 && (uintptr_t)grid.y % sizeof *grid.y == 0 &&
+                      (uintptr_t)grid.z % sizeof *grid.z == 0);
+                CHECK((uintptr_t)grid.member % sizeof(sph_index) == 0 &&
+                      (uintptr_t)grid.first % sizeof(sph_index) == 0);
                 CHECK(sph_grid_count(dim, &grid, sph_query_of(x, SPH_GATHER, radius, 0), again, &counted) == 0);
                 CHECK(counted == pairs && memcmp(again, start, sizeof start) == 0 && block_intact(&b));
                 free(b.base);

@@ -10,14 +10,18 @@
  *     };
  *     options_parse(argc, argv, "What the driver does.", specs, 2);
  *
- * The values before the call are the defaults.
+ * The values before the call are the defaults. From the call on, the locale of numbers is "C": what a driver
+ * prints into figures and tables has decimal points.
  */
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
+#include "number.h"
+
 #include <errno.h>
 #include <float.h>
 #include <limits.h>
+#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,16 +60,17 @@ static inline double option_highest(const option_spec *spec)
  * the text is not wholly a number or the number is not within the limits. */
 static inline int option_set(const option_spec *spec, const char *text)
 {
-    char *end = NULL;
     errno = 0;
     if (spec->type == OPTION_INT) {
+        char *end = NULL;
         const long value = strtol(text, &end, 10);
         if (end == text || *end || errno == ERANGE || value < INT_MIN || value > INT_MAX || (double)value < option_lowest(spec) ||
             (double)value > option_highest(spec))
             return 0;
         *(int *)spec->value = (int)value;
     } else if (spec->type == OPTION_REAL) {
-        const double value = strtod(text, &end);
+        const char *end;
+        const double value = number_of(text, &end);
         if (end == text || *end || !(value >= option_lowest(spec) && value <= option_highest(spec))) return 0; /* NaN and infinities too */
         *(double *)spec->value = value;
     } else if (spec->type == OPTION_TEXT) {
@@ -85,14 +90,16 @@ static inline void option_print_allowed(FILE *to, const option_spec *spec)
     }
     fputs(spec->type == OPTION_INT ? "a whole number" : "a finite number", to);
     const option_spec unlimited = {"", "", spec->type, NULL, 0.0, 0.0};
-    if (option_lowest(spec) > option_lowest(&unlimited)) fprintf(to, ", at least %.10g", option_lowest(spec));
-    if (option_highest(spec) < option_highest(&unlimited)) fprintf(to, ", at most %.10g", option_highest(spec));
+    char number[NUMBER_TEXT];
+    if (option_lowest(spec) > option_lowest(&unlimited)) fprintf(to, ", at least %s", number_text(number, 10, option_lowest(spec)));
+    if (option_highest(spec) < option_highest(&unlimited)) fprintf(to, ", at most %s", number_text(number, 10, option_highest(spec)));
 }
 
 static inline void option_print_default(FILE *to, const option_spec *spec)
 {
+    char number[NUMBER_TEXT];
     if (spec->type == OPTION_INT) fprintf(to, "; default %d", *(const int *)spec->value);
-    else if (spec->type == OPTION_REAL) fprintf(to, "; default %.10g", *(const double *)spec->value);
+    else if (spec->type == OPTION_REAL) fprintf(to, "; default %s", number_text(number, 10, *(const double *)spec->value));
     else if (spec->type == OPTION_TEXT && *(const char *const *)spec->value) fprintf(to, "; default '%s'", *(const char *const *)spec->value);
 }
 
@@ -121,6 +128,7 @@ static inline const option_spec *option_find(const option_spec *specs, int count
 static inline void options_parse(int argc, char **argv, const char *about, const option_spec *specs, int count)
 {
     const char *program = argc > 0 && argv[0] ? argv[0] : "driver";
+    setlocale(LC_NUMERIC, "C");
 
     for (int k = 1; k < argc; ++k) /* first, while the values are the defaults */
         if (strcmp(argv[k], "-h") == 0 || strcmp(argv[k], "--help") == 0) {

@@ -23,6 +23,7 @@
 #ifndef REPORT_H
 #define REPORT_H
 
+#include "number.h"
 #include "part_file.h"
 
 #include <math.h>
@@ -40,7 +41,7 @@ typedef enum report_verdict {
     REPORT_VERDICTS /* their number */
 } report_verdict;
 
-enum { REPORT_COLUMNS = 7, REPORT_NUMBER = 32, REPORT_CRITERION = 96 };
+enum { REPORT_COLUMNS = 7, REPORT_CRITERION = 96 };
 
 typedef struct report {
     part_file file;
@@ -129,23 +130,17 @@ static inline void report_row(report *r, const char *item, const char *setting, 
 }
 
 /* A number as the CSV shows it; NAN for an absent published value is "". */
-static inline const char *report_published(char text[REPORT_NUMBER], double value)
+static inline const char *report_published(char text[NUMBER_TEXT], double value)
 {
-    text[0] = '\0';
-    if (!isnan(value)) snprintf(text, REPORT_NUMBER, "%.9g", value);
-    return text;
+    return isnan(value) ? "" : number_text(text, 9, value);
 }
 
-static inline const char *report_measured(char text[REPORT_NUMBER], double value)
-{
-    snprintf(text, REPORT_NUMBER, "%.9g", value);
-    return text;
-}
+static inline const char *report_measured(char text[NUMBER_TEXT], double value) { return number_text(text, 9, value); }
 
 static inline void report_number_row(report *r, const char *item, const char *setting, const char *quantity, double published, double measured,
                                      const char *criterion, const char *reason, report_verdict verdict)
 {
-    char published_text[REPORT_NUMBER], measured_text[REPORT_NUMBER];
+    char published_text[NUMBER_TEXT], measured_text[NUMBER_TEXT];
     report_row(r, item, setting, quantity, report_published(published_text, published), report_measured(measured_text, measured), criterion, reason, verdict);
 }
 
@@ -180,8 +175,8 @@ static inline void report_section(report *r, const char *title)
 /* |measured/published - 1| <= tolerance.  For a published 0 use report_absolute. */
 static inline void report_relative(report *r, const char *item, const char *setting, const char *quantity, double published, double measured, double tolerance)
 {
-    char criterion[REPORT_CRITERION];
-    snprintf(criterion, sizeof criterion, "rel <= %g", tolerance);
+    char criterion[REPORT_CRITERION], number[NUMBER_TEXT];
+    snprintf(criterion, sizeof criterion, "rel <= %s", number_text(number, 6, tolerance));
     const int holds = fabs(measured / published - 1.0) <= tolerance;
     report_number_row(r, item, setting, quantity, published, measured, criterion, NULL, holds ? REPORT_MATCH : REPORT_DIFFERS);
 }
@@ -189,8 +184,8 @@ static inline void report_relative(report *r, const char *item, const char *sett
 /* |measured - published| <= tolerance. */
 static inline void report_absolute(report *r, const char *item, const char *setting, const char *quantity, double published, double measured, double tolerance)
 {
-    char criterion[REPORT_CRITERION];
-    snprintf(criterion, sizeof criterion, "abs <= %g", tolerance);
+    char criterion[REPORT_CRITERION], number[NUMBER_TEXT];
+    snprintf(criterion, sizeof criterion, "abs <= %s", number_text(number, 6, tolerance));
     const int holds = fabs(measured - published) <= tolerance;
     report_number_row(r, item, setting, quantity, published, measured, criterion, NULL, holds ? REPORT_MATCH : REPORT_DIFFERS);
 }
@@ -198,8 +193,8 @@ static inline void report_absolute(report *r, const char *item, const char *sett
 /* lo <= measured <= hi.  The published value (NAN: none) is shown, not judged. */
 static inline void report_range(report *r, const char *item, const char *setting, const char *quantity, double published, double measured, double lo, double hi)
 {
-    char criterion[REPORT_CRITERION];
-    snprintf(criterion, sizeof criterion, "in [%g, %g]", lo, hi);
+    char criterion[REPORT_CRITERION], from[NUMBER_TEXT], to[NUMBER_TEXT];
+    snprintf(criterion, sizeof criterion, "in [%s, %s]", number_text(from, 6, lo), number_text(to, 6, hi));
     const int holds = lo <= measured && measured <= hi;
     report_number_row(r, item, setting, quantity, published, measured, criterion, NULL, holds ? REPORT_MATCH : REPORT_DIFFERS);
 }
@@ -210,8 +205,8 @@ static inline void report_range(report *r, const char *item, const char *setting
 static inline void report_band(report *r, const char *item, const char *setting, const char *quantity, double published, double measured_median, double lo,
                                double hi, report_verdict outside_verdict, const char *outside_reason)
 {
-    char criterion[REPORT_CRITERION];
-    snprintf(criterion, sizeof criterion, "published in [%g, %g]", lo, hi);
+    char criterion[REPORT_CRITERION], from[NUMBER_TEXT], to[NUMBER_TEXT];
+    snprintf(criterion, sizeof criterion, "published in [%s, %s]", number_text(from, 6, lo), number_text(to, 6, hi));
     const int inside = lo <= published && published <= hi;
     report_number_row(r, item, setting, quantity, published, measured_median, criterion, inside ? NULL : outside_reason,
                       inside ? REPORT_CONSISTENT : outside_verdict);
@@ -241,7 +236,7 @@ static inline void report_not_reproduced(report *r, const char *item, const char
 /* A measured value with nothing to compare. */
 static inline void report_info(report *r, const char *item, const char *setting, const char *quantity, double measured)
 {
-    char text[REPORT_NUMBER];
+    char text[NUMBER_TEXT];
     report_row(r, item, setting, quantity, NULL, report_measured(text, measured), NULL, NULL, REPORT_INFO);
 }
 

@@ -25,8 +25,8 @@ static const char *count_row(score *s, const report_record *row)
     s->published += row->field[COLUMN_PUBLISHED][0] != '\0';
 
     if (strcmp(row->field[0], "run") == 0 && strcmp(row->field[COLUMN_QUANTITY], "wall time [s]") == 0) {
-        char *end;
-        s->wall = strtod(row->field[COLUMN_MEASURED], &end);
+        const char *end;
+        s->wall = number_of(row->field[COLUMN_MEASURED], &end);
         if (end == row->field[COLUMN_MEASURED] || *end || !(s->wall >= 0.0)) return "the wall time is not a number of seconds";
     }
     return NULL;

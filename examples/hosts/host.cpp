@@ -6,7 +6,8 @@
 //     g++ -std=c++11 -O2 -I. examples/hosts/host.cpp -o host && ./host         (from the repository's root)
 //
 // A corrected gradient of a linear field and a row of the M-SPH Laplacian, both exact on a disordered cloud;
-// and the kernels against the known answers. Exit status 0 if all is right.
+// a density, which goes into the structs, against a loop of the host's own; and the kernels against the known
+// answers. Exit status 0 if all is right.
 
 #include <cstdio>
 
@@ -79,6 +80,7 @@ int main(int argc, char **argv)
         Particle p = {};
         p.position[0] = dx * (i % side + 0.5 + 0.2 * std::sin(37.0 * i));
         p.position[1] = dx * (i / side + 0.5 + 0.2 * std::cos(53.0 * i));
+        p.mass = volume;
         p.temperature = 0.7 + 1.3 * p.position[0] - 0.8 * p.position[1];
         particle.push_back(p);
     }
@@ -116,6 +118,11 @@ int main(int argc, char **argv)
     expect("gradient in the middle, x", gx[middle], 1.3, 1e-12);
     expect("gradient in the middle, y", gy[middle], -0.8, 1e-12);
 
+    // every other operator is called in the same way; results go into members, too
+    answer = sph_density_summation(kernel, dim, cloud, sph_scalars_strided(&particle[0].mass, stride),
+                                   sph_scalar_out_strided(&particle[0].density, stride, nullptr));
+    if (answer != 0) return std::puts(sph_status_text(answer)), 1;
+
     // one row of div(m grad u): with options.trace exact for a linear u and for |x|^2
     std::vector<double> row(size_t(found.pairs)), diagonal(n);
     sph_elliptic_options options = {};
@@ -127,6 +134,7 @@ int main(int argc, char **argv)
     answer = sph_elliptic_rows_msph(kernel, dim, one, m, options, out);
     if (answer != 0) return std::puts(sph_status_text(answer)), 1;
     double linear = 0, square = 0, sum = diagonal[middle];
+    double density = particle[middle].mass * sph_kernel_w(kernel, dim, 0, h);
     const sph_index first = found.list.start[middle], last = found.list.start[middle + 1];
     const auto r2 = [](const Particle &p) {
         return p.position[0] * p.position[0] + p.position[1] * p.position[1];
@@ -136,12 +144,16 @@ int main(int argc, char **argv)
         linear += row[p] * (b.temperature - a.temperature);
         square += row[p] * (r2(b) - r2(a));
         sum += row[p];
+        const double r = std::hypot(a.position[0] - b.position[0], a.position[1] - b.position[1]);
+        density += b.mass * sph_kernel_w(kernel, dim, r, h);
     }
     std::printf("M-SPH row of particle %d: %d neighbours, diagonal %.6f\n", int(middle), int(last - first),
                 diagonal[middle]);
     expect("M-SPH, sum of the row", sum, 0, 1e-9);
     expect("M-SPH, div(m grad u) of a linear u", linear, 0, 1e-9);
     expect("M-SPH, div(m grad u) of u = x^2 + y^2", square, 4 * mobility, 1e-9);
+
+    expect("density over its sum", particle[middle].density / density, 1, 1e-12);
 
     known_answers(argc > 1 ? argv[1] : "tests/known/kernels.csv");
     return failures != 0;

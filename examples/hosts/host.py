@@ -3,7 +3,7 @@
 without numpy, array.array.
 
     python3 examples/hosts/host.py ./libsph_shim.so
-        (from the repository's root, where tests/known/kernels.csv is; how to build the library: sph.py)
+        (from the repository's root, where tests/known/kernels.csv is; how to build the library: README.md)
 
 A corrected gradient of a linear field and a row of the M-SPH Laplacian, both exact on a disordered cloud; and
 the kernels against the known answers. Exit status 0 if all is right."""
@@ -67,7 +67,7 @@ if sph.numpy:
 else:
     print("arrays of the array module")
 
-cloud = sph.Cloud("wendland-c2", [x, y], h=1.3 * dx, V=dx * dx)
+cloud = sph.Cloud("wendland-c2", [x, y], h=1.3 * dx, volume=dx * dx)
 cloud.find_lists()
 cloud.check()  # once, for the sweeps to come
 gx, gy = cloud.gradient(temperature)
@@ -78,13 +78,14 @@ expect("gradient in the middle, x", gx[middle], 1.3, 1e-12)
 expect("gradient in the middle, y", gy[middle], -0.8, 1e-12)
 
 cloud.range(middle, middle + 1)  # one row of div(m grad u): with trace exact for a linear u and for |x|^2
-row, diagonal = cloud.rows_msph(mobility, trace=True)
+rows = cloud.elliptic_rows_msph(mobility, trace=True)
+row, diagonal = rows.row, rows.diagonal
 failures += cloud.not_ok
 entries = range(cloud.start[middle], cloud.start[middle + 1])
 square = [a * a + b * b for a, b in zip(x, y)]
 print(f"M-SPH row of particle {middle}: {len(entries)} neighbours, diagonal {diagonal[middle]:.6f}")
 expect("M-SPH, sum of the row", diagonal[middle] + sum(row[p] for p in entries), 0, 1e-9)
-expect("M-SPH, div(m grad u) of a linear u", cloud.apply(row, diagonal, temperature)[middle], 0, 1e-9)
+expect("M-SPH, div(m grad u) of a linear u", cloud.rows_apply(row, diagonal, temperature)[middle], 0, 1e-9)
 of_square = sum(row[p] * (square[cloud.index[p]] - square[middle]) for p in entries)
 expect("M-SPH, div(m grad u) of u = x^2 + y^2", of_square, 4 * mobility, 1e-9)
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* sweeps.cl - the sweeps of sph_ops.h in OpenCL C: a work item is the range [i, i + 1) of targets. Pointers
-   cannot be passed inside structs in OpenCL: the cloud is made here. */
+   cannot be passed inside structs in OpenCL: the cloud is made here. Every operator on a cloud is called in
+   this way: its kernel takes the arrays as arguments, fills the structs, and calls the sweep on that range.
+   (Collisions in sequence, and what answers one number for all targets, are for one work item.) */
 #if defined(cl_khr_fp64) && !SPH_SINGLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #endif

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
-# The figures of the paper on divergence cleaning, and of what goes beyond it, from the data files in `dir`:
-#     gnuplot -e "dir='build/figures/'" examples/papers/cleaning.gp
+# The figures of the paper on divergence cleaning, and of what goes beyond it, from the data files in a folder:
+#     gnuplot -c examples/papers/cleaning.gp build/figures
+cd ARG1
 set datafile separator ","
 set grid linecolor rgb "#dddddd"
-there(name) = system(sprintf("test -r %s%s.csv && echo yes", dir, name)) eq "yes"
+there(name) = system(sprintf("test -r %s.csv && echo yes", name)) eq "yes"
 array color[4] = ["#0072b2", "#d55e00", "#009e73", "#000000"]
 
 if (there("cleaning_fig1")) {
-    set output dir."cleaning_fig1.png"
+    set output "cleaning_fig1.png"
     set terminal pngcairo size 900,900 font "sans,12"
     set multiplot layout 2,1 title "Figure 1: largest div B of the disc with a free boundary, ch = 1"
     set logscale y
@@ -20,7 +21,7 @@ if (there("cleaning_fig1")) {
     array scheme[2] = ["RK4", "Verlet"]
     do for [f = 1:2] {
         set title form[f].", ".scheme[f]
-        plot for [s = 1:2] dir."cleaning_fig1.csv" using (strcol(1) eq form[f] && strcol(2) eq scheme[f] && ($3 > 0) == (s == 2) ? $4 : NaN):5 every ::1 \
+        plot for [s = 1:2] "cleaning_fig1.csv" using (strcol(1) eq form[f] && strcol(2) eq scheme[f] && ($3 > 0) == (s == 2) ? $4 : NaN):5 every ::1 \
             with lines linewidth 2 linecolor rgb color[s] title s == 1 ? "hyperbolic" : "hyperbolic/parabolic, sigma = 0.3"
     }
     unset multiplot
@@ -31,7 +32,7 @@ if (there("cleaning_fig1")) {
 }
 
 if (there("cleaning_fig7")) {
-    set output dir."cleaning_fig7.png"
+    set output "cleaning_fig7.png"
     set terminal pngcairo size 1500,1000 font "sans,12"
     set multiplot layout 2,3 title "Figure 7: the drop, cleaned, alpha = 0.01; the line is the ellipse without compressibility; colour: 100 (rho / rho0 - 1)"
     set size ratio -1
@@ -46,10 +47,10 @@ if (there("cleaning_fig7")) {
     do for [k = 1:6] {
         ax = 0
         ay = 0
-        stats dir."cleaning_fig8.csv" using (strcol(2) eq "ellipse" && abs($3 - moment[k]) < 1e-6 ? (ax = $8, ay = $9, $8) : NaN) every ::1 nooutput
+        stats "cleaning_fig8.csv" using (strcol(2) eq "ellipse" && abs($3 - moment[k]) < 1e-6 ? (ax = $8, ay = $9, $8) : NaN) every ::1 nooutput
         set title sprintf("t = %g", moment[k])
         set parametric
-        plot dir."cleaning_fig7.csv" using (strcol(2) eq "cleaned" && abs($3 - moment[k]) < 1e-6 ? $4 : NaN):5:(100 * $6) every ::1 with points pointtype 7 pointsize 0.4 linecolor palette, \
+        plot "cleaning_fig7.csv" using (strcol(2) eq "cleaned" && abs($3 - moment[k]) < 1e-6 ? $4 : NaN):5:(100 * $6) every ::1 with points pointtype 7 pointsize 0.4 linecolor palette, \
             ax * cos(t), ay * sin(t) with lines linecolor rgb "black"
         unset parametric
     }
@@ -60,14 +61,14 @@ if (there("cleaning_fig7")) {
 }
 
 # here, because blocks take macros as they are when the block begins
-curves = 'for [s = 1:2] dir."cleaning_fig8.csv" using (strcol(1) eq viscosity[a] && strcol(2) eq run[s] ? $3 : NaN):(column(column_of[f])) every ::2 with lines linewidth 2 linecolor rgb color[3 - s] title run[s]'
+curves = 'for [s = 1:2] "cleaning_fig8.csv" using (strcol(1) eq viscosity[a] && strcol(2) eq run[s] ? $3 : NaN):(column(column_of[f])) every ::2 with lines linewidth 2 linecolor rgb color[3 - s] title run[s]'
 if (there("cleaning_fig8")) {
     array viscosity[3] = ["0.01", "0", "0.1"]
     array run[2] = ["control", "cleaned"]
     array column_of[3] = [4, 5, 6]
     array title_of[3] = ["Figure 8: mean |div v|", "Figure 9: largest |rho / rho0 - 1|", "Figure 10: kinetic energy"]
     do for [f = 1:3] {
-        set output dir.sprintf("cleaning_fig%d.png", f + 7)
+        set output sprintf("cleaning_fig%d.png", f + 7)
         set terminal pngcairo size 1500,520 font "sans,12"
         set multiplot layout 1,3 title title_of[f]." of the drop"
         set xlabel "t"
@@ -84,7 +85,7 @@ if (there("cleaning_fig8")) {
             if (f < 3) {
                 plot @curves
             } else {
-                plot @curves, dir."cleaning_fig8.csv" using (strcol(2) eq "ellipse" ? $3 : NaN):6 every ::1 with lines dashtype 2 linecolor rgb "black" title "ellipse without compressibility"
+                plot @curves, "cleaning_fig8.csv" using (strcol(2) eq "ellipse" ? $3 : NaN):6 every ::1 with lines dashtype 2 linecolor rgb "black" title "ellipse without compressibility"
             }
         }
         unset multiplot
@@ -96,14 +97,14 @@ if (there("cleaning_fig8")) {
 
 
 # the Orszag-Tang vortex: figure 2 (fields at the end) and figure 3 (errors over time)
-vortices = system(sprintf("cd '%s' && ls cleaning_orszag_tang_fig2_*.csv 2> /dev/null", dir))
+vortices = system("ls cleaning_orszag_tang_fig2_*.csv 2> /dev/null")
 do for [file in vortices] {
     # with the four cases of figure 2, and to their ends
-    if (system(sprintf("cut -d, -f1 '%s%s' | sort -u | grep -c -x -e '\"control\"' -e '\"resistivity\"' -e '\"Euler potentials\"' -e '\"cleaning\"'", dir, file)) + 0 == 4) {
+    if (system(sprintf("cut -d, -f1 '%s' | sort -u | grep -c -x -e '\"control\"' -e '\"resistivity\"' -e '\"Euler potentials\"' -e '\"cleaning\"'", file)) + 0 == 4) {
         reset
         set datafile separator ","
         columns = file[27:strlen(file) - 4] + 0
-        set output dir.file[1:strlen(file) - 4].".png"
+        set output file[1:strlen(file) - 4].".png"
         set terminal pngcairo size 1800,1320 font "sans,12"
         set multiplot layout 3,4 title sprintf("Figure 2: the Orszag-Tang vortex, %d columns of particles", columns)
         set size ratio 1
@@ -121,7 +122,7 @@ do for [file in vortices] {
             set cbrange [low[q]:high[q]]
             do for [c = 1:4] {
                 set title vortex[c].", ".quantity[q]
-                plot dir.file using (strcol(1) eq vortex[c] ? $2 : NaN):3:(column(3 + q)) every ::1 with points pointtype 7 pointsize (60.0 / columns) linecolor palette
+                plot file using (strcol(1) eq vortex[c] ? $2 : NaN):3:(column(3 + q)) every ::1 with points pointtype 7 pointsize (60.0 / columns) linecolor palette
             }
         }
         unset multiplot
@@ -130,9 +131,9 @@ do for [file in vortices] {
 if (there("cleaning_orszag_tang_fig3")) {
     reset
     set datafile separator ","
-    history = dir."cleaning_orszag_tang_fig3.csv"
+    history = "cleaning_orszag_tang_fig3.csv"
     sizes = system(sprintf("tail -n +2 '%s' | cut -d, -f1 | sort -u -n", history))
-    set output dir."cleaning_orszag_tang_fig3.png"
+    set output "cleaning_orszag_tang_fig3.png"
     set terminal pngcairo size 1500,(560 * ((words(sizes) + 1) / 2)) font "sans,12"
     down = (words(sizes) + 1) / 2
     set multiplot layout down,2 title "Figure 3: the Orszag-Tang vortex, mean of h |div B| / |B|"
@@ -158,11 +159,11 @@ if (there("cleaning_orszag_tang_fig3")) {
 if (there("cleaning_shocktube_profiles")) {
     reset
     set datafile separator ","
-    tube = dir."cleaning_shocktube_profiles.csv"
+    tube = "cleaning_shocktube_profiles.csv"
     finest(dim) = system(sprintf("grep '^\"cleaning\",%d' '%s' | cut -d, -f3 | sort -n | tail -1", dim, tube)) + 0
     flat = finest(2)
     solid = finest(3)
-    set output dir."cleaning_shocktube.png"
+    set output "cleaning_shocktube.png"
     set terminal pngcairo size 1500,900 font "sans,12"
     set multiplot layout 2,3 title "the shock tube of Brio and Wu at t = 0.1"
     set grid linecolor rgb "#dddddd"
@@ -184,8 +185,8 @@ if (there("cleaning_shocktube_profiles")) {
 if (there("cleaning_advection_history")) {
     reset
     set datafile separator ","
-    stream = dir."cleaning_advection_history.csv"
-    set output dir."cleaning_advection.png"
+    stream = "cleaning_advection_history.csv"
+    set output "cleaning_advection.png"
     set terminal pngcairo size 1500,560 font "sans,12"
     set multiplot layout 1,3 title "A peak of div B in a stream, 50 x 50 particles"
     set grid linecolor rgb "#dddddd"
@@ -220,8 +221,8 @@ if (there("cleaning_advection_history")) {
 if (there("cleaning_euler_potentials_windings")) {
     reset
     set datafile separator ","
-    windings = dir."cleaning_euler_potentials_windings.csv"
-    set output dir."cleaning_euler_potentials.png"
+    windings = "cleaning_euler_potentials_windings.csv"
+    set output "cleaning_euler_potentials.png"
     set terminal pngcairo size 1200,520 font "sans,12"
     set multiplot layout 1,2 title "A field wound up by rotation, with the potentials and with the induction equation"
     set grid linecolor rgb "#dddddd"
@@ -243,14 +244,14 @@ if (there("cleaning_euler_potentials_windings")) {
 if (there("cleaning_collapse_fig5")) {
     reset
     set datafile separator ","
-    history = dir."cleaning_collapse_fig5.csv"
+    history = "cleaning_collapse_fig5.csv"
     clouds = system(sprintf("tail -n +2 '%s' | cut -d, -f1 | sort -u -n", history))
     array resistivity[3] = ["", "_with_alpha_B___0_1_everywhere", "_with_alpha_B___0"]
     do for [cloud in clouds] { do for [v = 1:3] {
         columns(k) = sprintf("cleaning_collapse_fig4_%s_%s%s%s", cloud, k == 1 ? "control" : "cleaned", resistivity[v], k == 3 ? "_end" : "")
         if (there(columns(1)) && there(columns(2))) {
             do for [q = 1:2] {
-                set output dir.sprintf("cleaning_collapse_%s_%s.png", q == 1 ? "fig4" : "jet", cloud.resistivity[v])
+                set output sprintf("cleaning_collapse_%s_%s.png", q == 1 ? "fig4" : "jet", cloud.resistivity[v])
                 panels = there(columns(3)) ? 3 : 2
                 set terminal pngcairo size (650 * panels),1200 font "sans,12"
                 set multiplot layout 2,panels title (q == 1 ? "Figure 4: column density along y, log_{10} g/cm^2, " : "Mean velocity along the axis, km/s, ").cloud." particles in the sphere".(v == 1 ? "" : v == 2 ? ", {/Symbol a}_B = 0.1 everywhere" : ", {/Symbol a}_B = 0")
@@ -259,7 +260,7 @@ if (there("cleaning_collapse_fig5")) {
                 if (q == 1) { set palette defined (0 "#000000", 1 "#3b0f70", 2 "#b73779", 3 "#fc8961", 4 "#fcfdbf") } else { set palette defined (-1 "#0072b2", 0 "#ffffff", 1 "#d55e00") }
                 do for [w = 0:1] {
                     do for [k = 1:panels] {
-                        file = dir.columns(k).".csv"
+                        file = columns(k).".csv"
                         set title sprintf("%s, t = %.4f t_{ff}", k == 1 ? "control" : "cleaned", system(sprintf("sed -n 2p '%s' | cut -d, -f2", file)) + 0)
                         set xlabel "x [10^{16} cm]"
                         set ylabel "z [10^{16} cm]"
@@ -282,7 +283,7 @@ if (there("cleaning_collapse_fig5")) {
     array runs[6] = ["control", "cleaned", "control with alpha_B = 0", "cleaned with alpha_B = 0", "control with alpha_B = 0.1 everywhere", "cleaned with alpha_B = 0.1 everywhere"]
     has(cloud, k) = system(sprintf("grep -c '^%s,\"%s\",' '%s'", cloud, runs[k], history)) + 0 > 0
     do for [q = 1:2] {
-        set output dir.sprintf("cleaning_collapse_%s.png", figure[q])
+        set output sprintf("cleaning_collapse_%s.png", figure[q])
         set terminal pngcairo size (words(clouds) > 1 ? 700 * words(clouds) : 950),1000 font "sans,12"
         set multiplot layout 2,words(clouds) title what[q]." in the collapse of a cloud core"
         set grid linecolor rgb "#dddddd"

@@ -103,7 +103,7 @@ static outcome run(const setting *s, const plan *c)
                                         {"B", g.a[BX], g.a[BY], g.a[BZ], NULL},
                                         {"density", g.a[RHO], NULL, NULL, NULL},
                                         {"psi", g.a[PSI], NULL, NULL, NULL},
-                                        {"div B", g.a[DIV_B], NULL, NULL, NULL}};
+                                        {"div_B", g.a[DIV_B], NULL, NULL, NULL}};
             if (!vtk_series_add(&series, g.t, g.n, g.a[X], g.a[Y], NULL, fields, 5)) {
                 fprintf(stderr, "cleaning_advection: a VTK file cannot be written\n");
                 exit(2);
@@ -209,10 +209,12 @@ static void term_25(report *r, const outcome *o)
 int main(int argc, char **argv)
 {
     const char *out = ".", *figures = ".";
-    int full = 0, vtk = 0, quiet = 0, k, best;
+    int side = 50, full = 0, vtk = 0, quiet = 0, k, best;
+    char title[96];
     const option_spec specs[] = {
         {"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
         {"figures", "folder of the figures' data", OPTION_TEXT, &figures, 0, 0},
+        {"side", "particles along each axis; other than 50, most rows differ", OPTION_INT, &side, 8, 1000},
         {"full", "100 x 100 particles, too", OPTION_FLAG, &full, 0, 0},
         {"vtk", "write the particles of the run with sigma = 0.3 every 0.05 (folder of the figures)", OPTION_FLAG, &vtk, 0, 0},
         {"quiet", "no line of progress", OPTION_FLAG, &quiet, 0, 0},
@@ -222,15 +224,16 @@ int main(int argc, char **argv)
     static report r;
     static outcome o[CASES];
     setting s;
-    options_parse(argc, argv, "A peak of div B in a stream, cleaned or not, with all of SPMHD.", specs, 5);
+    options_parse(argc, argv, "A peak of div B in a stream, cleaned or not, with all of SPMHD.", specs, 6);
     report_open(&r, "cleaning_advection", out);
     figure_folder(figures);
-    s.side = 50;
+    s.side = side;
     s.quiet = quiet;
     s.figures = figures;
     s.history = figure_open(figures, "cleaning_advection_history");
     fprintf(s.history, "run,sigma,overcleaning,t,mean_error,largest_error,max_div_B,magnetic,magnetic_and_psi,total\n");
-    report_section(&r, "A peak of div B in a stream, 50 x 50 particles");
+    snprintf(title, sizeof title, "A peak of div B in a stream, %d x %d particles", side, side);
+    report_section(&r, title);
     for (k = 0; k < CASES; k++) {
         s.vtk = vtk && k == DEFAULT;
         o[k] = run(&s, &plans[k]);

@@ -281,7 +281,7 @@ static void write_vtk(vtk_series *series, const collapse *g)
                                 {"density", g->a[RHO], NULL, NULL, NULL},
                                 {"h", g->a[H], NULL, NULL, NULL},
                                 {"psi", g->a[PSI], NULL, NULL, NULL},
-                                {"div B", g->a[DIV_B], NULL, NULL, NULL},
+                                {"div_B", g->a[DIV_B], NULL, NULL, NULL},
                                 {"medium", g->a[MEDIUM], NULL, NULL, NULL},
                                 {"id", g->a[ID], NULL, NULL, NULL}};
     if (!vtk_series_add(series, g->s.t, (int)g->s.n, g->a[X], g->a[Y], g->a[Z], fields, 8)) fail("%s cannot be written", "a VTK file");

@@ -636,7 +636,7 @@ static void write_vtk(vtk_series *series, const gas *g, double t)
     const vtk_field fields[] = {
         {"velocity", g->a[VX], g->a[VY], NULL, NULL}, {"B", g->a[BX], g->a[BY], NULL, NULL},
         {"density", g->a[RHO], NULL, NULL, NULL},     {"pressure", g->a[P], NULL, NULL, NULL},
-        {"psi", g->a[PSI], NULL, NULL, NULL},         {"div B", g->a[DIV_B], NULL, NULL, NULL},
+        {"psi", g->a[PSI], NULL, NULL, NULL},         {"div_B", g->a[DIV_B], NULL, NULL, NULL},
         {"alpha", g->a[ALPHA], NULL, NULL, NULL},     {"h", g->a[H], NULL, NULL, NULL}};
     if (!vtk_series_add(series, t, g->n, g->a[X], g->a[Y], NULL, fields, 8))
         stop("a VTK file cannot be written");

@@ -1,25 +1,26 @@
 # SPDX-License-Identifier: MIT
-# The figures of the paper on particle clustering, from the data files in `dir`:
-#     gnuplot -e "dir='build/figures/'" examples/papers/clustering.gp
+# The figures of the paper on particle clustering, from the data files in a folder:
+#     gnuplot -c examples/papers/clustering.gp build/figures
+cd ARG1
 set datafile separator ","
 set grid linecolor rgb "#dddddd"
-there(name) = system(sprintf("test -r %s%s.csv && echo yes", dir, name)) eq "yes"
+there(name) = system(sprintf("test -r %s.csv && echo yes", name)) eq "yes"
 array color[4] = ["#000000", "#d55e00", "#0072b2", "#009e73"]
 
 if (there("clustering_fig2")) {
-    set output dir."clustering_fig2.png"
+    set output "clustering_fig2.png"
     set terminal pngcairo size 800,520 font "sans,12"
     set title "Figure 2: kernels (solid) and their gradients (dashed), one dimension, h = 1"
     set xlabel "R"
     set key top right
     array kernel[3] = ["quartic", "(1.1)", "convex (3.9)"]
-    plot for [k = 1:3] dir."clustering_fig2.csv" using 1:(column(k + 1)) every ::1 with lines linewidth 2 linecolor rgb color[k] title kernel[k], \
+    plot for [k = 1:3] "clustering_fig2.csv" using 1:(column(k + 1)) every ::1 with lines linewidth 2 linecolor rgb color[k] title kernel[k], \
         for [k = 1:3] "" using 1:(column(k + 4)) every ::1 with lines linewidth 2 dashtype 2 linecolor rgb color[k] notitle
 }
 
 # Figures 1 and 3: a row for each background pressure
 if (there("clustering_box_collisions_p0")) {
-    set output dir."clustering_box.png"
+    set output "clustering_box.png"
     set terminal pngcairo size 1600,840 font "sans,12"
     set multiplot layout 2,4 title "Figures 1 and 3: the box at the start and at t = 2"
     set size ratio 1
@@ -33,10 +34,10 @@ if (there("clustering_box_collisions_p0")) {
         end = p == 1 ? "_0" : "_p0"
         what = p == 1 ? "p0 = 0" : "p0 = rho0 c^2"
         set title "Figure 1: initial"
-        plot dir."clustering_box_initial.csv" using 1:2 every ::1 with points pointtype 7 pointsize 0.5 linecolor rgb "black"
+        plot "clustering_box_initial.csv" using 1:2 every ::1 with points pointtype 7 pointsize 0.5 linecolor rgb "black"
         do for [a = 1:3] {
             set title run_title[a].", ".what
-            plot dir."clustering_box_".run[a].end.".csv" using 1:2 every ::1 with points pointtype 7 pointsize 0.5 linecolor rgb "black"
+            plot "clustering_box_".run[a].end.".csv" using 1:2 every ::1 with points pointtype 7 pointsize 0.5 linecolor rgb "black"
         }
     }
     unset multiplot
@@ -46,7 +47,7 @@ if (there("clustering_box_collisions_p0")) {
 }
 
 if (there("clustering_fig5")) {
-    set output dir."clustering_fig5.png"
+    set output "clustering_fig5.png"
     set terminal pngcairo size 900,560 font "sans,12"
     set title "Figure 5: error of the pressure gradient of a column of water"
     set xlabel "t [s]"
@@ -56,14 +57,14 @@ if (there("clustering_fig5")) {
     array method[3] = ["particle collisions h = 1.5 dref", "convex kernel (3.9) h = 1.5 dref", "convex kernel (3.9) h = 2 dref"]
     array method_title[3] = ["(1.1), with and without collisions, h = 1.5 dref", "convex (3.9), h = 1.5 dref", "convex (3.9), h = 2 dref"]
     array method_color[3] = ["#0072b2", "#d55e00", "#56b4e9"]
-    plot for [k = 2:3] dir."clustering_fig5.csv" using (strcol(1) eq method[k] ? $2 : NaN):3 every ::1 with lines linecolor rgb method_color[k] title method_title[k], \
+    plot for [k = 2:3] "clustering_fig5.csv" using (strcol(1) eq method[k] ? $2 : NaN):3 every ::1 with lines linecolor rgb method_color[k] title method_title[k], \
         "" using (strcol(1) eq method[1] ? $2 : NaN):3 every ::1 with lines linecolor rgb method_color[1] title method_title[1]
     unset ylabel
     set autoscale
 }
 
 if (there("clustering_fig6_collisions")) {
-    set output dir."clustering_fig6.png"
+    set output "clustering_fig6.png"
     set terminal pngcairo size 1200,1260 font "sans,12"
     set multiplot layout 2,2 title "Figure 6: air between a rotating shaft and a wall, t = 0.5"
     set size ratio 1
@@ -75,7 +76,7 @@ if (there("clustering_fig6_collisions")) {
     array shaft_title[4] = ["(3.7), as the caption says", "(1.1), as elsewhere", "convex (3.9)", "(1.1) and collisions"]
     do for [k = 1:4] {
         set title shaft_title[k]
-        plot dir."clustering_fig6_".shaft[k].".csv" using ($8 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.6 linecolor rgb "#b0b0b0", \
+        plot "clustering_fig6_".shaft[k].".csv" using ($8 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.6 linecolor rgb "#b0b0b0", \
             "" using ($8 == 0 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.6 linecolor rgb "black"
     }
     unset multiplot
@@ -95,23 +96,23 @@ if (there("clustering_dam_collisions_100")) {
     set xrange [-0.03:1.03]
     set yrange [-0.03:0.53]
     set size ratio -1
-    set output dir."clustering_fig8.png"
+    set output "clustering_fig8.png"
     set terminal pngcairo size 1600,960 font "sans,12"
     set multiplot layout 2,2
     do for [k = 1:4] {
         set title dam_title[k]
-        plot dir.dam[k].".csv" using ($8 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.45 linecolor rgb "#b0b0b0", \
+        plot dam[k].".csv" using ($8 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.45 linecolor rgb "#b0b0b0", \
             "" using ($8 == 0 && $7 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.45 linecolor rgb "#56a0e9", \
             "" using ($8 == 0 && $7 == 0 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.45 linecolor rgb "black"
     }
     unset multiplot
     if (there("clustering_dam_collisions_700")) {
-        set output dir."clustering_fig9.png"
+        set output "clustering_fig9.png"
         set terminal pngcairo size 900,1500 font "sans,12"
         set multiplot layout 3,1
         do for [k = 1:3] {
             set title late_title[k]
-            plot dir.late[k].".csv" using ($8 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.7 linecolor rgb "#b0b0b0", \
+            plot late[k].".csv" using ($8 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.7 linecolor rgb "#b0b0b0", \
                 "" using ($8 == 0 && $7 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.7 linecolor rgb "#56a0e9", \
                 "" using ($8 == 0 && $7 == 0 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.7 linecolor rgb "black"
         }
@@ -119,18 +120,18 @@ if (there("clustering_dam_collisions_100")) {
     }
     # the same by speed and by pressure
     set palette defined (0 "#30123b", 0.15 "#4686fb", 0.35 "#1ae4b6", 0.55 "#a2fc3c", 0.75 "#faba39", 0.9 "#e3440a", 1 "#7a0403")
-    set output dir."clustering_dam.png"
+    set output "clustering_dam.png"
     set terminal pngcairo size 1700,1260 font "sans,12"
     set multiplot layout 3,2 title "Water and air with collisions"
     do for [k = 1:3] {
         dam_file = sprintf("clustering_dam_collisions_%d00", k)
         set title sprintf("speed [m/s], t = %.1f s", 0.1 * k)
         set cbrange [0:2.2]
-        plot dir.dam_file.".csv" using ($8 == 0 && $7 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.3 linecolor rgb "#c8d8e8", \
+        plot dam_file.".csv" using ($8 == 0 && $7 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.3 linecolor rgb "#c8d8e8", \
             "" using ($8 == 0 && $7 == 0 ? $1 : NaN):2:(sqrt($3**2 + $4**2)) every ::1 with points pointtype 7 pointsize 0.55 linecolor palette
         set title sprintf("pressure [kPa], t = %.1f s", 0.1 * k)
         set cbrange [-0.5:2]
-        plot dir.dam_file.".csv" using ($8 == 0 ? $1 : NaN):2:($6 / 1000) every ::1 with points pointtype 7 pointsize 0.5 linecolor palette
+        plot dam_file.".csv" using ($8 == 0 ? $1 : NaN):2:($6 / 1000) every ::1 with points pointtype 7 pointsize 0.5 linecolor palette
     }
     unset multiplot
     set size noratio
@@ -139,7 +140,7 @@ if (there("clustering_dam_collisions_100")) {
 }
 
 if (there("clustering_front")) {
-    set output dir."clustering_front.png"
+    set output "clustering_front.png"
     set terminal pngcairo size 900,560 font "sans,12"
     set title "The front of the water (Ritter: x = 0.5 + 2 t sqrt(gH))"
     set xlabel "t [s]"
@@ -151,14 +152,14 @@ if (there("clustering_front")) {
     array front_title[4] = ["(1.1), t = 0.1 only in quick runs", "(1.1) and collisions", "(1.1), water only", "(1.1) and collisions, water only"]
     array front_dash[4] = [1, 1, 2, 2]
     array front_color[4] = ["#000000", "#d55e00", "#000000", "#d55e00"]
-    plot for [k = 1:4] dir."clustering_front.csv" using (strcol(1) eq front[k] ? $2 : NaN):3 every 8::1 with lines linewidth 2 dashtype front_dash[k] linecolor rgb front_color[k] title front_title[k], \
+    plot for [k = 1:4] "clustering_front.csv" using (strcol(1) eq front[k] ? $2 : NaN):3 every 8::1 with lines linewidth 2 dashtype front_dash[k] linecolor rgb front_color[k] title front_title[k], \
         0.5 + 2 * sqrt(9.81 * 0.2) * x with lines linecolor rgb "gray50" title "Ritter"
     unset ylabel
     set autoscale
 }
 
 if (there("clustering_column")) {
-    set output dir."clustering_column.png"
+    set output "clustering_column.png"
     set terminal pngcairo size 900,560 font "sans,12"
     set title "Front of a column of a x 2a: experiments and water only"
     set xlabel "T = t sqrt(2 g / a)"
@@ -169,14 +170,14 @@ if (there("clustering_column")) {
     array column_run[4] = ["martin_moyce", "koshizuka_oka", "single", "single_collisions"]
     array column_title[4] = ["Martin & Moyce 1952", "Koshizuka & Oka 1996", "(1.1)", "(1.1) and collisions"]
     array column_color[4] = ["#0072b2", "#009e73", "#000000", "#d55e00"]
-    plot for [k = 1:2] dir."clustering_column.csv" using (strcol(1) eq column_run[k] ? $2 : NaN):3 every ::1 with points pointtype (k == 1 ? 6 : 4) pointsize 1.3 linecolor rgb column_color[k] title column_title[k] noenhanced, \
+    plot for [k = 1:2] "clustering_column.csv" using (strcol(1) eq column_run[k] ? $2 : NaN):3 every ::1 with points pointtype (k == 1 ? 6 : 4) pointsize 1.3 linecolor rgb column_color[k] title column_title[k] noenhanced, \
         for [k = 3:4] "" using (strcol(1) eq column_run[k] ? $2 : NaN):3 every ::1 with lines linewidth 2 linecolor rgb column_color[k] title column_title[k]
     unset ylabel
     set autoscale
 }
 
 if (there("clustering_taylor_green")) {
-    set output dir."clustering_flows.png"
+    set output "clustering_flows.png"
     set terminal pngcairo size 1700,520 font "sans,12"
     set multiplot layout 1,3
     set title "Vortices of Taylor and Green, Re = 100, 40 columns, h = 1.5 dref"
@@ -186,7 +187,7 @@ if (there("clustering_taylor_green")) {
     set key bottom left
     array vortex[5] = ["(1.1)", "(3.9)", "(1.1) + collisions", "Wendland C2", "(1.1) with p0 = 3.2"]
     array vortex_color[5] = ["#000000", "#0072b2", "#d55e00", "#009e73", "#999999"]
-    plot for [k = 1:5] dir."clustering_taylor_green.csv" using (strcol(1) eq vortex[k] && $2 == 1.5 && $3 == 40 ? $4 : NaN):5 every ::1 with lines linewidth 2 linecolor rgb vortex_color[k] title vortex[k], \
+    plot for [k = 1:5] "clustering_taylor_green.csv" using (strcol(1) eq vortex[k] && $2 == 1.5 && $3 == 40 ? $4 : NaN):5 every ::1 with lines linewidth 2 linecolor rgb vortex_color[k] title vortex[k], \
         exp(-16 * pi**2 * 0.01 * x) with lines dashtype 2 linecolor rgb "black" title "exact"
     unset logscale
     unset key
@@ -195,7 +196,7 @@ if (there("clustering_taylor_green")) {
     array plates[2] = ["Poiseuille", "Couette"]
     do for [k = 1:2] {
         set title plates[k]." flow, Re = 1, 20 rows, t = 0.02, 0.1, 1"
-        plot dir."clustering_plates.csv" using (strcol(1) eq plates[k] ? $5 : NaN):3 with lines linecolor rgb "#d55e00", \
+        plot "clustering_plates.csv" using (strcol(1) eq plates[k] ? $5 : NaN):3 with lines linecolor rgb "#d55e00", \
             "" using (strcol(1) eq plates[k] ? $4 : NaN):3 with points pointtype 6 linecolor rgb "black"
     }
     unset multiplot
@@ -205,7 +206,7 @@ if (there("clustering_taylor_green")) {
 
 # beyond the paper: three dimensions, the cavity
 if (there("clustering_column3d")) {
-    set output dir."clustering_column3d.png"
+    set output "clustering_column3d.png"
     set terminal pngcairo size 1500,560 font "sans,12"
     set multiplot layout 1,2
     set title "Front of a column of a x 2a x a, walls at the sides"
@@ -216,7 +217,7 @@ if (there("clustering_column3d")) {
     set key top left
     array column3d[4] = ["martin_moyce", "koshizuka_oka", "plane", "space"]
     array column3d_title[4] = ["Martin & Moyce 1952", "Koshizuka & Oka 1996", "two dimensions", "three dimensions"]
-    plot for [k = 1:2] dir."clustering_column3d.csv" using (strcol(1) eq column3d[k] ? $2 : NaN):3 every ::1 with points pointtype (k == 1 ? 6 : 4) pointsize 1.3 linecolor rgb column_color[k] title column3d_title[k] noenhanced, \
+    plot for [k = 1:2] "clustering_column3d.csv" using (strcol(1) eq column3d[k] ? $2 : NaN):3 every ::1 with points pointtype (k == 1 ? 6 : 4) pointsize 1.3 linecolor rgb column_color[k] title column3d_title[k] noenhanced, \
         for [k = 3:4] "" using (strcol(1) eq column3d[k] ? $2 : NaN):3 every ::1 with lines linewidth 2 linecolor rgb color[k == 3 ? 1 : 2] title column3d_title[k]
     set title "Speed [m/s] at T = 3.4"
     unset key
@@ -229,7 +230,7 @@ if (there("clustering_column3d")) {
     unset border
     unset xlabel
     unset ylabel
-    splot dir."clustering_dam3d_box.csv" using 1:3:2:(sqrt($4**2 + $5**2 + $6**2)) every ::1 with points pointtype 7 pointsize 0.5 linecolor palette
+    splot "clustering_dam3d_box.csv" using 1:3:2:(sqrt($4**2 + $5**2 + $6**2)) every ::1 with points pointtype 7 pointsize 0.5 linecolor palette
     unset multiplot
     unset view
     set key
@@ -239,7 +240,7 @@ if (there("clustering_column3d")) {
 }
 
 if (there("clustering_cavity_profiles")) {
-    set output dir."clustering_cavity.png"
+    set output "clustering_cavity.png"
     set terminal pngcairo size 1700,600 font "sans,12"
     set multiplot layout 1,3
     set key bottom right
@@ -247,13 +248,13 @@ if (there("clustering_cavity_profiles")) {
     set xlabel "u"
     set ylabel "y"
     array cavity[2] = ["plain 32", "cleaned 32"]
-    plot for [k = 1:2] dir."clustering_cavity_profiles.csv" using (strcol(1) eq cavity[k] && strcol(2) eq "u" ? $4 : NaN):3 every ::1 with lines linewidth 2 dashtype k linecolor rgb color[k] title (k == 1 ? "32 x 32" : "32 x 32, cleaned"), \
+    plot for [k = 1:2] "clustering_cavity_profiles.csv" using (strcol(1) eq cavity[k] && strcol(2) eq "u" ? $4 : NaN):3 every ::1 with lines linewidth 2 dashtype k linecolor rgb color[k] title (k == 1 ? "32 x 32" : "32 x 32, cleaned"), \
         "" using (strcol(1) eq "ghia" && strcol(2) eq "u" ? $4 : NaN):3 every ::1 with points pointtype 6 pointsize 1.3 linecolor rgb color[3] title "Ghia, Ghia & Shin 1982" noenhanced
     set key bottom left
     set title "v on y = 1/2"
     set xlabel "x"
     set ylabel "v"
-    plot for [k = 1:2] dir."clustering_cavity_profiles.csv" using (strcol(1) eq cavity[k] && strcol(2) eq "v" ? $3 : NaN):4 every ::1 with lines linewidth 2 dashtype k linecolor rgb color[k] title (k == 1 ? "32 x 32" : "32 x 32, cleaned"), \
+    plot for [k = 1:2] "clustering_cavity_profiles.csv" using (strcol(1) eq cavity[k] && strcol(2) eq "v" ? $3 : NaN):4 every ::1 with lines linewidth 2 dashtype k linecolor rgb color[k] title (k == 1 ? "32 x 32" : "32 x 32, cleaned"), \
         "" using (strcol(1) eq "ghia" && strcol(2) eq "v" ? $3 : NaN):4 every ::1 with points pointtype 6 pointsize 1.3 linecolor rgb color[3] title "Ghia, Ghia & Shin 1982" noenhanced
     set title "Particles by speed at t = 12, cleaned"
     unset key
@@ -263,7 +264,7 @@ if (there("clustering_cavity_profiles")) {
     set xrange [0:1]
     set yrange [0:1]
     set cbrange [0:1]
-    plot dir."clustering_cavity_cleaned_32.csv" using ($8 == 0 ? $1 : NaN):2:(sqrt($3**2 + $4**2)) every ::1 with points pointtype 7 pointsize 1 linecolor palette
+    plot "clustering_cavity_cleaned_32.csv" using ($8 == 0 ? $1 : NaN):2:(sqrt($3**2 + $4**2)) every ::1 with points pointtype 7 pointsize 1 linecolor palette
     unset multiplot
     set size noratio
     set autoscale

@@ -100,7 +100,7 @@ static const uniform_table uniform_tables[] = {
 
 static void compare(report *r, const char *table, int N, const char *method, double published, double error)
 {
-    char setting[64], text[REPORT_NUMBER];
+    char setting[64], text[NUMBER_TEXT];
     snprintf(setting, sizeof setting, "N = %d, %s", N, method);
     report_relative(r, table, setting, "printed error", published, elliptic_printed_error(error, N), 1e-3);
     snprintf(text, sizeof text, "true (95)");

@@ -17,6 +17,7 @@
 #include <string.h>
 
 #include "../common/figure.h"
+#include "../common/number.h"
 #include "../common/random.h"
 #include "../common/sparse.h"
 
@@ -358,10 +359,10 @@ static inline int64_t elliptic_numbers(const char *text, double *value, int64_t 
 {
     int64_t count = 0;
     for (;;) {
-        char *end;
+        const char *end;
         text += strspn(text, " \t\r\n");
         if (!*text) return count;
-        const double number = strtod(text, &end);
+        const double number = number_of(text, &end);
         if (end == text || !strchr(" \t\r\n", *end)) { /* finds '\0' too */
             *spoilt = count + 1;
             return -1;

@@ -48,7 +48,7 @@ if printf '#include <nanoflann.hpp>\n' > "$dir/has.cpp" && installed "$CXX" && $
         failed=1
     fi
 else
-    skip "the comparison with nanoflann" "not installed (Debian: libnanoflann-dev)"
+    skip "the comparison with nanoflann" "it is not installed (Debian: libnanoflann-dev)"
 fi
 cores=$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 1)
 [ "$cores" -ge 2 ] || skip "two threads" "there is one core"
@@ -120,8 +120,8 @@ build_variant() {
     shift 2
     count=$((count + 1))
     rm -f "$dir/$count.skipped"
-    if ! compiles "$empty" "$@"; then
-        skip "$name" "$* is not installed, or does not work here"
+    if ! runs "$empty" '' "$@"; then
+        skip "$name" "$why"
         : > "$dir/$count.skipped"
         return
     fi
@@ -130,10 +130,10 @@ build_variant() {
         [ $full = 1 ] || [ $count = 2 ] && extras="variable 2d avx2"
         if [ "$cores" -lt 2 ]; then
             :
-        elif compiles "#include <omp.h>\nint main(void) { omp_set_num_threads(2); return 0; }" "$@" -fopenmp; then
+        elif runs "#include <omp.h>\nint main(void) { omp_set_num_threads(2); return 0; }" '' "$@" -fopenmp; then
             extras="$extras omp"
         else
-            skip "$name, two threads" "$1 has no OpenMP here"
+            skip "$name, two threads" "$why"
         fi
     fi
     # another set of forms is another program
@@ -200,7 +200,7 @@ variants run_variant
 dam() {
     name=$1
     shift 2
-    compiles "$empty" "$@" || return
+    runs "$empty" '' "$@" || return
     if ! "$@" -std=c99 -Wall -Wextra -Wpedantic -o "$dir/dam" examples/papers/clustering_dam.c -lm 2> "$log"; then
         echo "$name: examples/papers/clustering_dam.c does not compile:"
         head -n 20 "$log"

@@ -7,6 +7,11 @@
 # code       every function of the headers compiled, not only parsed, so that warnings that need the optimiser come up, too: -O2, and -O3 -march=native -ffast-math (full: -O0, and both
 #            precisions of all)
 # sources    every test and example under the same warnings
+# calls      one call of every function that takes arrays (calls.sh), which is what users compile: C, in 2D, at -O2
+#            -ffast-math (full: C and C++, in every dimension and both precisions, from -O2 to -Ofast, with
+#            -ffast-math and -march=native)
+# packages   such calls (full: all of them) in both precisions as one shared library, by the flags of a Linux distribution for
+#            packages, with link-time optimisation: Fedora's (full: those of others, too)
 # runs       the self-check of tests/embedded, one program of a float part in C and a double part in C or C++:
 #            gcc, clang, tcc, musl, i686 (by qemu-i386 where the kernel runs no 32-bit programs), mingw-w64
 #            (by wine, where installed)
@@ -131,6 +136,69 @@ done
         job "code, $cc $level" "$code" "$all" -c "$scratch/only_sph.h.c" -o /dev/null
     done
 done
+
+# ---------------------------------------------------------------- calls
+
+dims=2
+[ "$full" ] && dims="1 2 3"
+# shellcheck disable=SC2086
+sh tests/compile/calls.sh double . $dims > "$scratch/double.c"
+# shellcheck disable=SC2086
+sh tests/compile/calls.sh float . $dims > "$scratch/float.c"
+check "there are calls of all functions" test "$(grep -c 'return sph_' "$scratch/double.c")" -ge $((full ? 170 : 65))
+called="-Wall -Wextra -Werror -I. -c -o /dev/null"
+user() { # COMPILER LEVEL
+    usable "calls, $1 $2" "$empty" '' "$1 $2" || return
+    job "calls, $1 $2" "$1 $2 $called $scratch/double.c"
+    [ -z "$full" ] || job "calls, $1 $2, SPH_SINGLE=1" "$1 $2 $called -DSPH_SINGLE=1 $scratch/float.c"
+}
+[ "$full" ] || user "gcc -std=c99" "-O2 -ffast-math"
+[ "$full" ] && for cc in "gcc -std=c99" "clang -std=c99" "g++ -x c++ -std=c++11" "clang++ -x c++ -std=c++11"; do
+    for level in -O2 "-O2 -ffast-math" "-O2 -march=native -fopenmp-simd -DSPH_SIMD=1" -O3 "-O3 -march=native" \
+        "-O3 -march=native -ffast-math" -Ofast; do user "$cc" "$level"; done
+done
+
+# ---------------------------------------------------------------- packages
+
+few=. # all of them take the optimiser minutes at link time
+[ "$full" ] || few=sph_derivatives_icspm
+# shellcheck disable=SC2086
+for p in double float; do sh tests/compile/calls.sh $p "$few" $dims > "$scratch/library_$p.c"; done
+# distribution NAME COMPILER 'FLAGS' 'FLAGS OF THE LINKER', with its warnings as errors
+distribution() {
+    usable "packages, $1, $2" "$empty" '' "$2" $3 -Werror -fPIC $4 || return
+    lib=$scratch/$(echo "$1-$2" | tr -c 'a-z0-9A-Z\n' _)
+    job "packages, $1, $2" "$2 $3 -Werror -fPIC -I. -c $scratch/library_double.c -o $lib.d.o &&" \
+        "$2 $3 -Werror -fPIC -I. -DSPH_SINGLE=1 -c $scratch/library_float.c -o $lib.f.o &&" \
+        "$(echo "$2" | sed 's/ -x c++//') $3 -Werror $4 -shared $lib.d.o $lib.f.o -o $lib.so -lm"
+}
+fortify=-D_FORTIFY_SOURCE=3
+for cc in "gcc -std=gnu11" "g++ -x c++" "clang -std=gnu11" "clang++ -x c++"; do
+    lto="-flto=auto -ffat-lto-objects"
+    case $full$cc in
+    g* | 1g*) ;;
+    1*) lto="-flto=thin -fuse-ld=lld" ;;
+    *) continue ;;
+    esac
+    distribution Fedora "$cc" "-O2 $lto -fexceptions -g -pipe -Wall -Wextra -Werror=format-security
+        -Wp,-U_FORTIFY_SOURCE,$fortify -Wp,-D_GLIBCXX_ASSERTIONS -fstack-protector-strong -m64
+        -fasynchronous-unwind-tables -fstack-clash-protection -fcf-protection -fno-omit-frame-pointer" \
+        "-Wl,-z,relro -Wl,--as-needed -Wl,-z,now"
+    [ "$full" ] || continue
+    distribution "Debian, hardening=+all" "$cc" "-g -O2 -fstack-protector-strong -fstack-clash-protection -Wall
+        -Wformat -Werror=format-security -fcf-protection -Wdate-time -D_FORTIFY_SOURCE=2" "-Wl,-z,relro -Wl,-z,now"
+    distribution "Ubuntu" "$cc" "-g -O2 $lto -fstack-protector-strong -fstack-clash-protection -Wall -Wformat
+        -Werror=format-security -fcf-protection -U_FORTIFY_SOURCE $fortify" "-Wl,-z,relro -Wl,-Bsymbolic-functions"
+    distribution "openSUSE" "$cc" "-O2 -Wall -U_FORTIFY_SOURCE $fortify -fstack-protector-strong -funwind-tables
+        -fasynchronous-unwind-tables -fstack-clash-protection -Werror=return-type $lto -g" -Wl,--as-needed
+    distribution "Arch" "$cc" "-march=x86-64 -mtune=generic -O2 -pipe -fno-plt -fexceptions -Wall -Wformat
+        -Werror=format-security -Wp,-U_FORTIFY_SOURCE,$fortify -fstack-clash-protection -fcf-protection
+        -fno-omit-frame-pointer $lto" "-Wl,-O1 -Wl,--sort-common -Wl,--as-needed -Wl,-z,relro -Wl,-z,now"
+    case $cc in g*) distribution "Gentoo, strict" "$cc" "-O2 $lto -Wall -Werror=odr -Werror=lto-type-mismatch
+        -Werror=strict-aliasing" '' ;; esac
+done
+[ "$full" ] && distribution "Alpine" "musl-gcc -std=c99" "-Os -Wall -Wformat -Werror=format-security
+    -fstack-clash-protection -fstack-protector-strong -flto" "-Wl,--as-needed -Wl,-O1"
 
 # ---------------------------------------------------------------- sources
 

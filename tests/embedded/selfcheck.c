@@ -136,8 +136,9 @@ enum {
 #define KERNEL SPH_WENDLAND_C2
 #define SPACING (SPH_R(1) / SPH_R(COLUMN))
 
-static sph_real x[MOST], y[MOST], vx[MOST], vy[MOST], rho[MOST], p[MOST], ax[MOST], ay[MOST], field[MOST];
-#define divergence field /* one array for both */
+static sph_real x[MOST], y[MOST], vx[MOST], vy[MOST], rho[MOST], p[MOST], ax[MOST], ay[MOST];
+#define field p /* one array for three: a particle's divergence is read before its pressure is written */
+#define divergence p
 static sph_index start[MOST + 1], list_index[ENTRIES];
 static sph_real work[WORK / (int)sizeof(sph_real) + 1];
 static int n;

@@ -63,18 +63,18 @@ for t in ${*:-$all}; do
     path "$t" || continue
     source=tests/fuzz/${t%%-*}.c corpus=tests/fuzz/corpus/${t%%-*}
     # shellcheck disable=SC2086
-    if compiles "$empty" "$CC" -fsanitize=address,undefined $flags; then
+    if usable "replay of $t" "$empty" '' "$CC" -fsanitize=address,undefined $flags; then
         for single in 0 1; do
             case $single$t in 1sparse | 1spe10 | 1restart | 1commands) continue ;; esac
             # shellcheck disable=SC2086
             check "$t, SPH_SINGLE=$single, compiles" $CC -std=c99 -I. -O0 $sanitize $flags -DSPH_SINGLE=$single "$source" tests/fuzz/replay.c -o "$scratch/$t" -lm
             check "$t, SPH_SINGLE=$single, replays $corpus" "$scratch/$t" "$corpus"/*
         done
-    else skip "replay of $t" "$CC has no sanitizers, or none of what $t needs"; fi
+    fi
     mkdir -p "$work/corpus/$t" "$work/afl"
     rm -rf "$work"/crash-"$t"-* "$work/status-$t" "$work/afl/$t"
     # shellcheck disable=SC2086
-    if compiles "$empty" "$compiler" -fsanitize=fuzzer-no-link,address,undefined $flags; then
+    if usable "fuzzing of $t" "$empty" '' "$compiler" -fsanitize=fuzzer-no-link,address,undefined $flags; then
         # shellcheck disable=SC2086
         check "$t with $compiler compiles" "$compiler" -std=c99 -I. -fsanitize=fuzzer $optimise $sanitize $flags "$source" -o "$work/$t" -lm
         if [ "$compiler" = clang ]; then
@@ -82,7 +82,7 @@ for t in ${*:-$all}; do
         else
             fuzz "$t" env AFL_NO_UI=1 AFL_SKIP_CPUFREQ=1 AFL_I_DONT_CARE_ABOUT_MISSING_CRASHES=1 afl-fuzz -V "$seconds" -t 20000 -m none -G 600 -i "$corpus" -o "$work/afl/$t" -- "$work/$t"
         fi
-    else skip "fuzzing of $t" "$compiler is not installed, or has no sanitizers, or none of what $t needs"; fi
+    fi
 done
 wait
 for t in $started; do

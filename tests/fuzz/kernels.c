@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * kernels.c - fuzz target: all scalar functions of sph_kernels.h. In the documented range (r >= 0, h > 0, r / h < 1e9, and h so that h^-5, and F next to a cusp, are numbers): finite, 0 outside of the support, W >= 0 and W' <= 0
- * where that is promised, and derivatives that differences bear out. Outside of the range: no undefined behaviour.
+ * where that is promised, and derivatives that differences bear out; Akinci's kernels finite, and 0 outside. Outside of the range: no undefined behaviour.
  */
 #include "fuzz.h"
 
@@ -38,6 +38,8 @@ static void check_pair(sph_kernel k, int dim, sph_real r, sph_real h)
     FUZZ_REQUIRE(isfinite(both.w) && isfinite(both.f));
     FUZZ_REQUIRE(fabs((double)both.w - (double)w) <= 1e3 * (double)SPH_EPSILON * fabs((double)sph_kernel_w(k, dim, SPH_R(0), h)));
     FUZZ_REQUIRE(isfinite(sph_kernel_dwdr(k, dim, r, h)) && isfinite(sph_kernel_d2wdr2(k, dim, r, h)) && isfinite(sph_kernel_dwdh(k, dim, r, h)));
+    FUZZ_REQUIRE(isfinite(sph_cohesion_kernel_akinci(r, h)) && isfinite(sph_adhesion_kernel_akinci(r, h)) && !(sph_adhesion_kernel_akinci(r, h) < SPH_R(0)));
+    if ((double)r >= (double)h * (1 + 8 * (double)SPH_EPSILON)) FUZZ_REQUIRE(fabs((double)sph_cohesion_kernel_akinci(r, h)) + (double)sph_adhesion_kernel_akinci(r, h) <= 0.0);
     if (k != SPH_SUPER_GAUSSIAN && k != SPH_LIU_QUARTIC) FUZZ_REQUIRE(!(w < SPH_R(0)) && !(f > SPH_R(0)));
     if ((double)r >= support * (1 + 8 * (double)SPH_EPSILON)) {
         FUZZ_REQUIRE(!(w > SPH_R(0)) && !(w < SPH_R(0)) && !(f > SPH_R(0)) && !(f < SPH_R(0)));
@@ -59,6 +61,7 @@ static void check_anything(int k, int dim, sph_real r, sph_real h)
     sink = (double)sph_kernel_w(kernel, dim, r, h) + (double)sph_kernel_dwdr(kernel, dim, r, h) + (double)sph_kernel_d2wdr2(kernel, dim, r, h) + (double)sph_kernel_dwdh(kernel, dim, r, h);
     sink = (double)sph_kernel_shape(kernel, dim, r) + (double)sph_kernel_shape_f(kernel, dim, r) + (double)sph_kernel_shape_d2(kernel, dim, r) + (double)sph_kernel_sigma(kernel, dim);
     sink = (double)sph_gravity_potential(kernel, r, h) + (double)sph_gravity_force(kernel, r, h) + (double)sph_gravity_dphidh(kernel, r, h);
+    sink = (double)sph_cohesion_kernel_akinci(r, h) + (double)sph_adhesion_kernel_akinci(r, h);
     sink = (double)sph_kernel_h_from_support(kernel, r) + (double)sph_kernel_support(kernel, h) + (double)sph_kernel_h_over_dx(kernel);
 }
 

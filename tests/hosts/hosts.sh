@@ -36,26 +36,69 @@ if built "the shim, an object," "$scratch/sph_shim.o" $CC -std=c99 $warn -O2 -fP
         run "the shim, float" "$scratch/test_shim-float"
     fi
 
-    fortran="gfortran -std=f2018 -Wall -Wextra -Wno-integer-division -Werror -O2 -J $scratch"
+    # as Phantom is compiled, with all checks, and with the reals that it makes of its own
+    fortran="gfortran -Wall -Wextra -Wpedantic -Werror -J $scratch"
+    modules="$hosts/sph_c.f90 $hosts/sph.f90"
     if usable Fortran end '' "$fortran -x f95 -ffree-form" -lm; then
         # shellcheck disable=SC2086
         built Fortran "$scratch/host_f90" \
-            $fortran $hosts/sph.f90 $hosts/host.f90 "$scratch/sph_shim.o" -o "$scratch/host_f90" -lm &&
+            $fortran -std=f2008 -O2 $modules $hosts/host.f90 "$scratch/sph_shim.o" -o "$scratch/host_f90" -lm &&
             run Fortran "$scratch/host_f90"
+        for flags in "-std=f2008 -O2" "-std=f2018 -O1 -fcheck=all" "-std=f2008 -O2 -fdefault-real-8 -fdefault-double-8"; do
+            # shellcheck disable=SC2086
+            built "the test of its module, $flags," "$scratch/test_fortran" \
+                $fortran $flags $modules tests/hosts/test_fortran.f90 "$scratch/sph_shim.o" -o "$scratch/test_fortran" -lm &&
+                run "the test of its module, $flags" "$scratch/test_fortran"
+        done
+        # shellcheck disable=SC2086
+        if needs "Fortran against C" python3 && check "calls in Fortran and in C" python3 tests/hosts/fortran_calls.py "$scratch" &&
+            built "calls in C" "$scratch/calls.o" $CC -std=c99 $warn -O1 "$not_inlined" -I. -c "$scratch/calls.c" -o "$scratch/calls.o" &&
+            built "calls in Fortran" "$scratch/calls" \
+                $fortran -std=f2008 $modules "$scratch/calls.f90" "$scratch/calls.o" "$scratch/sph_shim.o" -o "$scratch/calls" -lm; then
+            run "Fortran against C" "$scratch/calls"
+        fi
     fi
 
     if needs Python python3 && works Python python3 -S -c ''; then
+        # every operator: through the shim, inline, and through Python
+        check "calls of every operator, in C," sh -c "python3 -S tests/hosts/shim_calls.py C > '$scratch/shim_calls.c'"
+        if built "calls of every operator" "$scratch/shim_calls" $CC -std=c99 -O1 "$not_inlined" -I. "$scratch/shim_calls.c" "$scratch/sph_shim.o" -o "$scratch/shim_calls" -lm; then
+            run "every operator, shim and inline" sh -c "'$scratch/shim_calls' > '$scratch/sums'"
+            run "every operator, Python and inline" python3 -S tests/hosts/shim_calls.py "$scratch/libsph_shim.so" "$scratch/sums" without-numpy
+        fi
         run "Python, array module" python3 -S $hosts/host.py "$scratch/libsph_shim.so" # -S: without installed packages
-        run "Python, what it refuses" python3 tests/hosts/test_python.py "$scratch/libsph_shim.so" without-numpy
+        run "Python, what it takes and refuses" python3 tests/hosts/test_python.py "$scratch/libsph_shim.so" without-numpy
         numpy=
         for python in python3 /usr/bin/python3; do
             [ -z "$numpy" ] && "$python" -c 'import numpy' 2> "$scratch/why" && numpy=$python
         done
         if [ -n "$numpy" ]; then
             run "Python, numpy" "$numpy" $hosts/host.py "$scratch/libsph_shim.so"
-            run "Python, what it refuses of numpy" "$numpy" tests/hosts/test_python.py "$scratch/libsph_shim.so"
+            run "Python, what it takes and refuses of numpy" "$numpy" tests/hosts/test_python.py "$scratch/libsph_shim.so"
+            run "every operator, numpy and inline" "$numpy" tests/hosts/shim_calls.py "$scratch/libsph_shim.so" "$scratch/sums"
+            if "$numpy" -m pytest --version > /dev/null 2>&1; then
+                run "Python, by pytest" env SPH_LIBRARY="$scratch/libsph_shim.so" "$numpy" -m pytest -q -p no:cacheprovider tests/hosts/test_python.py
+            else
+                skip "Python, by pytest (Debian: python3-pytest)" "it is not installed"
+            fi
         else
             skip "Python with numpy (Debian: python3-numpy)" "$(tail -n 1 "$scratch/why")"
+        fi
+        # of a copy, because setuptools builds below the sources; without constant kernels, to compile fast
+        installer="pip install (Debian: python3-pip python3-setuptools python3-wheel)"
+        pip=
+        for python in python3 /usr/bin/python3; do
+            [ -z "$pip" ] && "$python" -c 'import setuptools, wheel, pip' 2> "$scratch/why" && pip=$python
+        done
+        if [ -z "$pip" ]; then
+            skip "$installer" "$(tail -n 1 "$scratch/why")"
+        else
+            mkdir -p "$scratch/source/examples/hosts"
+            cp ./sph.h ./sph_ops.h ./sph_kernels.h pyproject.toml setup.py README.md "$scratch/source"
+            cp -R $hosts/sph $hosts/sph_shim* "$scratch/source/examples/hosts"
+            what="pip install"
+            check "$what" env CFLAGS='-O1 -DSHIM_CONSTANT_KERNELS(EACH)=' "$pip" -m pip install --quiet --no-index --no-build-isolation --target "$scratch/site" "$scratch/source"
+            run "Python, installed" sh -c "cd / && PYTHONPATH='$(cd "$scratch" && pwd)/site' '$pip' -c 'import sph; print(sph.__file__, sph.kernel_w(\"m4\", 3, 0, 1))'"
         fi
     fi
 fi

@@ -356,6 +356,10 @@ KERNELS = [
     ("convex-wendland-c2", lambda dim: convexified(WENDLAND_C2)),
     ("convex-wendland-c4", lambda dim: convexified(WENDLAND_C4)),
     ("core-triangle", lambda dim: core_triangle(THIRD)),
+    ("sextic-spline", lambda dim: truncated_powers(6, (1, 7 * HALF), (-7, 5 * HALF), (21, 3 * HALF), (-35, HALF))),
+    ("heptic-spline", lambda dim: truncated_powers(7, (1, 4), (-8, 3), (28, 2), (-56, 1))),
+    ("poly6", lambda dim: Piecewise((2, (1 - x**2) ** 3))),
+    ("spiky", lambda dim: Piecewise((2, (1 - x) ** 3))),
 ]
 
 
@@ -376,11 +380,15 @@ PUBLISHED_SIGMA = {
     "liu-quartic": ("1", "15/(7 pi)", "315/(208 pi)"),
     "convex": ("5/48", "15/(64 pi)", "21/(128 pi)"),
     "convex-cubic-spline": ("15/14", "3/pi", "315/(124 pi)"),
+    "sextic-spline": ("1/720", "256/(113149 pi)", "1/(840 pi)"),
+    "heptic-spline": ("1/5040", "9/(29740 pi)", "1/(6720 pi)"),
+    "poly6": (None, "1/pi", "315/(512 pi)"),
+    "spiky": (None, "5/(2 pi)", "15/(8 pi)"),
 }
 
 SLOPED_AT_ORIGIN = {"schuessler-schmitt", "johnson-beissel", "convex",
                     "convex-cubic-spline", "convex-wendland-c2",
-                    "convex-wendland-c4", "core-triangle"}
+                    "convex-wendland-c4", "core-triangle", "spiky"}
 
 
 def require(truth, what):
@@ -489,7 +497,7 @@ HEADER = """\
 # are rounded to 30 significant digits, exact zeros being written as 0.
 # r/h >= support: W, dWdr, F, d2Wdr2 and dWdh are 0, also on the edge itself.
 # r = 0: dWdr = 0 and F is its finite limit where the slope vanishes at the
-#   origin. Where it does not (johnson-beissel, convex, convex-*,
+#   origin. Where it does not (johnson-beissel, convex, convex-*, spiky,
 #   core-triangle) dWdr and F are 0 by convention and d2Wdr2 is the limit from
 #   r > 0; schuessler-schmitt, whose slope is infinite there, has no such row.
 # Interior knots: W and its first two derivatives are continuous.
@@ -497,8 +505,9 @@ kernel,dim,h,r,sigma,W,dWdr,F,d2Wdr2,dWdh"""
 
 # Values of q for the rows with h = 1, and for those with h = 0.75.
 Q_UNIT_H = [Fraction(n, 16) for n in
-            (0, 1, 4, 8, 12, 16, 18, 24, 28, 31, 32, 36, 40, 44, 47, 48, 52)]
-Q_OTHER_H = [Fraction(n, 8) for n in (1, 5, 10, 15, 19, 23)]
+            (0, 1, 4, 8, 12, 16, 18, 24, 28, 31, 32, 36, 40, 44, 47, 48, 52,
+             55, 56, 60, 63, 64, 68)]
+Q_OTHER_H = [Fraction(n, 8) for n in (1, 5, 10, 15, 19, 23, 27, 31)]
 
 
 def points(kernel):

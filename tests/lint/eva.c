@@ -35,6 +35,8 @@ static void at(sph_real r, sph_real h)
     sph_kernel_dwdr(any, dim, r, h);
     sph_kernel_d2wdr2(any, dim, r, h);
     sph_kernel_dwdh(any, dim, r, h);
+    sph_cohesion_kernel_akinci(r, h);
+    sph_adhesion_kernel_akinci(r, h);
     for (i = 0; i < 4; i++) {
         sph_gravity_potential(softened[i], r, h);
         sph_gravity_force(softened[i], r, h);

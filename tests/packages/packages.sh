@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Every way to get the headers but copying them: installed by make, CMake, Meson, as a Debian package and as
-# one file; a host is built from each and run. Skips aloud where a tool is not installed, or does not work.
+# one file. All that install give the same files, byte for byte. A host is built from each and run, in a
+# folder with a space. Skips aloud where a tool is not installed, or does not work.
 #     make check-packages
 . tests/check.sh
 root=$PWD
@@ -9,33 +10,48 @@ here=$root/tests/packages
 version=$(make -s version)
 says="sph.h $version: density"
 scratch=$(cd "$scratch" && pwd)
+place="$scratch/a folder"
+mkdir -p "$place"
 
 # a command after which the program $1 must exist and print its version
 host() {
     program=$1
     shift
-    "$@" > "$scratch/output" 2>&1 && "$program" > "$scratch/said" 2>&1 && grep -q -F "$says" "$scratch/said" && return
+    : > "$scratch/said"
+    "$@" > "$scratch/output" 2>&1 && "$program" > "$scratch/said" 2>&1 &&
+        grep -q -F "$says" "$scratch/said" && return
     cat "$scratch/output" "$scratch/said" 2> /dev/null
     return 1
 }
 
-check "versions agree" test "$(sed -n 's/.*"version": "\(.*\)".*/\1/p' "$here/vcpkg/vcpkg.json") $(sed -n '1s/.*(\(.*\)).*/\1/p' "$here/debian/changelog")" = "$version $version"
-check "the change log has this version" grep -q "^## $version" CHANGELOG.md
+check "vcpkg: the version" grep -q "\"version\": \"$version\"" "$here/vcpkg/sph/vcpkg.json"
+check "debian: the version" sh -c "head -n 1 '$here/debian/changelog' | grep -F '($version)'"
+check "the citation: the version" grep -q -x "version: $version" CITATION.cff
+check "the change log: version and date" \
+    grep -q -x "## $version ($(sed -n 's/^date-released: //p' CITATION.cff))" CHANGELOG.md
 
-# ---- make install ----
-check "make install" make -s install PREFIX=/usr DESTDIR="$scratch/installed"
-check "what is installed" test "$(cd "$scratch/installed" && find . -type f | LC_ALL=C sort | tr '\n' ' ')" = \
-    "./usr/include/sph.h ./usr/include/sph_kernels.h ./usr/include/sph_ops.h ./usr/share/pkgconfig/sph.pc "
-check "host of installed headers" host "$scratch/plain" $CC -std=c99 -o "$scratch/plain" -I"$scratch/installed/usr/include" "$here/consumer/main.c" -lm
+# ---- make install: to a relative prefix with a space, which then moves ----
+check "make install" make -s install PREFIX="made here" DESTDIR="$place/"
+mv "$place/made here" "$place/moved"
+moved=$place/moved
+check "what is installed" test "$(cd "$moved" && find . -type f | LC_ALL=C sort)" = "./include/sph.h
+./include/sph_kernels.h
+./include/sph_ops.h
+./share/cmake/sph/sphConfig.cmake
+./share/cmake/sph/sphConfigVersion.cmake
+./share/pkgconfig/sph.pc"
+check "host of installed headers" host "$place/plain" \
+    $CC -std=c99 -o "$place/plain" -I"$moved/include" "$here/consumer/main.c" -lm
+by_pkg_config() { # its flags have escapes for the shell
+    eval "$CC -std=c99 -o '$place/pc' '$here/consumer/main.c' $(pkg-config --cflags --libs sph)"
+}
+export PKG_CONFIG_PATH="$moved/share/pkgconfig"
 if needs pkg-config pkg-config && works pkg-config pkg-config --version; then
-    export PKG_CONFIG_SYSROOT_DIR="$scratch/installed" PKG_CONFIG_PATH="$scratch/installed/usr/share/pkgconfig"
     check "pkg-config: version" test "$(pkg-config --modversion sph)" = "$version"
-    # shellcheck disable=SC2046
-    check "host by pkg-config" host "$scratch/pc" $CC -std=c99 -o "$scratch/pc" "$here/consumer/main.c" $(pkg-config --keep-system-cflags --cflags --libs sph)
-    unset PKG_CONFIG_SYSROOT_DIR PKG_CONFIG_PATH
+    check "host by pkg-config" host "$place/pc" by_pkg_config
 fi
-check "make uninstall" make -s uninstall PREFIX=/usr DESTDIR="$scratch/installed"
-check "nothing is left" test -z "$(find "$scratch/installed" -type f)"
+check "make uninstall" sh -c "cp -r '$moved' '$place/gone' && make -s uninstall PREFIX='$place/gone'"
+check "nothing is left" test -z "$(find "$place/gone" -type f -o -name sph)"
 
 # ---- one file: the tests of the headers must say of it what they say of the three ----
 sh "$here/amalgamate.sh" > "$scratch/sph_all.h"
@@ -56,10 +72,10 @@ done
 # ---- make dist ----
 tarball=
 if needs "make dist" git && works "make dist" git -C "$root" rev-parse HEAD; then
-    check "make dist" make -s dist DIST="$scratch/dist"
-    tarball=$scratch/dist/sph-$version.tar.gz
+    check "make dist" make -s dist DIST="$place/dist"
+    tarball=$place/dist/sph-$version.tar.gz
     check "the tarball has the headers" sh -c "tar -tzf '$tarball' | grep -q '^sph-$version/sph_ops.h'"
-    check "sph_all.h beside it" test -s "$scratch/dist/sph_all.h"
+    check "sph_all.h beside it" test -s "$place/dist/sph_all.h"
 fi
 
 # a program that the tools below have to build before they count
@@ -73,48 +89,86 @@ printf 'cmake_minimum_required(VERSION 3.14)\nproject(trivial C)\nadd_executable
 cmake_trivial() {
     cmake -S "$trivial" -B "$trivial/cmake" && cmake --build "$trivial/cmake" && "$trivial/cmake/trivial"
 }
+cmake_install() {
+    cmake -S "$root" -B "$place/cmake" -DCMAKE_INSTALL_PREFIX=/nowhere &&
+        cmake --install "$place/cmake" --prefix "$place/by cmake"
+}
 cmake_host() { # name, options ...
-    build=$scratch/cmake-$1
+    build=$place/cmake-$1
     shift
     cmake -S "$here/consumer" -B "$build" "$@" && cmake --build "$build"
 }
+found() { # the version that a host asks for
+    cmake -DPACKAGE_FIND_VERSION="$1" -P "$scratch/found.cmake"
+}
 if needs CMake cmake && works CMake cmake_trivial; then
-    check "cmake: install" sh -c "cmake -S '$root' -B '$scratch/cmake' -DCMAKE_INSTALL_PREFIX='$scratch/prefix' > '$scratch/output' 2>&1 && cmake --install '$scratch/cmake' >> '$scratch/output'"
-    check "cmake: find_package" host "$scratch/cmake-package/consumer" cmake_host package -DVIA=package -DCMAKE_PREFIX_PATH="$scratch/prefix"
-    check "cmake: add_subdirectory" host "$scratch/cmake-subdirectory/consumer" cmake_host subdirectory -DVIA=subdirectory -DSOURCE="$root"
-    if [ -n "$tarball" ]; then check "cmake: FetchContent" host "$scratch/cmake-fetch/consumer" cmake_host fetch -DVIA=fetch -DSOURCE="$tarball"; fi
+    check "cmake: install" cmake_install
+    check "cmake: the same files" diff -r "$moved" "$place/by cmake"
+    check "cmake: find_package" host "$place/cmake-package/consumer" \
+        cmake_host package -DVIA=package -DCMAKE_PREFIX_PATH="$moved"
+    check "cmake: add_subdirectory" host "$place/cmake-subdirectory/consumer" \
+        cmake_host subdirectory -DVIA=subdirectory -DSOURCE="$root"
+    if [ -n "$tarball" ]; then
+        check "cmake: FetchContent" host "$place/cmake-fetch/consumer" \
+            cmake_host fetch -DVIA=fetch -DSOURCE="$tarball"
+    fi
+    printf 'include("%s")\nif(NOT PACKAGE_VERSION_COMPATIBLE)\nmessage(FATAL_ERROR refused)\nendif()\n' \
+        "$moved/share/cmake/sph/sphConfigVersion.cmake" > "$scratch/found.cmake"
+    for asked in "$version" "${version%.*}"; do check "cmake: finds $asked" found "$asked"; done
+    for asked in 0.0 0.1 0.1.9 "$version.1" "${version%.*}.99" 99; do
+        check "cmake: does not take this for $asked" answers 1 refused found "$asked"
+    done
 fi
 
 # ---- Meson ----
 printf "project('trivial', 'c')\nexecutable('trivial', 'trivial.c')\n" > "$trivial/meson.build"
-meson_host() { # project folder, build folder
-    meson setup "$2" "$1" && meson compile -C "$2"
+meson_host() { # project folder, build folder, options
+    project=$1 build=$2
+    shift 2
+    meson setup "$build" "$project" "$@" && meson compile -C "$build"
 }
 meson_trivial() { meson_host "$trivial" "$trivial/meson" && "$trivial/meson/trivial"; }
+meson_install() {
+    meson setup "$place/meson-sph" "$root" --prefix /usr &&
+        DESTDIR="$place/by meson" meson install -C "$place/meson-sph"
+}
 if needs Meson meson ninja && works Meson meson_trivial; then
-    mkdir -p "$scratch/meson/subprojects/sph"
-    cp "$here/consumer/main.c" "$here/consumer/meson.build" "$scratch/meson"
-    cp sph.h sph_ops.h sph_kernels.h meson.build "$scratch/meson/subprojects/sph"
-    check "meson: subproject" host "$scratch/meson/build/consumer" meson_host "$scratch/meson" "$scratch/meson/build"
-    check "meson: install" sh -c "meson setup '$scratch/meson-sph' '$root' --prefix /usr > '$scratch/output' 2>&1 && DESTDIR='$scratch/meson-installed' meson install -C '$scratch/meson-sph' >> '$scratch/output'"
-    check "meson: the same files" test "$(cd "$scratch/meson-installed" && find . -type f | LC_ALL=C sort | tr '\n' ' ')" = \
-        "./usr/include/sph.h ./usr/include/sph_kernels.h ./usr/include/sph_ops.h ./usr/share/pkgconfig/sph.pc "
+    mkdir -p "$place/meson/subprojects/sph/tests/packages"
+    cp "$here/consumer/main.c" "$here/consumer/meson.build" "$place/meson"
+    cp sph.h sph_ops.h sph_kernels.h meson.build "$place/meson/subprojects/sph"
+    cp -r "$here/install" "$place/meson/subprojects/sph/tests/packages"
+    check "meson: subproject" host "$place/meson/build/consumer" \
+        meson_host "$place/meson" "$place/meson/build" --force-fallback-for=sph
+    check "meson: install" meson_install
+    check "meson: the same files" diff -r "$moved" "$place/by meson/usr"
+    if installed pkg-config; then
+        check "meson: installed" host "$place/meson-installed/consumer" \
+            meson_host "$here/consumer" "$place/meson-installed" --wrap-mode=nofallback
+    fi
 fi
 
 # ---- Debian, Conan, vcpkg ----
 debian_package() {
-    mkdir -p "$scratch/debian" && cp -r Makefile LICENSE sph.h sph_ops.h sph_kernels.h "$here/debian" "$scratch/debian" &&
-        (cd "$scratch/debian" && dpkg-buildpackage -us -uc -b) && dpkg-deb -x "$scratch/libsph-dev_${version}_all.deb" "$scratch/deb" &&
-        $CC -std=c99 -o "$scratch/deb/host" -I"$scratch/deb/usr/include" "$here/consumer/main.c" -lm
+    mkdir -p "$place/debian/tests/packages" &&
+        cp -r Makefile LICENSE sph.h sph_ops.h sph_kernels.h "$here/debian" "$place/debian" &&
+        cp -r "$here/install" "$place/debian/tests/packages" &&
+        (cd "$place/debian" && dpkg-buildpackage -us -uc -b) &&
+        dpkg-deb -x "$place/libsph-dev_${version}_all.deb" "$place/by debian" &&
+        $CC -std=c99 -o "$place/by debian/host" -I"$place/by debian/usr/include" "$here/consumer/main.c" -lm
 }
 package="the Debian package"
 if needs "$package" dpkg-buildpackage dh && works "$package" dpkg-checkbuilddeps "$here/debian/control"; then
-    check "debian: libsph-dev" host "$scratch/deb/host" debian_package
+    check "debian: libsph-dev" host "$place/by debian/host" debian_package
+    check "debian: the same files" diff -r -x doc "$moved" "$place/by debian/usr"
+    if needs "lintian's word on the Debian package" lintian; then
+        check "debian: lintian" lintian --no-cfg --allow-root --fail-on error "$place"/sph_*.changes
+    fi
 fi
+check "vcpkg: the port has the name of its folder" grep -q '"name": "sph"' "$here/vcpkg/sph/vcpkg.json"
 if needs "the Conan recipe" conan && works "the Conan recipe" conan profile show; then
     check "conan: create" conan create "$here/conan"
 fi
 if needs "the vcpkg port" vcpkg && works "the vcpkg port" vcpkg version; then
-    check "vcpkg: install" vcpkg install sph --overlay-ports="$here"
+    check "vcpkg: install" vcpkg install sph --overlay-ports="$here/vcpkg"
 fi
 finish packages

@@ -12,6 +12,7 @@ class Sph(ConanFile):
     description = "Header-only C99 toolkit of kernels and operators for smoothed particle hydrodynamics"
     license = "MIT"
     package_type = "header-library"
+    settings = "os", "arch", "compiler", "build_type"  # of the host, which alone is compiled
     no_copy_source = True
     headers = ("sph.h", "sph_ops.h", "sph_kernels.h")
 
@@ -20,7 +21,7 @@ class Sph(ConanFile):
 
     def set_version(self):
         text = load(self, os.path.join(self._root(), "sph_kernels.h"))
-        self.version = ".".join(re.search(rf"#define SPH_VERSION_{part} (\d+)", text).group(1) for part in ("MAJOR", "MINOR", "PATCH"))
+        self.version = ".".join(re.findall(r"#define SPH_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)", text))
 
     def export_sources(self):
         for name in (*self.headers, "LICENSE"):
@@ -35,6 +36,11 @@ class Sph(ConanFile):
         self.info.clear()
 
     def package_info(self):
+        # what find_package(sph) and pkg-config find: Conan writes these files itself
+        self.cpp_info.set_property("cmake_file_name", "sph")
+        self.cpp_info.set_property("cmake_target_name", "sph::sph")
+        self.cpp_info.set_property("pkg_config_name", "sph")
         self.cpp_info.bindirs = []
         self.cpp_info.libdirs = []
-        self.cpp_info.system_libs = ["m"] if self.settings.get_safe("os") != "Windows" else []
+        if self.settings.os in ("Linux", "FreeBSD"):
+            self.cpp_info.system_libs = ["m"]

@@ -1,0 +1,1573 @@
+# SPDX-License-Identifier: MIT
+"""A method for every operator of the headers, and a function for every number.
+Written by examples/hosts/generate.py from the headers: run it again instead of changing this file."""
+
+from typing import Any, Sequence, Union
+
+Array = Any  # numpy's, or of the module array
+Scalars = Union[float, Array, None]  # one number for all, or one for each particle
+Vectors = Union[Array, Sequence[Array], None]  # of shape (n, dim), or one array for each component
+Indices = Array
+
+
+class Operators:
+    """The sweeps, as methods of Cloud. Outputs are new arrays."""
+
+    def _call(self, name: str, values: dict) -> Any:
+        raise NotImplementedError
+
+    def shepard_sum(self) -> Array:
+        """sph_shepard_sum: gamma_i = sum_j V_j W_ij, with itself
+
+        gamma_i = sum_j V_j W_ij, the particle itself included. It is 1 in the interior of a regular cloud,
+        and about 1/2 at a plane boundary. Sources: Shepard 1968; (4.10) of the ICSPM paper (see second
+        derivatives). Where the sum overflows, the result is 0 and SPH_NOT_FINITE.
+        """
+        return self._call("shepard_sum", locals())
+
+    def interpolate_shepard(self, f: Scalars) -> Array:
+        """sph_interpolate_shepard: sum_j V_j f_j W_ij / gamma_i
+
+        f_i = sum_j V_j f_j W_ij / sum_j V_j W_ij, the particle itself included. It is exact for constants;
+        the error is O(h^2) in the interior of a regular cloud, and O(h) in disorder and at a boundary.
+        Shepard 1968. A target of volume 0 is a probe. The result is 0 where the sum of weights is not
+        positive (SPH_TOO_FEW) or a sum overflows (SPH_NOT_FINITE).
+        """
+        return self._call("interpolate_shepard", locals())
+
+    def density_summation(self, m: Scalars) -> Array:
+        """sph_density_summation: sum_j m_j W_ij, with itself
+
+        rho_i = sum_j m_j W_ij(h_i), the particle itself included (a probe has the mass 0). The error is
+        O(h^2) in the interior of a regular cloud, and about rho / 2 at a free surface. h is given here;
+        sph_density_adaptive finds an h that follows rho. Where the sum overflows, the result is 0 and
+        SPH_NOT_FINITE.
+        """
+        return self._call("density_summation", locals())
+
+    def density_adaptive(
+        self,
+        m: Scalars,
+        h: Scalars,
+        list_radius: Scalars = None,
+        eta: float = 0.0,
+        tolerance: float = 0.0,
+    ) -> Any:
+        """sph_density_adaptive: with the h that belongs to it, and Omega
+
+        Density and smoothing length that belong together, and the factor Omega of the equations of motion
+        with that h (sources: see the beginning of this chapter). The particle itself is in all sums: h_i
+        = eta (m_i / rho_i)^(1/dim)   to   |eta (m_i / rho_i)^(1/dim) / h_i - 1| <= tolerance, rho_i   = sum_j
+        m_j W_ij(h_i), Omega_i = 1 + h_i / (dim rho_i) sum_j m_j dW_ij/dh_i. On a lattice of spacing dx, h is
+        eta dx, but for the error of the kernel there. The method never diverges, and with a good guess makes
+        two or three passes over the list. list_radius  h_i is never made longer than list_radius_i / support
+        ratio. A list_radius is at most half a periodic length. h            Before the call: a guess for each
+        target (any positive number). After it: the result. The status of a target that is not SPH_OK:
+        SPH_LIST_TOO_SHORT   h would have to be longer. h[i] is the one to try next (at most twice the longest
+        that was allowed); rho and omega are those at list_radius_i / support ratio. Build a list that is
+        longer where h[i] * support ratio exceeds list_radius_i, and call again. Or stop at the longest h that
+        makes sense, and keep rho and omega. SPH_TOO_FEW          No h is long enough, because all sources (in
+        a periodic box: all within half of it) have too little mass. A particle alone is such a case: its rho
+        h^dim is a constant, so that every h fits or none. h[i] is list_radius_i / support ratio; rho and
+        omega are 0. SPH_SINGULAR         No h is short enough, because at any h the particle, with those that
+        coincide with it, has more mass than eta^dim allows: eta is too small, or particles have clumped in
+        one point. rho and omega are 0. h[i] is too short to reach any particle elsewhere; it is the guess, if
+        that was so short. SPH_NOT_AVAILABLE    m_i is not positive. rho and omega are 0; h[i] is as it was.
+        SPH_ILL_CONDITIONED  rho jumps across the solution. This happens with kernels that are cut off at
+        their edge (the Gaussians). h[i] is the place of the jump; rho and omega are those there.
+        SPH_NOT_FINITE       The sums overflowed. rho and omega are 0; h[i] is where that happened. Errors,
+        besides those of all sweeps: SPH_ERROR_H for a guess or a list_radius that is not finite and positive,
+        SPH_ERROR_VALUE for eta or tolerance out of range, SPH_ERROR_BOX for a list_radius beyond half the
+        box. Ranges of targets may run in parallel, because a range reads only its own entries of h.
+
+        h: first guess of h
+        list_radius: the list of target i holds every source with r < list_radius_i; no default
+        eta: h = eta (m / rho)^(1/dim); 0: sph_kernel_h_over_dx(k)
+        tolerance: relative, of h, below 1; 0: 1e-3. At least 64 unit round-offs are used
+        """
+        return self._call("density_adaptive", locals())
+
+    def gradient_difference(self, f: Scalars) -> Array:
+        """sph_gradient_difference: sum_j V_j (f_j - f_i) grad_i W_ij
+
+        grad f_i = sum_j V_j (f_j - f_i) grad_i W_ij, without correction. Exact for constants; for source and
+        errors see sph_gradient_pair_difference. Where a component overflows, the gradient is 0 and the target
+        counts as failed.
+        """
+        return self._call("gradient_difference", locals())
+
+    def gradient_cspm(self, f: Scalars) -> Any:
+        """sph_gradient_cspm: corrected: exact for linear fields
+
+        grad f_i = K^-1 sum_j V_j (-F_ij) e (f_j - f_i) with K = sum_j V_j (-F_ij) e e^T and e = x_j - x_i. It
+        is exact for linear fields at any particle; the error is O(h^2) in the interior of a regular cloud,
+        and O(h) in disorder and at a boundary. Sources: Randles & Libersky 1996, CMAME 139, 375; in 1D CSPM,
+        (3.5) of the ICSPM paper (with W', where its list under (5.17) prints W). Of out, gx (with gy and gz
+        as dim needs them) is filled, and conditioning and status if they are not null. conditioning is the
+        smallest pivot of K scaled to a unit diagonal, in [0, 1]. A target needs dim neighbours inside its
+        support; in 2D not all may be on one line with it, in 3D not all in one plane with it. Else the
+        gradient is 0, with SPH_TOO_FEW or SPH_SINGULAR. Where a component overflows, it is 0 with
+        SPH_NOT_FINITE.
+        """
+        return self._call("gradient_cspm", locals())
+
+    def gradient_rows_cspm(self) -> Any:
+        """sph_gradient_rows_cspm: the same as rows
+
+        The same gradient as rows: grad f_i = sum_p (x[p], y[p], z[p]) (f_j - f_i), where p runs along the
+        list of i and j = index[p]. The rows of a target that is not SPH_OK are 0.
+
+        (What is the same: see gradient_cspm.)
+        """
+        return self._call("gradient_rows_cspm", locals())
+
+    def laplacian_brookshaw(self, f: Scalars) -> Array:
+        """sph_laplacian_brookshaw: sum_j 2 V_j (f_i - f_j) F_ij
+
+        L f_i = sum_j 2 V_j (f_i - f_j) F_ij. For source and errors see sph_laplacian_weight_brookshaw. Where
+        the sum overflows, the result is 0 and SPH_NOT_FINITE.
+        """
+        return self._call("laplacian_brookshaw", locals())
+
+    def laplacian_rows_brookshaw(self) -> Any:
+        """sph_laplacian_rows_brookshaw.
+
+        The same Laplacian as rows: L f_i = sum_p row[p] (f_j - f_i) with row[p] = -2 V_j F_ij >= 0, factor 1
+        and conditioning 1. A row that overflows is 0, with SPH_NOT_FINITE.
+
+        (What is the same: see laplacian_brookshaw.)
+        """
+        return self._call("laplacian_rows_brookshaw", locals())
+
+    def derivatives_cspm(self, f: Scalars, conditioning_min: float = 0.0, fallback_wls: int = 0) -> Any:
+        """sph_derivatives_cspm: gradient, Hessian, Laplacian
+
+        Gradient, Hessian and Laplacian (the trace of the Hessian) by CSPM: h grad f = K^-1 sum g e df,   h^2
+        hess = M^-1 (sum w e e df - A h grad f), in 1D (3.5) and (5.15) of the ICSPM paper. The gradient is
+        exact for linear fields, the Hessian for quadratic fields in the interior of symmetric clouds only.
+        The Hessian has an error O(1) at boundaries: in 1D it is kappa f'' instead of f''. conditioning is the
+        smallest pivot of the scaled matrices, in [0, 1]. A target below conditioning_min is
+        SPH_ILL_CONDITIONED and keeps its values. All values are 0 where the neighbours do not determine them
+        (SPH_TOO_FEW if the support holds fewer than 1, 3 or 6 neighbours in 1D, 2D or 3D, else SPH_SINGULAR),
+        and where one overflows (SPH_NOT_FINITE).
+
+        conditioning_min: A target whose |conditioning| is smaller is SPH_ILL_CONDITIONED; >= 0. 0: no target
+        is.
+        fallback_wls: For ICSPM. 1: targets that are singular or ill-conditioned get the values of WLS.
+        """
+        return self._call("derivatives_cspm", locals())
+
+    def derivatives_icspm(self, f: Scalars, conditioning_min: float = 0.0, fallback_wls: int = 0) -> Any:
+        """sph_derivatives_icspm: exact for quadratics
+
+        Gradient, Hessian and Laplacian by ICSPM, the solution of the whole system: (5.17) of the ICSPM paper
+        in 1D. They are exact for quadratic fields wherever the system is not singular. conditioning is kappa
+        in 1D, and sign(det kappa) / |kappa^-1| in general. A target whose |conditioning| is below
+        conditioning_min is SPH_ILL_CONDITIONED and keeps its values. Where there are boundaries and disorder,
+        0.2 is a good conditioning_min in 1D, and 0.02 in 2D and 3D; 0 is the published method. With
+        fallback_wls = 1, targets that are ill-conditioned or singular get the values of WLS and are
+        SPH_FELL_BACK. Where there is no answer, the values and the status are as for CSPM, but with 2, 5 or 9
+        neighbours.
+
+        conditioning_min: A target whose |conditioning| is smaller is SPH_ILL_CONDITIONED; >= 0. 0: no target
+        is.
+        fallback_wls: For ICSPM. 1: targets that are singular or ill-conditioned get the values of WLS.
+        """
+        return self._call("derivatives_icspm", locals())
+
+    def derivatives_wls(self, f: Scalars, conditioning_min: float = 0.0, fallback_wls: int = 0) -> Any:
+        """sph_derivatives_wls: likewise, by least squares: robust
+
+        Gradient, Hessian and Laplacian by weighted least squares, the robust sibling of ICSPM. They are exact
+        for quadratic fields. Where kernel and volumes are not negative, the matrix is definite wherever the
+        neighbours determine a quadratic field, and conditioning, which is that of ICSPM, is in [0, 1].
+        conditioning_min, and the values and the status where there is no answer, are as for ICSPM; there is
+        no fallback.
+
+        conditioning_min: A target whose |conditioning| is smaller is SPH_ILL_CONDITIONED; >= 0. 0: no target
+        is.
+        fallback_wls: For ICSPM. 1: targets that are singular or ill-conditioned get the values of WLS.
+        """
+        return self._call("derivatives_wls", locals())
+
+    def derivatives_rows_cspm(self, gradient: Sequence[float] = (), hessian: Sequence[float] = ()) -> Any:
+        """sph_derivatives_rows_cspm: rows of a combination d of derivatives
+
+        Rows of the operator d (see sph_jet) by CSPM: sum_p row[p] (f_j - f_i) = factor[i] D f_i with factor
+        1. It is exact for what sph_derivatives_cspm is exact for. The row of a target that is not SPH_OK is
+        0, and so is its factor. SPH_ERROR_VALUE for a d that is not finite.
+        """
+        return self._call("derivatives_rows_cspm", locals())
+
+    def derivatives_rows_icspm(self, gradient: Sequence[float] = (), hessian: Sequence[float] = ()) -> Any:
+        """sph_derivatives_rows_icspm: with the factor kappa
+
+        The same by ICSPM: sum_p row[p] (f_j - f_i) = factor[i] D f_i, exact for quadratic fields. The factor
+        is the kappa of the paper. In 1D the rows are those of CSPM, and a boundary value problem u'' = b
+        becomes sum_p row[p] (u_j - u_i) = kappa_i b(x_i). Nothing is ever divided by kappa, so that a target
+        where kappa is 0 is SPH_OK here.
+
+        (What is the same: see derivatives_rows_cspm.)
+        """
+        return self._call("derivatives_rows_icspm", locals())
+
+    def derivatives_rows_wls(self, gradient: Sequence[float] = (), hessian: Sequence[float] = ()) -> Any:
+        """sph_derivatives_rows_wls.
+
+        The same by WLS, exact for quadratic fields, with factor 1.
+
+        (What is the same: see derivatives_rows_cspm.)
+        """
+        return self._call("derivatives_rows_wls", locals())
+
+    def second_derivative_bim(self, f: Scalars, left: int, right: int) -> Array:
+        """sph_second_derivative_bim: 1D, with boundary integrals
+
+        The second derivative in 1D by boundary integrals, where `left` and `right` are the particles at the
+        ends: f''_i = (1/gamma_i) { sum_j 2 V_j (f_i - f_j) F_ij + sum_b weight_b (f_b - f_i) }, with the
+        Shepard sum gamma_i, b = left, right, and weight_b from sph_boundary_weight_bim. Source: (5.16) of the
+        ICSPM paper. It is exact for constants. Near a boundary the error is of first order if h grows
+        relative to the spacing, as the integrals require. The result is 0 at and beyond the ends
+        (SPH_NOT_AVAILABLE), without a neighbour inside the support (SPH_TOO_FEW), and where it overflows
+        (SPH_NOT_FINITE). SPH_ERROR_BOX for a periodic axis, SPH_ERROR_RANGE if an end is not a particle,
+        SPH_ERROR_POSITION if left is not to the left of right.
+        """
+        return self._call("second_derivative_bim", locals())
+
+    def second_derivative_rows_bim(self, left: int, right: int) -> Any:
+        """sph_second_derivative_rows_bim.
+
+        The same as rows: f''_i = sum_p row[p] (f_j - f_i), with factor 1. The ends left and right must be in
+        the lists of the targets whose support reaches them. The row of a target that is not SPH_OK is 0.
+
+        (What is the same: see second_derivative_bim.)
+        """
+        return self._call("second_derivative_rows_bim", locals())
+
+    def elliptic_brookshaw(
+        self,
+        m: Scalars,
+        u: Scalars,
+        gradient: int = 0,
+        mean: int = 0,
+        gamma_star: int = 0,
+        trace: int = 0,
+        conditioning_min: float = 0.0,
+        potential: Scalars = None,
+        source: Scalars = None,
+    ) -> Array:
+        """sph_elliptic_brookshaw: sum_j V_j (m_i + m_j) (u_i - u_j) F_ij
+
+        div(m grad u)_i + source_i by the four schemes. The chapter's opening has formulas, sources and
+        exactness. h        one for all particles, or one for each. A pair uses (h_i + h_j) / 2, so that the
+        list must hold every j with r < support ratio * (h_i + h_j) / 2 (SPH_MEAN). m        the mobility, not
+        negative. options  all zeros are the defaults. options.source = sph_scalars_none() adds no source.
+        rows     div(m grad u)_i = diagonal[i] u_i + sum_p row[p] u_j, p along the list; factor[i] = 1. For a
+        vector unknown compute the rows once, and call sph_rows_apply for each component. trace    In disorder
+        tr Gamma^-1 / dim is not the right factor, because tr Gamma tr Gamma^-1 >= dim^2. On jittered clouds
+        the rows of Schwaiger's scheme and M-SPH are 0.3 to 0.7 % too large, at any resolution, and solutions
+        with a source do not converge. With options.trace = 1 the factor is dim / tr Gamma*. Then sum_j T_ij
+        |e|^2 = 2 dim m where m is constant: the result is exact for |x|^2 at any particle. Signs do not
+        change, because the weights of a row keep their ratios. This factor is an addition of this toolkit;
+        examples/papers/elliptic_clouds.c has the orders of convergence. At most boundary particles it is not
+        available, because tr Gamma* is small or negative there. Returns the number of targets that are not
+        SPH_OK, or a negative sph_error. The states are: SPH_TOO_FEW, SPH_SINGULAR  the neighbours are too
+        few, or lie on a line or in a plane; result and row are 0. Brookshaw's scheme does not have these
+        states. SPH_FELL_BACK              computed with Gamma, because Gamma* is not definite (or its trace
+        is too small). SPH_ILL_CONDITIONED        computed, but the conditioning is below conditioning_min. It
+        is the smallest pivot of the scaled Gamma (1 good, 0 singular). Coincident neighbours have the radial
+        weight of r = 0.
+
+        gradient: an sph_elliptic_gradient
+        mean: an sph_mobility_mean
+        gamma_star: For M-SPH only. 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK.
+        trace: For Schwaiger and M-SPH. 1: scale = dim / tr Gamma* where tr Gamma* is large enough, else
+        SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
+        conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
+        potential: read for SPH_MOBILITY_UPWIND only
+        source: is added to the result, if it is there; rows do not contain it
+        """
+        return self._call("elliptic_brookshaw", locals())
+
+    def elliptic_brookshaw_corrected(
+        self,
+        m: Scalars,
+        u: Scalars,
+        gradient: int = 0,
+        mean: int = 0,
+        gamma_star: int = 0,
+        trace: int = 0,
+        conditioning_min: float = 0.0,
+        potential: Scalars = None,
+        source: Scalars = None,
+    ) -> Array:
+        """sph_elliptic_brookshaw_corrected: times tr C / dim
+
+        The same by (51): Brookshaw's scheme times tr K^-1 / dim.
+
+        (What is the same: see elliptic_brookshaw.)
+
+        gradient: an sph_elliptic_gradient
+        mean: an sph_mobility_mean
+        gamma_star: For M-SPH only. 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK.
+        trace: For Schwaiger and M-SPH. 1: scale = dim / tr Gamma* where tr Gamma* is large enough, else
+        SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
+        conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
+        potential: read for SPH_MOBILITY_UPWIND only
+        source: is added to the result, if it is there; rows do not contain it
+        """
+        return self._call("elliptic_brookshaw_corrected", locals())
+
+    def elliptic_schwaiger(
+        self,
+        m: Scalars,
+        u: Scalars,
+        gradient: int = 0,
+        mean: int = 0,
+        gamma_star: int = 0,
+        trace: int = 0,
+        conditioning_min: float = 0.0,
+        potential: Scalars = None,
+        source: Scalars = None,
+    ) -> Array:
+        """sph_elliptic_schwaiger: exact for linear u and constant m
+
+        The same by (52), Schwaiger's scheme: exact for linear u where m is constant.
+
+        (What is the same: see elliptic_brookshaw.)
+
+        gradient: an sph_elliptic_gradient
+        mean: an sph_mobility_mean
+        gamma_star: For M-SPH only. 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK.
+        trace: For Schwaiger and M-SPH. 1: scale = dim / tr Gamma* where tr Gamma* is large enough, else
+        SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
+        conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
+        potential: read for SPH_MOBILITY_UPWIND only
+        source: is added to the result, if it is there; rows do not contain it
+        """
+        return self._call("elliptic_schwaiger", locals())
+
+    def elliptic_msph(
+        self,
+        m: Scalars,
+        u: Scalars,
+        gradient: int = 0,
+        mean: int = 0,
+        gamma_star: int = 0,
+        trace: int = 0,
+        conditioning_min: float = 0.0,
+        potential: Scalars = None,
+        source: Scalars = None,
+    ) -> Array:
+        """sph_elliptic_msph: the same numbers for radial gradients
+
+        The same by (69), M-SPH: for radial gradients the same numbers as Schwaiger's scheme.
+
+        (What is the same: see elliptic_brookshaw.)
+
+        gradient: an sph_elliptic_gradient
+        mean: an sph_mobility_mean
+        gamma_star: For M-SPH only. 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK.
+        trace: For Schwaiger and M-SPH. 1: scale = dim / tr Gamma* where tr Gamma* is large enough, else
+        SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
+        conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
+        potential: read for SPH_MOBILITY_UPWIND only
+        source: is added to the result, if it is there; rows do not contain it
+        """
+        return self._call("elliptic_msph", locals())
+
+    def elliptic_rows_brookshaw(
+        self,
+        m: Scalars,
+        gradient: int = 0,
+        mean: int = 0,
+        gamma_star: int = 0,
+        trace: int = 0,
+        conditioning_min: float = 0.0,
+        potential: Scalars = None,
+        source: Scalars = None,
+    ) -> Any:
+        """sph_elliptic_rows_brookshaw: rows (meshless transmissibilities)
+
+        The rows of sph_elliptic_brookshaw (meshless transmissibilities), without its source.
+
+        gradient: an sph_elliptic_gradient
+        mean: an sph_mobility_mean
+        gamma_star: For M-SPH only. 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK.
+        trace: For Schwaiger and M-SPH. 1: scale = dim / tr Gamma* where tr Gamma* is large enough, else
+        SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
+        conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
+        potential: read for SPH_MOBILITY_UPWIND only
+        source: is added to the result, if it is there; rows do not contain it
+        """
+        return self._call("elliptic_rows_brookshaw", locals())
+
+    def elliptic_rows_brookshaw_corrected(
+        self,
+        m: Scalars,
+        gradient: int = 0,
+        mean: int = 0,
+        gamma_star: int = 0,
+        trace: int = 0,
+        conditioning_min: float = 0.0,
+        potential: Scalars = None,
+        source: Scalars = None,
+    ) -> Any:
+        """sph_elliptic_rows_brookshaw_corrected.
+
+        The rows of sph_elliptic_brookshaw_corrected.
+
+        gradient: an sph_elliptic_gradient
+        mean: an sph_mobility_mean
+        gamma_star: For M-SPH only. 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK.
+        trace: For Schwaiger and M-SPH. 1: scale = dim / tr Gamma* where tr Gamma* is large enough, else
+        SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
+        conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
+        potential: read for SPH_MOBILITY_UPWIND only
+        source: is added to the result, if it is there; rows do not contain it
+        """
+        return self._call("elliptic_rows_brookshaw_corrected", locals())
+
+    def elliptic_rows_schwaiger(
+        self,
+        m: Scalars,
+        gradient: int = 0,
+        mean: int = 0,
+        gamma_star: int = 0,
+        trace: int = 0,
+        conditioning_min: float = 0.0,
+        potential: Scalars = None,
+        source: Scalars = None,
+    ) -> Any:
+        """sph_elliptic_rows_schwaiger.
+
+        The rows of sph_elliptic_schwaiger.
+
+        gradient: an sph_elliptic_gradient
+        mean: an sph_mobility_mean
+        gamma_star: For M-SPH only. 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK.
+        trace: For Schwaiger and M-SPH. 1: scale = dim / tr Gamma* where tr Gamma* is large enough, else
+        SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
+        conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
+        potential: read for SPH_MOBILITY_UPWIND only
+        source: is added to the result, if it is there; rows do not contain it
+        """
+        return self._call("elliptic_rows_schwaiger", locals())
+
+    def elliptic_rows_msph(
+        self,
+        m: Scalars,
+        gradient: int = 0,
+        mean: int = 0,
+        gamma_star: int = 0,
+        trace: int = 0,
+        conditioning_min: float = 0.0,
+        potential: Scalars = None,
+        source: Scalars = None,
+    ) -> Any:
+        """sph_elliptic_rows_msph.
+
+        The rows of sph_elliptic_msph.
+
+        gradient: an sph_elliptic_gradient
+        mean: an sph_mobility_mean
+        gamma_star: For M-SPH only. 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK.
+        trace: For Schwaiger and M-SPH. 1: scale = dim / tr Gamma* where tr Gamma* is large enough, else
+        SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
+        conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
+        potential: read for SPH_MOBILITY_UPWIND only
+        source: is added to the result, if it is there; rows do not contain it
+        """
+        return self._call("elliptic_rows_msph", locals())
+
+    def elliptic_diagnose(
+        self,
+        gradient: int = 0,
+        mean: int = 0,
+        gamma_star: int = 0,
+        trace: int = 0,
+        conditioning_min: float = 0.0,
+        potential: Scalars = None,
+        source: Scalars = None,
+    ) -> Any:
+        """sph_elliptic_diagnose: signs, moments, free-surface indicator
+
+        Fills an sph_elliptic_report for each target. Lists as for the elliptic sweeps; mobilities do not
+        matter. Where the status is SPH_TOO_FEW or SPH_SINGULAR, sign_least, sign_most and xi are 0; the other
+        numbers are computed. Returns the number of targets that are not SPH_OK, or a negative sph_error.
+
+        gradient: an sph_elliptic_gradient
+        mean: an sph_mobility_mean
+        gamma_star: For M-SPH only. 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK.
+        trace: For Schwaiger and M-SPH. 1: scale = dim / tr Gamma* where tr Gamma* is large enough, else
+        SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
+        conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
+        potential: read for SPH_MOBILITY_UPWIND only
+        source: is added to the result, if it is there; rows do not contain it
+        """
+        return self._call("elliptic_diagnose", locals())
+
+    def elliptic_rows_anisotropic(self, mobility: Vectors) -> Any:
+        """sph_elliptic_rows_anisotropic: div(M grad u), M diagonal
+
+        Rows of div(M grad u) for a diagonal M that are consistent on full supports. (69) is not, because of
+        the fourth moment: sum_j V_j G e_a e_b sum_c M_c e_c^2 / |e|^2 with G = -F_ij is not M_a delta_ab. It
+        is, if M is replaced by S = T^-1 M with T_ac = sum V_j G e_a^2 e_c^2 / |e|^2. The rows are row = V_j G
+        sum_c S(M_i + M_j)_c (e_c^2 / |e|^2 - (K^-1 N_c) . e), N_c = sum V_j G e e_c^2 / |e|^2,   K = sum V_j
+        G e e^T. In the continuum S = ((dim + 2) M - tr M) / 2. If all neighbours lie on the axes, T is
+        diagonal and the rows are those of M-SPH; so they are for isotropic M where T is isotropic. This form
+        is an addition of this toolkit. Exact for linear fields (M constant) at every particle, and for xx,
+        yy, zz in the interior of lattices; elsewhere the error is O(disorder). Signs: S may be negative if
+        M_x / M_y is beyond 3 (2D). Weights then have both signs, and maximum principles are lost. The
+        gradient is (15), means are arithmetic, a pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). A row is 0
+        where the state is SPH_TOO_FEW or SPH_SINGULAR: K or T is singular. T is so where neighbours lie in
+        fewer directions than there are axes. Returns the number of targets that are not SPH_OK, or a negative
+        sph_error.
+        """
+        return self._call("elliptic_rows_anisotropic", locals())
+
+    def elliptic_rows_boundary(
+        self,
+        m: Scalars,
+        gradient: int = 0,
+        mean: int = 0,
+        gamma_star: int = 0,
+        trace: int = 0,
+        conditioning_min: float = 0.0,
+        potential: Scalars = None,
+        source: Scalars = None,
+        normal: Vectors = None,
+        alpha: Scalars = None,
+        beta: Scalars = None,
+    ) -> Any:
+        """sph_elliptic_rows_boundary: Dirichlet, Neumann, Robin
+
+        Rows of alpha_i u_i + beta_i m_i n_i . grad u for the targets where alpha or beta is not 0. The rows
+        of the others are left as they are: write the rows of the operator first, then these over them.
+        Dirichlet  alpha = 1, beta = 0. Neumann    alpha = 0, beta = 1: m n . grad u, the flux into the domain
+        through a boundary with the outer normal n. Robin      both are not 0. (100) of Lukyanov & Vuik 2020
+        with the corrected gradient grad u = K^-T sum V_j g (u_j - u_i). Exact for linear fields, error O(h).
+        The length of n counts: it multiplies beta. out.diagonal must not be null. A row with the state
+        SPH_TOO_FEW or SPH_SINGULAR is 0, with its diagonal. Returns the number of boundary targets that are
+        not SPH_OK, or a negative sph_error.
+
+        gradient: an sph_elliptic_gradient
+        mean: an sph_mobility_mean
+        gamma_star: For M-SPH only. 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK.
+        trace: For Schwaiger and M-SPH. 1: scale = dim / tr Gamma* where tr Gamma* is large enough, else
+        SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
+        conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
+        potential: read for SPH_MOBILITY_UPWIND only
+        source: is added to the result, if it is there; rows do not contain it
+        normal: n, which points out of the domain
+        alpha: of u, and of m n . grad u
+        beta: of u, and of m n . grad u
+        """
+        return self._call("elliptic_rows_boundary", locals())
+
+    def rows_apply(self, row: Scalars, diagonal: Scalars, u: Scalars) -> Array:
+        """sph_rows_apply: sum_p row[p] (u_j - u_i)
+
+        out_i = sum_p row[p] (u_j - u_i), which is exactly 0 for constants. If diagonal is given, out_i =
+        diagonal[i] u_i + sum_p row[p] u_j. Rows with a factor give factor[i] times the operator. Returns the
+        number of targets whose result overflowed (it is 0 then), or a negative sph_error.
+        """
+        return self._call("rows_apply", locals())
+
+    def rows_monotone(self, row: Scalars, diagonal: Scalars) -> Any:
+        """sph_rows_monotone: how many rows are not of an M-matrix
+
+        Counts the rows that are not rows of an M-matrix. A row is one if its off-diagonal weights do not
+        differ in sign, and the diagonal has the other sign and at least the size of their sum: Lukyanov &
+        Vuik 2020, Definition 7. The dominance need not be strict, because the rows of an operator have the
+        sum 0. A connected matrix of such rows, of which one is a Dirichlet row, is monotone: the solution has
+        no maximum in the interior. Weights below the rounding error of the largest weight of a row do not
+        count. monotone[i] (the pointer may be null) is 1 for rows of an M-matrix, else 0. Returns the number
+        of the others, or a negative sph_error.
+        """
+        return self._call("rows_monotone", locals())
+
+    def rows_time_step(self, row: Scalars) -> Any:
+        """sph_rows_time_step: longest stable explicit step
+
+        The longest stable step of du/dt = L u for the explicit Euler method, by Gershgorin's circles: dt = 2
+        / max_i (|sum_p row| + sum_p |row|). It is certain where all weights are >= 0; it then also keeps
+        maxima from growing. Half of it also keeps every mode from changing its sign from step to step. On a
+        uniform lattice with the 2 dim nearest neighbours it is dx^2 / (2 dim m). *dt = 1/SPHI_TINY if nothing
+        limits the step. Returns 0 or a negative sph_error.
+        """
+        return self._call("rows_time_step", locals())
+
+    def rows_growth(self, row: Scalars, tau: float, wave: Sequence[float]) -> Any:
+        """sph_rows_growth: von Neumann's growth factor
+
+        The growth factor lambda = 1 + tau sum_p row[p] (exp(i k . e) - 1) of a wave with the wave vector k
+        (`wave`) at the first target, for the step u + tau L u (von Neumann). It is stable if |lambda| <= 1.
+        (83) of Lukyanov & Vuik 2020. *re and *im are the real and the imaginary part. Returns 0; or 1 if they
+        are not finite; or a negative sph_error. It writes nothing with the last two, and without targets.
+        """
+        return self._call("rows_growth", locals())
+
+    def density_number(self, m: Scalars) -> Array:
+        """sph_density_number: m_i sum_j W_ij
+
+        rho_i = m_i sum_j W_ij(h_i) with the particle itself: the number density times the particle's own
+        mass, so that a light particle beside heavy ones keeps its density. V_i = m_i / rho_i is then 1 /
+        sum_j W_ij. Hu & Adams 2006, JCP 213, 844, (15). The m of the targets is used, and that of all
+        particles is checked. Returns the number of targets whose density overflowed (it is 0 then), or a
+        negative sph_error.
+        """
+        return self._call("density_number", locals())
+
+    def fluid_rates_monaghan(
+        self,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+    ) -> Any:
+        """sph_fluid_rates_monaghan: acceleration, density, heating
+
+        Acceleration, density rate and viscous heating of the targets, in one pass: a_i      = -sum_j m_j
+        (P_ij + Pi_ij) grad_i W_ij, du_i/dt  = sum_j m_j Pi_ij v_ij . grad_i W_ij / 2, drho_i/dt by
+        sph_density_rate_pair_mass or sph_density_rate_pair_volume. monaghan    (2.2), (2.3): drho_i/dt =
+        sum_j m_j v_ij . grad_i W_ij. colagrossi  (5.23), (5.24): drho_i/dt = rho_i sum_j m_j / rho_j v_ij .
+        grad_i W_ij. hu_adams    weighted by volumes. The density comes from sph_density_number, or from the
+        rate (5.23), which is the one that this sweep writes. Signs: F <= 0, so that pressure pushes particles
+        apart. Gravity and the work of the pressure on u are not contained. out.rate is that of the velocities
+        given: see the order of a step above. out.rate and out.heating may be null. Pairs closer than 1e-12 h
+        exert no force on each other (sph_coincident_count finds them). Returns the number of targets of which
+        a result overflowed (it is 0 then), or a negative sph_error: SPH_ERROR_VALUE also for densities and
+        masses that are not positive, and sound speeds that are negative.
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        """
+        return self._call("fluid_rates_monaghan", locals())
+
+    def fluid_rates_colagrossi(
+        self,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+    ) -> Any:
+        """sph_fluid_rates_colagrossi.
+
+        The same by Colagrossi & Landrini, (5.23), (5.24): for densities that jump.
+
+        (What is the same: see fluid_rates_monaghan.)
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        """
+        return self._call("fluid_rates_colagrossi", locals())
+
+    def fluid_rates_hu_adams(
+        self,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+    ) -> Any:
+        """sph_fluid_rates_hu_adams.
+
+        The same by Hu & Adams, weighted by volumes: for densities that jump.
+
+        (What is the same: see fluid_rates_monaghan.)
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        """
+        return self._call("fluid_rates_hu_adams", locals())
+
+    def viscosity_mu_morris(
+        self,
+        mu: Scalars,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+    ) -> Array:
+        """sph_viscosity_mu_morris: physical viscosity
+
+        a_i = (1 / rho) div(mu grad v), physical viscosity by sph_viscosity_mu_pair_morris. mu is the dynamic
+        viscosity (nu rho) of each particle, and not negative. Of fluid, the members m, rho, v and eta are
+        read. Pairs closer than 1e-12 h exert no force on each other. Returns the number of targets whose
+        result overflowed (it is 0 then), or a negative sph_error.
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        """
+        return self._call("viscosity_mu_morris", locals())
+
+    def viscosity_mu_monaghan_cleary(
+        self,
+        mu: Scalars,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+    ) -> Array:
+        """sph_viscosity_mu_monaghan_cleary.
+
+        The same by sph_viscosity_mu_pair_monaghan_cleary. It also conserves angular momentum. But on a square
+        lattice that nothing has disturbed it depends on the direction: with the cubic spline and h = 1.2 dx a
+        shear wave is damped as by 0.79 mu along an axis and 1.17 mu along the diagonal, where Morris's form
+        has 0.98 mu. A longer h and disorder make the difference smaller, and a hexagonal lattice has none:
+        see the table of examples/OPERATORS.md.
+
+        (What is the same: see viscosity_mu_morris.)
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        """
+        return self._call("viscosity_mu_monaghan_cleary", locals())
+
+    def velocity_xsph(
+        self,
+        epsilon: float,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+    ) -> Array:
+        """sph_velocity_xsph.
+
+        What XSPH adds to the velocity that moves a particle: epsilon sum_j 2 m_j / (rho_i + rho_j) (v_j -
+        v_i) W_ij. Monaghan 1989, JCP 82, 1. epsilon = 0.5 is usual. It conserves linear momentum, and also
+        angular momentum if it moves particles only: do not add it to the velocity that a particle keeps. Of
+        fluid, the members m, rho and v are read. Returns the number of targets whose result overflowed (it is
+        0 then), or a negative sph_error.
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        """
+        return self._call("velocity_xsph", locals())
+
+    def wall_adami(
+        self,
+        share: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        v: Vectors = None,
+        velocity: Vectors = None,
+        normal: Vectors = None,
+        gravity: Sequence[float] = (),
+    ) -> Any:
+        """sph_wall_adami: pressure and velocity of wall particles
+
+        Pressure and velocity of wall particles from the fluid in front of them, so that walls push and drag
+        as a fluid would. The targets are the wall particles w; the sums run over their neighbours j that are
+        fluid (share[j] = 1): p_w = sum (p_j + rho_j (g - a_w) . x_wj) W / sum W, v_w = 2 u_w - sum v_j W /
+        sum W   for no slip. For free slip only the part along the normal is reversed
+        (sph_wall_velocity_free_slip). u_w and a_w are the wall's own velocity and acceleration. Adami, Hu &
+        Adams 2012, JCP 231, 7057, (22), (23), (27). A pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). Without
+        fluid inside the support the answer is p = 0, v = u and SPH_TOO_FEW; such a particle pushes nothing.
+        Returns the number of targets that are not SPH_OK, or a negative sph_error.
+
+        share: share: 1 for fluid particles, 0 for all others. rho and p: density and pressure of the fluid.
+        rho: share: 1 for fluid particles, 0 for all others. rho and p: density and pressure of the fluid.
+        p: share: 1 for fluid particles, 0 for all others. rho and p: density and pressure of the fluid.
+        v: v: velocity of the fluid. velocity: the wall's own velocity u. normal: normal of the wall, of any
+        length, for free slip; null arrays mean no slip.
+        velocity: v: velocity of the fluid. velocity: the wall's own velocity u. normal: normal of the wall,
+        of any length, for free slip; null arrays mean no slip.
+        normal: v: velocity of the fluid. velocity: the wall's own velocity u. normal: normal of the wall, of
+        any length, for free slip; null arrays mean no slip.
+        gravity: g - a_w: gravity less the acceleration of the wall
+        """
+        return self._call("wall_adami", locals())
+
+    def collision_sequential(
+        self,
+        velocity: Vectors,
+        distance: float = 0.0,
+        restitution: float = 0.0,
+        inverse_mass: Scalars = None,
+    ) -> Any:
+        """sph_collision_sequential.
+
+        Collisions one after the other, in the order of rows and lists. Each takes the velocities that the one
+        before left. This is the only sweep that writes beyond its targets: it changes the velocities of
+        sources, too, if they are not walls. So never run it on two ranges at once. Each pair collides once,
+        also if both rows name it. Full lists, or lists with j > i only. Momentum and angular momentum are
+        conserved to round-off, and the energy never grows for restitution <= 1. out may be null. Returns the
+        number of pairs whose velocities or energy would overflow (they exchange nothing; 0: none), or a
+        negative sph_error.
+
+        velocity: is changed in place
+        distance: Particles that approach within `distance` collide. restitution: C_R (0 inelastic, 1
+        elastic).
+        restitution: Particles that approach within `distance` collide. restitution: C_R (0 inelastic, 1
+        elastic).
+        inverse_mass: 1/m of each particle; 0 for walls
+        """
+        return self._call("collision_sequential", locals())
+
+    def collision_count(
+        self,
+        v: Vectors,
+        distance: float = 0.0,
+        restitution: float = 0.0,
+        inverse_mass: Scalars = None,
+    ) -> Any:
+        """sph_collision_count.
+
+        count[i] is the number of collisions of target i: the first half of the simultaneous form. Full lists.
+        A host with halo particles exchanges these numbers before the second half. Returns the number of
+        targets that coincide with a neighbour (they do not collide with it), or a negative sph_error.
+
+        distance: Particles that approach within `distance` collide. restitution: C_R (0 inelastic, 1
+        elastic).
+        restitution: Particles that approach within `distance` collide. restitution: C_R (0 inelastic, 1
+        elastic).
+        inverse_mass: 1/m of each particle; 0 for walls
+        """
+        return self._call("collision_count", locals())
+
+    def collision_change_weighted(
+        self,
+        v: Vectors,
+        count: Indices,
+        distance: float = 0.0,
+        restitution: float = 0.0,
+        inverse_mass: Scalars = None,
+    ) -> Array:
+        """sph_collision_change_weighted.
+
+        The change of velocity of each target by all its collisions at once, each with the weight 1 / max(n_i,
+        n_j): the second half. The host adds it to v. count comes from sph_collision_count, for the targets
+        and for the sources that are not walls. Full lists. The result does not depend on the order, and
+        ranges may run in parallel. Momentum and angular momentum are conserved to round-off, and the energy
+        never grows for restitution <= 1 (a particle in n > 1 collisions loses some energy also at 1). Returns
+        the number of targets whose result overflowed (it is 0 then), or a negative sph_error.
+
+        distance: Particles that approach within `distance` collide. restitution: C_R (0 inelastic, 1
+        elastic).
+        restitution: Particles that approach within `distance` collide. restitution: C_R (0 inelastic, 1
+        elastic).
+        inverse_mass: 1/m of each particle; 0 for walls
+        """
+        return self._call("collision_change_weighted", locals())
+
+    def divergence_difference(
+        self,
+        field: Vectors,
+        m: Scalars = None,
+        rho: Scalars = None,
+        omega: Scalars = None,
+    ) -> Array:
+        """sph_divergence_difference.
+
+        div A_i = -(1 / (Omega_i rho_i)) sum_j m_j (A_i - A_j) . grad_i W_ij(h_i), the difference form (20).
+        Exact for constants. For A = v it is -(drho/dt) / rho.
+        """
+        return self._call("divergence_difference", locals())
+
+    def divergence_symmetric(
+        self,
+        field: Vectors,
+        m: Scalars = None,
+        rho: Scalars = None,
+        omega: Scalars = None,
+    ) -> Array:
+        """sph_divergence_symmetric.
+
+        div A_i = rho_i sum_j m_j (A_i g_i + A_j g_j) . x_ij, the symmetric form, which (9) subtracts. It also
+        measures the disorder of the particles, and is not 0 for constant A.
+        """
+        return self._call("divergence_symmetric", locals())
+
+    def gradient_symmetric(
+        self,
+        f: Scalars,
+        m: Scalars = None,
+        rho: Scalars = None,
+        omega: Scalars = None,
+    ) -> Array:
+        """sph_gradient_symmetric.
+
+        grad f_i = rho_i sum_j m_j (f_i g_i + f_j g_j) x_ij, the symmetric form (23). It is the conjugate of
+        the difference form of the divergence, and not 0 for constant f.
+        """
+        return self._call("gradient_symmetric", locals())
+
+    def curl_difference(
+        self,
+        field: Vectors,
+        m: Scalars = None,
+        rho: Scalars = None,
+        omega: Scalars = None,
+    ) -> Array:
+        """sph_curl_difference.
+
+        curl A_i = (1 / (Omega_i rho_i)) sum_j m_j (A_i - A_j) x grad_i W_ij(h_i), the difference form. Exact
+        for constants. Price 2012, (79). The result has three components, of which only the third is not 0 in
+        2D if A has two components; `out` must have three arrays.
+        """
+        return self._call("curl_difference", locals())
+
+    def cleaning_rates(
+        self,
+        m: Scalars = None,
+        rho: Scalars = None,
+        omega: Scalars = None,
+        field: Vectors = None,
+        psi: Scalars = None,
+        div_v: Scalars = None,
+        ch: float = 0.0,
+        sigma: float = 0.0,
+    ) -> Any:
+        """sph_cleaning_rates: conservative cleaning of B alone
+
+        Divergence cleaning alone, for a host that has the rest of its MHD: dB/dt   = -grad psi   in symmetric
+        form, (23), dpsi/dt = -ch^2 div B - sigma ch psi / h - psi div v / 2   with div B in difference form,
+        (20), (25). ch is one speed for all particles: the largest fast speed of the cloud (times a factor of
+        over-cleaning, if the time step is divided by this factor). sigma is usually sph_cleaning_sigma(dim).
+        Cleaning conserves sum m (B^2 + psi^2/ch^2) / (2 rho) for any h and Omega, except for the damping,
+        which only takes energy away. Where rho changes, the term with div v is needed for this. It also
+        conserves sum m B / rho, to round-off.
+
+        field: B, of dim components
+        psi: div_v = sph_scalars_none(): div v = 0
+        div_v: div_v = sph_scalars_none(): div v = 0
+        ch: speed and damping of the cleaning waves; see sph_cleaning_sigma
+        sigma: speed and damping of the cleaning waves; see sph_cleaning_sigma
+        """
+        return self._call("cleaning_rates", locals())
+
+    def mhd_rates(
+        self,
+        m: Scalars = None,
+        rho: Scalars = None,
+        omega: Scalars = None,
+        p: Scalars = None,
+        u: Scalars = None,
+        cs: Scalars = None,
+        alpha: Scalars = None,
+        alpha_B: Scalars = None,
+        v: Vectors = None,
+        field: Vectors = None,
+        psi: Scalars = None,
+        ch: float = 0.0,
+        sigma: float = 0.0,
+        beta: float = 0.0,
+        alpha_u: float = 0.0,
+        tensile: float = 0.0,
+    ) -> Any:
+        """sph_mhd_rates: momentum, induction, energy, psi, div B, v_sig
+
+        All rates of a magnetised gas in one pass: dv/dt    (6), less `tensile` times (9); artificial
+        viscosity alpha v_sig where particles approach. dB/dt    (7), for B itself; -grad psi, (23);
+        artificial resistivity, (10). du/dt    P / (Omega rho^2) sum_j m_j v_ij . grad_i W_ij; heating by
+        viscosity and resistivity (both >= 0); conductivity. dpsi/dt  (2), (25). div B    the difference form
+        (20); so is div v. The density comes from sph_density_adaptive; its rate is -rho div v. With tensile =
+        0 the energy sum m (v^2/2 + u + B^2 / (2 rho) + psi^2 / (2 rho ch^2)) changes by the damping of psi
+        only, and the momentum does not change, both to round-off. With (9) the momentum changes at the rate
+        -tensile sum (m / rho) B (div B), with div B in symmetric form. v_sig is the largest signal speed of a
+        target with its neighbours within the larger of the two supports, for time steps and switches. It is
+        not below the target's own fast speed across the field.
+
+        p: pressure, thermal energy per mass, sound speed
+        u: pressure, thermal energy per mass, sound speed
+        cs: pressure, thermal energy per mass, sound speed
+        alpha: Coefficients of viscosity and resistivity of each particle, 0 (none) to 1. A pair takes the
+        mean.
+        alpha_B: Coefficients of viscosity and resistivity of each particle, 0 (none) to 1. A pair takes the
+        mean.
+        v: velocity and B: three components each if v.z has an array, else dim
+        field: velocity and B: three components each if v.z has an array, else dim
+        psi: sph_scalars_none(): no cleaning
+        ch: speed and damping of the cleaning waves; see sph_cleaning_rates
+        sigma: speed and damping of the cleaning waves; see sph_cleaning_rates
+        beta: of signal speed and conductivity; 2 and 1 are usual; alpha_u = 0: none
+        alpha_u: of signal speed and conductivity; 2 and 1 are usual; alpha_u = 0: none
+        tensile: The part of (9) that is subtracted. 1: all of it. 0: none; momentum is then conserved, but
+        particles attract each other and form pairs where B^2/2 > P.
+        """
+        return self._call("mhd_rates", locals())
+
+    def gravity_direct(self, m: Scalars, newton: float) -> Any:
+        """sph_gravity_direct: all pairs
+
+        Acceleration -G sum_j m_j sph_gravity_pair x_ij and potential G sum_j m_j (phi(r, h_i) + phi(r, h_j))
+        / 2 of the targets. newton is G. The sums run over all sources, with the particle itself: n^2 steps,
+        for small clouds and to measure trees against. No list is read. The cloud is isolated: the lengths of
+        the box are not used. Momentum is conserved to round-off. potential may be without an array. Returns
+        the number of targets of which a result overflowed (it is 0 then), or a negative sph_error.
+        """
+        return self._call("gravity_direct", locals())
+
+    def gravity_zeta(self, m: Scalars, rho: Scalars) -> Array:
+        """sph_gravity_zeta.
+
+        zeta_i = dh_i/drho_i sum_j m_j dphi/dh(r, h_i) with dh/drho = -h / (3 rho): Price & Monaghan 2007,
+        (22). The sum contains the particle itself. Lists as for the density: r < support ratio * h_i. Returns
+        the number of targets whose result overflowed (it is 0 then), or a negative sph_error.
+        """
+        return self._call("gravity_zeta", locals())
+
+    def gravity_correction(
+        self,
+        zeta: Scalars,
+        newton: float,
+        m: Scalars = None,
+        rho: Scalars = None,
+        omega: Scalars = None,
+    ) -> Array:
+        """sph_gravity_correction: where h follows the density
+
+        What gravity adds to the acceleration where h follows the density: -(G/2) sum_j m_j (zeta_i F_i /
+        Omega_i + zeta_j F_j / Omega_j) x_ij, antisymmetric for each pair. newton is G; zeta comes from
+        sph_gravity_zeta. Lists of all pairs within the larger support (SPH_LARGER). Returns the number of
+        targets whose result overflowed (it is 0 then), or a negative sph_error.
+        """
+        return self._call("gravity_correction", locals())
+
+    def nearest_distance(self, sources: Vectors) -> Array:
+        """sph_nearest_distance.
+
+        The distance from each target to its nearest source in the list. Where the list is empty it is 0, with
+        SPH_TOO_FEW. Targets and sources may be the same points, or probes and particles (lists by
+        SPH_LIST_FOREIGN). In the second case the fraction of probes without a particle within some distance
+        is the void fraction. The box is that of the sources. Returns the number of targets that are not
+        SPH_OK, or a negative sph_error.
+        """
+        return self._call("nearest_distance", locals())
+
+    def hexatic_order(self) -> Array:
+        """sph_hexatic_order.
+
+        The hexatic order in 2D: |sum exp(6 i theta)| / 6 over the six nearest neighbours in the list. It is 1
+        on a hexagonal lattice, and about 0.36 for random particles. Nelson & Halperin 1979, PRB 19, 2457.
+        Where there are fewer than six neighbours (coincident ones do not count), it is 0, with SPH_TOO_FEW.
+        Returns the number of targets that are not SPH_OK, or a negative sph_error.
+        """
+        return self._call("hexatic_order", locals())
+
+    def radial_distribution(self, farthest: float, number_density: float, bins: int) -> Any:
+        """sph_radial_distribution.
+
+        The radial distribution function: g[b] is the number of pairs with b <= r / width < b + 1, width =
+        farthest / bins, divided by the number that is expected at the number_density (particles per
+        length^dim). In a large cloud it is 1 far from a particle. Full lists that hold every pair with r <
+        farthest. Without targets g is not changed. Returns the number of shells that are so small or large
+        that g overflows (it is 0 there), or a negative sph_error.
+        """
+        return self._call("radial_distribution", locals())
+
+    def coincident_count(self, distance: float) -> int:
+        """sph_coincident_count.
+
+        The number of targets that have another source within `distance`. With 1e-12 h these are the particles
+        that exert no force on each other. Returns this number, or a negative sph_error.
+        """
+        return self._call("coincident_count", locals())
+
+    def coincident_separate(self, within: float, distance: float, position: Vectors) -> Any:
+        """sph_coincident_separate.
+
+        Separates targets from the sources that they coincide with, within the distance `within`: neither
+        forces, nor kernels, nor collisions do so, because such a pair has no direction. A target that
+        coincides with another moves by `distance` in a direction that depends on its index only: in 2D and 3D
+        by the golden angle, so that close indices get different directions; in 1D to the left if its index is
+        even, else to the right, so that two of the same parity stay together. The new positions of all
+        targets are written; those that coincide with none keep theirs. The host wraps and stores them.
+        Returns the number of targets that coincide, or a negative sph_error.
+
+        position: is changed in place
+        """
+        return self._call("coincident_separate", locals())
+
+    def conserved_sums(self, m: Scalars, v: Vectors) -> Any:
+        """sph_conserved_sums: mass, momentum, angular momentum, kinetic energy
+
+        Mass, momentum, angular momentum and kinetic energy of the targets first ... last - 1. x and v are
+        taken as they are: the angular momentum has a meaning only if the positions of a periodic box were
+        never wrapped. Returns 0; or 1 if a sum overflowed (all sums are 0 then); or a negative sph_error.
+        """
+        return self._call("conserved_sums", locals())
+
+
+def _number(name: str, *values: Any) -> Any:
+    from . import _number as call
+
+    return call(name, values)
+
+
+def kernel_support_ratio(kernel: Union[str, int]) -> float:
+    """sph_kernel_support_ratio: support radius / h
+
+    Support radius / h.
+    """
+    return _number("kernel_support_ratio", kernel)
+
+
+def kernel_h_over_dx(kernel: Union[str, int]) -> float:
+    """sph_kernel_h_over_dx: recommended h / particle spacing
+
+    Recommended h / particle spacing: a default for programs, not a law. Even on a perfect lattice, the
+    density that is summed up with it, dx^dim sum W, is not exactly 1. Of the kernels without a cusp it is
+    right within 1.6 %. A kernel with a cusp gives a particle itself too large a share, so that the density is
+    too high: 1D     2D     3D                            1D     2D     3D schuessler-schmitt   1.106  1.041
+    1.006    convex-wendland-c2   1.134  1.118  1.083 johnson-beissel      1.056  1.034  1.019
+    convex-wendland-c4   1.174  1.176  1.142 convex               1.063  1.042  1.023    core-triangle
+    1.051  1.034  1.018 convex-cubic-spline  1.108  1.088  1.058    spiky                1.250  1.274  1.236
+    examples/hello_kernel.c prints this table for all kernels (-l). A density that is integrated from its
+    right value is free of this error; one that is summed up is not, and an equation of state turns it into a
+    pressure. Larger h reduces it.
+    """
+    return _number("kernel_h_over_dx", kernel)
+
+
+def kernel_h_from_support(kernel: Union[str, int], support: float) -> float:
+    """sph_kernel_h_from_support: the h of a kernel whose support has this radius
+
+    The h of a kernel that ends at the radius `support`. Needs support > 0.
+    """
+    return _number("kernel_h_from_support", kernel, support)
+
+
+def kernel_support(kernel: Union[str, int], h: float) -> float:
+    """sph_kernel_support: support radius
+
+    The radius at which a kernel ends.
+    """
+    return _number("kernel_support", kernel, h)
+
+
+def kernel_sigma(kernel: Union[str, int], dim: int) -> float:
+    """sph_kernel_sigma: normalisation
+
+    sigma = 1 / (S_dim integral_0^support w(q) q^(dim-1) dq) with S_dim = 2, 2 pi, 4 pi. The comments give the
+    exact values for 1, 2 and 3 dimensions; tests/known/derive_kernels.py derives them.
+    """
+    return _number("kernel_sigma", kernel, dim)
+
+
+def kernel_shape(kernel: Union[str, int], dim: int, q: float) -> float:
+    """sph_kernel_shape: w(q) = W h^dim / sigma
+
+    w(q): the kernel without its normalisation; 0 for q >= support. The sources stand above. Needs q >= 0.
+    """
+    return _number("kernel_shape", kernel, dim, q)
+
+
+def kernel_shape_f(kernel: Union[str, int], dim: int, q: float) -> float:
+    """sph_kernel_shape_f: (1/q) dw/dq
+
+    (1/q) dw/dq; 0 for q >= support. At q = 0 it is the limit, or 0 for a kernel with a cusp. Needs q >= 0.
+    Splines: let q0 be the knot next to the origin, t = min(q, q0) and s = max(q, q0), so that q = t + s - q0.
+    Then f(q) = [f(t) - f(q0)] + f(s). The first part is written without a division by q, the second without
+    the inner piece, so that nothing branches and nothing cancels. schuessler-schmitt: for q < 1e-6 the slope
+    is kept at its value at q = 1e-6, because the true slope is infinite at the origin.
+    """
+    return _number("kernel_shape_f", kernel, dim, q)
+
+
+def kernel_shape_d2(kernel: Union[str, int], dim: int, q: float) -> float:
+    """sph_kernel_shape_d2: d2w/dq2
+
+    d2w/dq2; 0 for q >= support, where it jumps for liu-quartic, hermite, schuessler-schmitt, johnson-beissel
+    and the Gaussians. At q = 0 of a kernel with a cusp it is the limit from q > 0. Needs q >= 0.
+    """
+    return _number("kernel_shape_d2", kernel, dim, q)
+
+
+def kernel_w(kernel: Union[str, int], dim: int, r: float, h: float) -> float:
+    """sph_kernel_w: W
+
+    W = sigma / h^dim w(r/h).
+    """
+    return _number("kernel_w", kernel, dim, r, h)
+
+
+def kernel_f(kernel: Union[str, int], dim: int, r: float, h: float) -> float:
+    """sph_kernel_f: F = (1/r) dW/dr. At r = 0: its limit where that is finite, else 0
+
+    F = (1/r) dW/dr, so that grad_i W = F x_ij. F <= 0 for every kernel that falls monotonically: all but
+    liu-quartic and super-gaussian.
+    """
+    return _number("kernel_f", kernel, dim, r, h)
+
+
+def kernel_dwdr(kernel: Union[str, int], dim: int, r: float, h: float) -> float:
+    """sph_kernel_dwdr: dW/dr
+
+    dW/dr = r F. It is 0 at r = 0, also for a kernel with a cusp.
+    """
+    return _number("kernel_dwdr", kernel, dim, r, h)
+
+
+def kernel_d2wdr2(kernel: Union[str, int], dim: int, r: float, h: float) -> float:
+    """sph_kernel_d2wdr2: d2W/dr2
+
+    d2W/dr2. The Laplacian of W is d2W/dr2 + (dim - 1) F.
+    """
+    return _number("kernel_d2wdr2", kernel, dim, r, h)
+
+
+def kernel_dwdh(kernel: Union[str, int], dim: int, r: float, h: float) -> float:
+    """sph_kernel_dwdh: dW/dh at fixed r
+
+    dW/dh = -(dim W + r dW/dr) / h at fixed r, because W is h^-dim times a function of r/h.
+    """
+    return _number("kernel_dwdh", kernel, dim, r, h)
+
+
+def kernel_has_cusp(kernel: Union[str, int]) -> int:
+    """sph_kernel_has_cusp: 1 if the slope at the origin is not 0 (F = 0 there, by convention)
+
+    1 for the kernels whose slope at the origin is not zero. Their gradient has no direction at r = 0, and F
+    is 0 there.
+    """
+    return _number("kernel_has_cusp", kernel)
+
+
+def kernel_may_convexify(kernel: Union[str, int], dim: int) -> int:
+    """sph_kernel_may_convexify: 1 if W >= 0 and W' <= 0, so that the integral of its tail is a convex kernel
+
+    1 if K(q) = integral_q^support w dq is again a kernel. It decreases where w >= 0, and is convex where w'
+    <= 0. Both are tested at the ends of 1024 equal intervals of the support. The clustering paper says that
+    'the result will always be decreasing'; this is not so for liu-quartic and super-gaussian, which have
+    negative lobes.
+    """
+    return _number("kernel_may_convexify", kernel, dim)
+
+
+def cohesion_kernel_akinci(r: float, support: float) -> float:
+    """sph_cohesion_kernel_akinci: C(r): pushes apart below 0.27 support, pulls beyond it
+
+    C(r), in 1/length^3. Below r = 0.2729 support it is negative: there the force pushes apart.
+    """
+    return _number("cohesion_kernel_akinci", r, support)
+
+
+def adhesion_kernel_akinci(r: float, support: float) -> float:
+    """sph_adhesion_kernel_akinci: A(r): pulls towards a wall beyond half of the support
+
+    A(r) >= 0, in 1/length^3.
+    """
+    return _number("adhesion_kernel_akinci", r, support)
+
+
+def kernel_has_gravity(kernel: Union[str, int]) -> int:
+    """sph_kernel_has_gravity: 1 for the kernels that the following functions know
+
+    1 for cubic-spline, wendland-c2, wendland-c4 and wendland-c6.
+    """
+    return _number("kernel_has_gravity", kernel)
+
+
+def gravity_shape_f(kernel: Union[str, int], q: float) -> float:
+    """sph_gravity_shape_f: h^3 (1/r) dphi/dr
+
+    (1/q) dphi^/dq = h^3 (1/r) dphi/dr. It is Newton's 1/q^3 beyond the support, and for kernels that have no
+    gravity. Needs q >= 0, and q > 0 for the latter.
+    """
+    return _number("gravity_shape_f", kernel, q)
+
+
+def gravity_shape(kernel: Union[str, int], q: float) -> float:
+    """sph_gravity_shape: h phi
+
+    phi^ = h phi, which is negative. It is Newton's -1/q beyond the support, and for kernels that have no
+    gravity. Needs q >= 0, and q > 0 for the latter.
+    """
+    return _number("gravity_shape", kernel, q)
+
+
+def gravity_potential(kernel: Union[str, int], r: float, h: float) -> float:
+    """sph_gravity_potential: phi of a unit mass that is spread out like the kernel, with G = 1 in 3D; it is
+    -1/r beyond the support
+
+    phi = phi^(r/h) / h. This and the next two need a kernel with sph_kernel_has_gravity.
+    """
+    return _number("gravity_potential", kernel, r, h)
+
+
+def gravity_force(kernel: Union[str, int], r: float, h: float) -> float:
+    """sph_gravity_force: (1/r) dphi/dr: the acceleration is -G m x_ij times it
+
+    (1/r) dphi/dr: the acceleration is -G m x_ij times it.
+    """
+    return _number("gravity_force", kernel, r, h)
+
+
+def gravity_dphidh(kernel: Union[str, int], r: float, h: float) -> float:
+    """sph_gravity_dphidh: dphi/dh at fixed r
+
+    dphi/dh = -(phi^ + q dphi^/dq) / h^2 at fixed r, because phi = phi^(r/h) / h. It is 0 beyond the support.
+    """
+    return _number("gravity_dphidh", kernel, r, h)
+
+
+def laplacian_weight_brookshaw(kernel: Union[str, int], dim: int, r: float, h: float, V_j: float) -> float:
+    """sph_laplacian_weight_brookshaw.
+
+    The weight of (f_j - f_i) in Brookshaw's Laplacian: -2 V_j F_ij >= 0, so that L f_i = sum_j weight (f_j -
+    f_i) = sum_j 2 V_j (f_i - f_j) F_ij. It is exact for constants. The error is O(h^2) in the interior of a
+    regular cloud, O(1/h) at a boundary, and O(1) or worse in disorder. Source: Brookshaw 1985, Proc. ASA 6,
+    207.
+    """
+    return _number("laplacian_weight_brookshaw", kernel, dim, r, h, V_j)
+
+
+def moment_weight_gradient(kernel: Union[str, int], dim: int, r: float, h: float, V_j: float) -> float:
+    """sph_moment_weight_gradient.
+
+    The weight -V_j F_ij >= 0 of CSPM's gradient: K = sum_j weight e e^T, grad f_i = K^-1 sum_j weight e df
+    with e = x_j - x_i and df = f_j - f_i. Here e is not divided by h, because h cancels.
+    """
+    return _number("moment_weight_gradient", kernel, dim, r, h, V_j)
+
+
+def boundary_weight_bim(kernel: Union[str, int], e: float, normal: float, h: float) -> float:
+    """sph_boundary_weight_bim.
+
+    The weight of (f_b - f_i) for the end b of the domain at x_b, before the division by gamma_i: 2 normal
+    W(x_i - x_b) / (x_b - x_i)   with   e = x_b - x_i. The outer normal is +1 at the right end and -1 at the
+    left end, so that the weight is positive inside. Sources: Macia, Gonzalez, Cercos-Pita & Souto-Iglesias
+    2012, Prog. Theor. Phys. 128, 439; (4.9) of the ICSPM paper, where the braces are lost in print: the
+    factor 2 / gamma multiplies the boundary terms, too. Needs normal = 1 and e > 0, or normal = -1 and e < 0:
+    at the end itself (e = 0) the term is undefined.
+    """
+    return _number("boundary_weight_bim", kernel, e, normal, h)
+
+
+def mobility_pair(mean: int, m_i: float, m_j: float, upstream: float) -> float:
+    """sph_mobility_pair.
+
+    mu_ij, which is twice the mean of the mobilities. upstream = potential_i - potential_j; it is read for
+    SPH_MOBILITY_UPWIND only. Needs one of the three means, m_i >= 0 and m_j >= 0.
+    """
+    return _number("mobility_pair", mean, m_i, m_j, upstream)
+
+
+def signal_speed(c_i: float, c_j: float, beta_w: float) -> float:
+    """sph_signal_speed.
+
+    The signal speed of a pair, v_sig = (c_i + c_j + beta |w|) / 2 with w = v_ij . x_ij / r; beta_w = beta
+    |w|. c is the sound speed, or sph_mhd_fast_speed in a magnetised gas. Monaghan 1997, JCP 136, 298; Price
+    2012, JCP 231, 759, (105). Needs c_i >= 0 and c_j >= 0.
+    """
+    return _number("signal_speed", c_i, c_j, beta_w)
+
+
+def viscosity_signal(alpha_speed: float, w: float, per_rho: float) -> float:
+    """sph_viscosity_signal.
+
+    Pi_ij = alpha v_sig |w| / rho where particles approach (w < 0), else 0. alpha_speed = alpha v_sig, per_rho
+    = 1 / rho. Needs per_rho >= 0.
+    """
+    return _number("viscosity_signal", alpha_speed, w, per_rho)
+
+
+def kernel_f_apart(kernel: Union[str, int], dim: int, r: float, h: float) -> float:
+    """sph_kernel_f_apart.
+
+    F of a pair, but 0 for particles that coincide (closer than 1e-12 h): their direction consists of rounding
+    errors. It is written with copysign, because a comparison would keep loops from vectorising.
+    """
+    return _number("kernel_f_apart", kernel, dim, r, h)
+
+
+def time_step_sound(h: float, c: float, speed: float) -> float:
+    """sph_time_step_sound.
+
+    The longest step of an explicit scheme for one particle, by sound (Courant): 0.25 h / (c + |v|); speed =
+    |v|. Source of this and the next two functions: Monaghan 1992; Morris, Fox & Zhu 1997, (33)-(35). Take the
+    least of all particles. Where nothing limits the step the answer is 1/SPHI_TINY, or for the force 0.25
+    sqrt(1/SPHI_TINY). Needs c >= 0 and speed >= 0.
+    """
+    return _number("time_step_sound", h, c, speed)
+
+
+def time_step_force(h: float, acceleration: float) -> float:
+    """sph_time_step_force.
+
+    The longest step by the force: 0.25 sqrt(h / |a|); acceleration = |a|. Needs acceleration >= 0.
+    """
+    return _number("time_step_force", h, acceleration)
+
+
+def time_step_viscous_nu(h: float, nu: float) -> float:
+    """sph_time_step_viscous_nu.
+
+    The longest step by viscosity: 0.125 h^2 / nu, with the kinematic viscosity nu. Needs nu >= 0.
+    """
+    return _number("time_step_viscous_nu", h, nu)
+
+
+def conductivity_speed(P_i: float, P_j: float, per_rho: float) -> float:
+    """sph_conductivity_speed.
+
+    The signal speed of the artificial conductivity: sqrt(|P_i - P_j| / rho). per_rho is 1 over the mean
+    density. Price 2008, JCP 227, 10040. Needs per_rho >= 0.
+    """
+    return _number("conductivity_speed", P_i, P_j, per_rho)
+
+
+def cleaning_sigma(dim: int) -> float:
+    """sph_cleaning_sigma.
+
+    A usual damping sigma of cleaning waves: 0.3 in 1D and 2D, 1 in 3D.
+    """
+    return _number("cleaning_sigma", dim)
+
+
+def resistivity_switch(h: float, change: float, strength: float) -> float:
+    """sph_resistivity_switch.
+
+    alpha_B / alpha_max = min(1, h change / B), which lets resistivity act only where the field changes within
+    h. strength: B = |B|. change: |grad B|, the root of the sum of the squares of all its components (Tricco &
+    Price 2013, MNRAS 436, 2810, with alpha_max = 1), or |curl B|, which leaves the divergence to the
+    cleaning. It is 0 where nothing changes, and 1 where B = 0 but change is not. Needs change >= 0 and
+    strength >= 0.
+    """
+    return _number("resistivity_switch", h, change, strength)
+
+
+def resistivity_pair(weight: float, alpha_speed: float, per_rho: float) -> float:
+    """sph_resistivity_pair.
+
+    Artificial resistivity, (10): weight alpha_speed per_rho^2 <= 0, the coefficient b of B_ij in dB_i/dt =
+    rho_i sum_j b B_ij. Here weight = m_j G r, alpha_speed = alpha_B v_sig, and per_rho is 1 over the mean
+    density. (Its square is what (10) lacks.)
+    """
+    return _number("resistivity_pair", weight, alpha_speed, per_rho)
+
+
+def gravity_pair(kernel: Union[str, int], r: float, h_i: float, h_j: float) -> float:
+    """sph_gravity_pair.
+
+    The mean of (1/r) dphi/dr with h_i and with h_j, >= 0: a_i = -G sum_j m_j sph_gravity_pair x_ij. Beyond
+    both supports it is Newton's 1/r^3. Coincident particles feel no force, because x_ij = 0. Needs a kernel
+    with sph_kernel_has_gravity.
+    """
+    return _number("gravity_pair", kernel, r, h_i, h_j)
+
+
+def gravity_zeta_value(h: float, rho: float, sum: float) -> float:
+    """sph_gravity_zeta_value.
+
+    zeta_i = dh_i/drho_i sum_j m_j dphi/dh(r, h_i) with dh/drho = -h / (3 rho): Price & Monaghan 2007, (22).
+    The sum contains the particle itself. Needs rho > 0.
+    """
+    return _number("gravity_zeta_value", h, rho, sum)
+
+
+__all__ = [
+    "kernel_support_ratio",
+    "kernel_h_over_dx",
+    "kernel_h_from_support",
+    "kernel_support",
+    "kernel_sigma",
+    "kernel_shape",
+    "kernel_shape_f",
+    "kernel_shape_d2",
+    "kernel_w",
+    "kernel_f",
+    "kernel_dwdr",
+    "kernel_d2wdr2",
+    "kernel_dwdh",
+    "kernel_has_cusp",
+    "kernel_may_convexify",
+    "cohesion_kernel_akinci",
+    "adhesion_kernel_akinci",
+    "kernel_has_gravity",
+    "gravity_shape_f",
+    "gravity_shape",
+    "gravity_potential",
+    "gravity_force",
+    "gravity_dphidh",
+    "laplacian_weight_brookshaw",
+    "moment_weight_gradient",
+    "boundary_weight_bim",
+    "mobility_pair",
+    "signal_speed",
+    "viscosity_signal",
+    "kernel_f_apart",
+    "time_step_sound",
+    "time_step_force",
+    "time_step_viscous_nu",
+    "conductivity_speed",
+    "cleaning_sigma",
+    "resistivity_switch",
+    "resistivity_pair",
+    "gravity_pair",
+    "gravity_zeta_value",
+]
