@@ -48,6 +48,7 @@ find "$copy" -newer "$here/before" > "$scratch/written"
 check "nothing is written in the checkout: $(head -n 1 "$scratch/written")" test ! -s "$scratch/written"
 chmod -R u+w "$copy"
 if needs "BSD make" bmake; then
-    check "BSD make is told which make it takes" answers error "this Makefile is for GNU make" bmake help
+    check "BSD make is told which make it takes" answers error "this Makefile is for GNU make" \
+        env MAKEFLAGS= MFLAGS= bmake help
 fi
 finish bare

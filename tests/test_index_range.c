@@ -158,7 +158,7 @@ static void test_matrix(sph_index length, sph_index expected)
     sph_index start[N + 1], begin[N + 1], *const index = (sph_index *)cloud_memory(MOST, sizeof *index),
                                           *const column = (sph_index *)cloud_memory(MOST, sizeof *column);
     sph_list list;
-    sph_cloud cloud;
+    sph_cloud targets;
     sph_csr out;
     sph_real x[N] = {0, 1, 2};
     int64_t entries = -1;
@@ -171,16 +171,16 @@ static void test_matrix(sph_index length, sph_index expected)
     }
     list.start = start;
     list.index = index;
-    cloud = sph_cloud_of(sph_points_separate(N, x, 0, 0), list, sph_scalars_none(), sph_scalars_none());
+    targets = sph_cloud_of(sph_points_separate(N, x, 0, 0), list, sph_scalars_none(), sph_scalars_none());
     out.start = begin;
     out.column = column;
     out.value = value;
     out.capacity = INT64_MAX;
-    CHECK(sph_csr_size(cloud) == (int64_t)length + N);
-    CHECK(sph_csr_assemble(cloud, row, sph_scalars_array(diagonal), 0, out, &entries) == expected);
+    CHECK(sph_csr_size(targets) == (int64_t)length + N);
+    CHECK(sph_csr_assemble(targets, row, sph_scalars_array(diagonal), 0, out, &entries) == expected);
     CHECK(entries == (expected ? -1 : N + 1)); /* a neighbour that is named often is one entry */
     out.capacity = (int64_t)length + N - 1;
-    CHECK(sph_csr_assemble(cloud, row, sph_scalars_array(diagonal), 0, out, &entries) ==
+    CHECK(sph_csr_assemble(targets, row, sph_scalars_array(diagonal), 0, out, &entries) ==
           (expected ? expected : SPH_ERROR_CAPACITY));
     free(row);
     free(value);
