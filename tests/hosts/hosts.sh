@@ -8,7 +8,8 @@ export PYTHONDONTWRITEBYTECODE=1
 warn="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wstrict-prototypes -Wmissing-prototypes -Werror -Wno-unknown-warning-option -Wno-pass-failed"
 not_inlined='-DSPH_FN=static __attribute__((noinline, unused))' # for tests that call many copies: seconds to compile, not minutes
 
-# runs a host and shows what it prints; one that ends with 77 has no device
+# runs a host and shows what it prints; one that ends with 77 has no device, which for OpenCL can be installed
+no_device="there is no device (Debian: pocl-opencl-icd)"
 run() {
     what=$1
     shift
@@ -16,7 +17,7 @@ run() {
     timeout 300 "$@" > "$scratch/output" 2>&1
     status=$?
     cat "$scratch/output"
-    if [ $status -eq 77 ]; then skip "$what" "nothing to run it on"; else check "$what" test $status -eq 0; fi
+    if [ $status -eq 77 ]; then skip "$what" "$no_device"; else check "$what" test $status -eq 0; fi
 }
 built() { # what, output, command ...: removes the output first, so that what runs is what was built
     rm -f "$2"
@@ -142,6 +143,7 @@ fi
 PATH=$PATH:/usr/local/cuda/bin
 nvcc="nvcc -std=c++17 -O2 -Werror all-warnings -diag-suppress 128" # 128: a loop that SPH_CHECK=0 leaves out
 if usable "CUDA (Debian: nvidia-cuda-toolkit)" "$empty" '' "$nvcc -x cu"; then
+    no_device="a GPU is not on this machine"
     for single in 0 1; do
         # shellcheck disable=SC2086
         built "CUDA, SPH_SINGLE=$single" "$scratch/host_cuda-$single" \
