@@ -80,7 +80,7 @@
  *                threads: call them on ranges, from your own threads.
  *   SPH_AVX512   1 where the compiler may use AVX-512 F and VL, else 0.
  *                1: the inner loop of the search is written by hand for AVX-512.
- *   SPH_AVX2     1 where the compiler may use AVX2 and BMI2, else 0.
+ *   SPH_AVX2     1 where the compiler may use AVX2, else 0.
  *                1: the same for AVX2. If both are 0, the loop is portable C.
  */
 #include "sph_ops.h" /* each time, because the lowest header looks at the options each time */
@@ -118,7 +118,7 @@
 #if SPH_AVX512 && !SPHI_HAS_AVX512
 #  error "SPH_AVX512 must be 0 here: the compiler was not told to use AVX-512 F and VL (-march=native)"
 #endif
-#if defined(__AVX2__) && defined(__BMI2__) && defined(__x86_64__) && !defined(__CUDACC__)
+#if defined(__AVX2__) && defined(__x86_64__) && !defined(__CUDACC__)
 #  define SPHI_HAS_AVX2 1
 #else
 #  define SPHI_HAS_AVX2 0
@@ -130,7 +130,7 @@
 #  error "SPH_AVX2 must be 0 or 1"
 #endif
 #if SPH_AVX2 && !SPHI_HAS_AVX2
-#  error "SPH_AVX2 must be 0 here: the compiler was not told to use AVX2 and BMI2 on x86-64 (-march=native)"
+#  error "SPH_AVX2 must be 0 here: the compiler was not told to use AVX2 on x86-64 (-march=native)"
 #endif
 #if SPH_OPENMP
 #  include <omp.h>
@@ -188,7 +188,8 @@ enum {
     SPHI_PAD = 16,      /* slots beyond the last that whole lanes may read */
     SPHI_FARTHEST = 32, /* largest radius / the grid's: it bounds the number of cells that a row looks at */
     SPHI_ALIGN = 8,     /* bytes to which memory is aligned, inside the caller's */
-    SPHI_CROWDS = 8     /* crowded cells whose bounds are kept from one target to the next */
+    SPHI_CROWDS = 8,    /* crowded cells whose bounds are kept from one target to the next */
+    SPHI_ROWS = 16      /* rows of a hashed grid whose places are kept, likewise */
 };
 #ifndef SPHI_CROWDED
 #define SPHI_CROWDED 1024 /* a cell with as many particles is crowded; tests take fewer */
@@ -528,7 +529,14 @@ typedef struct sphi_crowds {
     int count, next; /* how many are known, and which one is replaced next */
 } sphi_crowds;
 
-/* What the search for one row needs. */
+/* Where the rows y0 ... y1, z0 ... z1 of a hashed grid begin in the table, kept from one target to the next.
+   Stretches of up to `apart` buckets from there on do not overlap. */
+typedef struct sphi_rows {
+    int64_t y0, y1, z0, z1;
+    size_t apart, from[SPHI_ROWS];
+} sphi_rows;
+
+/* What the search for one list needs. */
 typedef struct sphi_search {
     sph_vec p;             /* the target, inside the box */
     sph_real radius;       /* nothing farther is a neighbour */
@@ -538,6 +546,7 @@ typedef struct sphi_search {
     int criterion;         /* how the radius of a pair follows from own and source */
     sph_index skip, least; /* without the particle skip, and only particles from least on */
     sphi_crowds *crowds;
+    sphi_rows *rows;
 } sphi_search;
 
 /* The cells x0 ... x1 of a row along x, and the image in which they are seen: `shift` is 0, or
@@ -545,6 +554,8 @@ typedef struct sphi_search {
 typedef struct sphi_run {
     int64_t x0, x1, y, z;
     sph_vec shift;
+    int own; /* 0: the particle that is to be left out is not expected here, and not looked for */
+    int met; /* becomes 1 where it was found, or would have been */
 } sphi_run;
 
 SPH_FN sph_real sphi_lesser(sph_real a, sph_real b) { return a < b ? a : b; }
@@ -631,15 +642,15 @@ SPH_FN unsigned sphi_negative(sph_real x)
 
 /* Of the slots a ... b - 1, stores the neighbours at out[count] and behind it, as long as count < room. It
    counts all of them, and returns the new count. */
-SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const sphi_search *s,
-                                    const sphi_run *run, sph_index a, sph_index b, sph_index *out,
-                                    int64_t room, int64_t count)
+SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const sphi_search *s, sphi_run *run,
+                                    sph_index a, sph_index b, sph_index *out, int64_t room, int64_t count)
 {
     const sph_vec p = s->p, shift = run->shift;
     const sph_real limit = s->radius * s->radius;
     const sph_index skip = s->skip, least = s->least;
-    const int store = kind != SPHI_HASHED && count + (int64_t)(b - a) + 1 <= room,
-              tally = kind != SPHI_HASHED && room <= 0;
+    const int store = kind != SPHI_HASHED && count + (int64_t)(b - a) + 4 <= room,
+              tally = kind != SPHI_HASHED && room <= 0; /* every list of a pass is counted so, or none */
+    int met = tally;
     for (; a < b; a += SPHI_TILE) {
         const int n = b - a < SPHI_TILE ? (int)(b - a) : (int)SPHI_TILE;
         const sph_index *const member = g->member + a;
@@ -658,15 +669,23 @@ SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const 
         if (store) {
             /* without a branch: every candidate is stored, and overwritten by the next if it is not near */
             sph_index *next = out + count;
-            if (least == 0)
-                for (l = 0; l < n; l++) {
-                    *next = member[l];
-                    next += sphi_negative(excess[l]) & (member[l] != skip);
+            if (least == 0 && !run->own) { /* four at a time, of which those beyond the end are not near */
+#define SPHI_KEEP(l) \
+    *next = member[l]; \
+    next += sphi_negative(excess[l]);
+                for (l = n; l % 4 != 0; l++) excess[l] = SPH_R(0);
+                for (l = 0; l < n; l += 4) {
+                    SPHI_KEEP(l)
+                    SPHI_KEEP(l + 1)
+                    SPHI_KEEP(l + 2)
+                    SPHI_KEEP(l + 3)
                 }
-            else
+#undef SPHI_KEEP
+            } else
                 for (l = 0; l < n; l++) {
                     *next = member[l];
                     next += sphi_negative(excess[l]) & (member[l] != skip) & (member[l] >= least);
+                    met |= member[l] == skip;
                 }
             count = next - out;
         } else if (tally) {
@@ -677,6 +696,7 @@ SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const 
         } else
             for (l = 0; l < n; l++) {
                 const sph_index j = member[l];
+                met |= j == skip;
                 if (!sphi_negative(excess[l]) || j == skip || j < least ||
                     (kind == SPHI_HASHED && !sphi_in_run(dim, g, sphi_slot(dim, g, a + l), run)))
                     continue;
@@ -684,19 +704,39 @@ SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const 
                 count++;
             }
     }
+    run->met |= met;
     return count;
 }
 
 #if SPH_AVX512 || SPH_AVX2
 #define SPHI_WIDE_PATH (sizeof(sph_index) == 4)
+#if !SPH_AVX512
+/* For each mask of eight bits the numbers of its bits, as bytes. h and l are those of the upper and the lower
+   half, of which the lower one has n. (pdep and pext would do without a table, but take some hundred cycles
+   on processors before Zen 3.) */
+#define SPHI_BITS(h, l, n) (l | (h | (uint64_t)0x04040404) << 8 * n)
+#define SPHI_HALVES(each, h) \
+    each(h, 0, 0), each(h, 0, 1), each(h, 1, 1), each(h, 0x100, 2), each(h, 2, 1), each(h, 0x200, 2), \
+        each(h, 0x201, 2), each(h, 0x20100, 3), each(h, 3, 1), each(h, 0x300, 2), each(h, 0x301, 2), \
+        each(h, 0x30100, 3), each(h, 0x302, 2), each(h, 0x30200, 3), each(h, 0x30201, 3), \
+        each(h, 0x3020100, 4)
+static const uint64_t sphi_bits[256] = {
+    SPHI_HALVES(SPHI_BITS, 0),        SPHI_HALVES(SPHI_BITS, 0),       SPHI_HALVES(SPHI_BITS, 1),
+    SPHI_HALVES(SPHI_BITS, 0x100),    SPHI_HALVES(SPHI_BITS, 2),       SPHI_HALVES(SPHI_BITS, 0x200),
+    SPHI_HALVES(SPHI_BITS, 0x201),    SPHI_HALVES(SPHI_BITS, 0x20100), SPHI_HALVES(SPHI_BITS, 3),
+    SPHI_HALVES(SPHI_BITS, 0x300),    SPHI_HALVES(SPHI_BITS, 0x301),   SPHI_HALVES(SPHI_BITS, 0x30100),
+    SPHI_HALVES(SPHI_BITS, 0x302),    SPHI_HALVES(SPHI_BITS, 0x30200), SPHI_HALVES(SPHI_BITS, 0x30201),
+    SPHI_HALVES(SPHI_BITS, 0x3020100)};
+#undef SPHI_HALVES
+#undef SPHI_BITS
+#endif
 /* Packs those of the eight indices that the mask names. It writes eight entries. */
 SPH_FN void sphi_compress8(sph_index *out, __m256i j, unsigned mask)
 {
 #if SPH_AVX512
     _mm256_storeu_si256((__m256i *)(void *)out, _mm256_maskz_compress_epi32((__mmask8)mask, j));
-#else /* the numbers of the lanes, as bytes, are packed by the mask */
-    const uint64_t bytes = _pext_u64(0x0706050403020100u, _pdep_u64(mask, 0x0101010101010101u) * 0xffu);
-    const __m256i order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)bytes));
+#else
+    const __m256i order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)sphi_bits[mask]));
     _mm256_storeu_si256((__m256i *)(void *)out, _mm256_permutevar8x32_epi32(j, order));
 #endif
 }
@@ -799,12 +839,13 @@ SPHI_LARGE int64_t sphi_filter_tight(int dim, int kind, const sph_grid *g, const
 }
 #endif
 
-SPH_FN int64_t sphi_filter(int dim, int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
+SPH_FN int64_t sphi_filter(int dim, int kind, const sph_grid *g, const sphi_search *s, sphi_run *run,
                            sph_index a, sph_index b, sph_index *out, int64_t room, int64_t count)
 {
 #if SPH_AVX512 || SPH_AVX2
     const int store = count + (int64_t)(b - a) + 8 <= room;
     if (kind != SPHI_HASHED && SPHI_WIDE_PATH) {
+        run->met = 1; /* it is looked for in every row */
         if (store || room <= 0) return sphi_filter_wide(dim, kind, g, s, run->shift, a, b, out, store, count);
         return sphi_filter_tight(dim, kind, g, s, run->shift, a, b, out, room, count);
     }
@@ -823,6 +864,10 @@ SPH_FN void sphi_range(sph_real x, sph_real radius, sph_real low, sph_real inver
         *c0 = sphi_cell_periodic(x - more, low, inverse_width);
         *c1 = sphi_cell_periodic(x + more, low, inverse_width);
     } else {
+#ifdef __FAST_MATH__ /* the order of sums is then the compiler's */
+        const sph_real more = SPH_R(16) * SPH_EPSILON * (SPHI_ABS(low) + (sph_real)cells / inverse_width);
+        radius += more < radius ? more : radius;
+#endif
         *c0 = sphi_cell(x - radius, low, inverse_width, cells);
         *c1 = sphi_cell(x + radius, low, inverse_width, cells);
     }
@@ -922,12 +967,14 @@ SPHI_LARGE int sphi_has_crowd(int kind, const sph_grid *g, const sphi_search *s,
     return from < to;
 }
 /* Takes all slots a ... b - 1 of one bucket, as sphi_filter would, but without distances. */
-SPHI_LARGE int64_t sphi_take(const sph_grid *g, const sphi_search *s, sph_index a, sph_index b,
+SPHI_LARGE int64_t sphi_take(const sph_grid *g, const sphi_search *s, sphi_run *run, sph_index a, sph_index b,
                              sph_index *out, int64_t room, int64_t count)
 {
     sph_index m = sphi_lower_bound(g, a, b, s->least);
     const sph_index own = sphi_lower_bound(g, m, b, s->skip);
-    const int64_t end = count + (b - m) - (own < b && g->member[own] == s->skip);
+    const int met = own < b && g->member[own] == s->skip;
+    const int64_t end = count + (b - m) - met;
+    run->met |= met;
     for (; m < b && count < room; m++) {
         out[count] = g->member[m];
         count += g->member[m] != s->skip;
@@ -935,18 +982,18 @@ SPHI_LARGE int64_t sphi_take(const sph_grid *g, const sphi_search *s, sph_index 
     return end;
 }
 /* A run with a crowd in it. The code is not specialised, because few particles are not taken as a whole. */
-SPHI_LARGE int64_t sphi_filter_crowded(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
+SPHI_LARGE int64_t sphi_filter_crowded(int kind, const sph_grid *g, const sphi_search *s, sphi_run *run,
                                        size_t from, size_t to, sph_index *out, int64_t room, int64_t count)
 {
     for (; from < to; from++) {
         const sph_index a = g->first[from], b = g->first[from + 1];
-        if (sphi_crowd_taken(kind, g, s, run, from)) count = sphi_take(g, s, a, b, out, room, count);
+        if (sphi_crowd_taken(kind, g, s, run, from)) count = sphi_take(g, s, run, a, b, out, room, count);
         else if (a < b) count = sphi_filter(g->dim, kind, g, s, run, a, b, out, room, count);
     }
     return count;
 }
 /* The consecutive buckets from ... to - 1. */
-SPH_FN int64_t sphi_buckets(int dim, int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
+SPH_FN int64_t sphi_buckets(int dim, int kind, const sph_grid *g, const sphi_search *s, sphi_run *run,
                             size_t from, size_t to, sph_index *out, int64_t room, int64_t count)
 {
     const sph_index a = g->first[from], b = g->first[to];
@@ -955,66 +1002,191 @@ SPH_FN int64_t sphi_buckets(int dim, int kind, const sph_grid *g, const sphi_sea
     return sphi_filter(dim, kind, g, s, run, a, b, out, room, count);
 }
 
-/* The neighbours of one target, or with count_all the number of candidates alone. Adds the number of
-   candidates to *candidates. */
-SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search *s, int count_all,
-                        sph_index *out, int64_t room, int64_t *candidates)
+/* -------- lists: the rows of cells around a target */
+
+/* The cells that a target looks at. Along a periodic axis they may lie outside of the box. */
+typedef struct sphi_block {
+    int64_t x0, x1, y0, y1, z0, z1;
+    int64_t y, z; /* of the target itself */
+} sphi_block;
+SPH_FN sphi_block sphi_block_of(int dim, int kind, const sph_grid *g, const sphi_search *s)
 {
-    const int boxed = kind != SPHI_OPEN, hashed = kind == SPHI_HASHED;
-    const sph_vec box = g->box;
-    int64_t x0, x1, y0 = 0, y1 = 0, z0 = 0, z1 = 0, x, y, z, count = 0;
-    sphi_run run;
-    run.y = run.z = 0;
-    run.shift.x = run.shift.y = run.shift.z = SPH_R(0);
-    if (dim > 1)
-        sphi_range(s->p.y, s->radius, g->low.y, g->inverse_width.y, boxed ? box.y : SPH_R(0), g->cells[1],
-                   &y0, &y1);
-    if (dim > 2)
-        sphi_range(s->p.z, s->radius, g->low.z, g->inverse_width.z, boxed ? box.z : SPH_R(0), g->cells[2],
-                   &z0, &z1);
-    sphi_range(s->p.x, s->radius, g->low.x, g->inverse_width.x, boxed ? box.x : SPH_R(0), g->cells[0], &x0,
-               &x1);
-    if (kind == SPHI_OPEN) {
-        /* The same as below, with nothing to wrap. It would cost more than it saves to look at less of the
-           rows near the rim, or to leave them out. */
-        for (z = z0; z <= z1; z++)
-            for (y = y0; y <= y1; y++) {
-                const size_t row = (size_t)((z * g->cells[1] + y) * g->cells[0]), from = row + (size_t)x0,
-                             to = row + (size_t)x1 + 1;
-                *candidates += g->first[to] - g->first[from];
-                if (!count_all) count = sphi_buckets(dim, kind, g, s, &run, from, to, out, room, count);
-            }
-        return count;
+    const int boxed = kind != SPHI_OPEN;
+    const sph_vec p = s->p, box = g->box;
+    sphi_block k;
+    k.y0 = k.y1 = k.z0 = k.z1 = k.y = k.z = 0;
+    if (dim > 1) {
+        sphi_range(p.y, s->radius, g->low.y, g->inverse_width.y, boxed ? box.y : SPH_R(0), g->cells[1], &k.y0,
+                   &k.y1);
+        k.y = sphi_cell(p.y, g->low.y, g->inverse_width.y, g->cells[1]);
     }
-    for (z = z0; z <= z1; z++) {
-        run.z = z;
-        if (dim > 2 && box.z > SPH_R(0)) run.shift.z = box.z * (sph_real)sphi_image(g->cells[2], &run.z);
-        for (y = y0; y <= y1; y++) {
+    if (dim > 2) {
+        sphi_range(p.z, s->radius, g->low.z, g->inverse_width.z, boxed ? box.z : SPH_R(0), g->cells[2], &k.z0,
+                   &k.z1);
+        k.z = sphi_cell(p.z, g->low.z, g->inverse_width.z, g->cells[2]);
+    }
+    sphi_range(p.x, s->radius, g->low.x, g->inverse_width.x, boxed ? box.x : SPH_R(0), g->cells[0], &k.x0,
+               &k.x1);
+    return k;
+}
+/* The image of a row, as a distance along y or z. Moves the row into the box. */
+SPH_FN sph_real sphi_row_shift(sph_real length, int64_t cells, int64_t *row)
+{
+    return length > SPH_R(0) ? length * (sph_real)sphi_image(cells, row) : SPH_R(0);
+}
+
+/* Finds where the rows of a block begin in the table of a hashed grid, and how far apart. */
+SPHI_LARGE void sphi_rows_find(const sph_grid *g, const sphi_block *k, sphi_rows *rows)
+{
+    int64_t y, z;
+    int count = 0, i;
+    rows->y0 = k->y0;
+    rows->y1 = k->y1;
+    rows->z0 = k->z0;
+    rows->z1 = k->z1;
+    rows->apart = 0;
+    if ((k->y1 - k->y0 + 1) * (k->z1 - k->z0 + 1) > SPHI_ROWS) return;
+    rows->apart = g->buckets;
+    for (z = k->z0; z <= k->z1; z++)
+        for (y = k->y0; y <= k->y1; y++) {
+            int64_t in_y = y, in_z = z;
+            if (g->box.y > SPH_R(0)) sphi_image(g->cells[1], &in_y);
+            if (g->box.z > SPH_R(0)) sphi_image(g->cells[2], &in_z);
+            rows->from[count] = sphi_row_bucket(g, in_y, in_z);
+            for (i = 0; i < count; i++) {
+                const size_t ahead = (rows->from[count] - rows->from[i]) & (g->buckets - 1),
+                             behind = (rows->from[i] - rows->from[count]) & (g->buckets - 1);
+                if (ahead < rows->apart) rows->apart = ahead;
+                if (behind < rows->apart) rows->apart = behind;
+            }
+            count++;
+        }
+}
+/* 1 if the stretches of the rows in the table do not overlap, and each is in one image. No slot is then seen
+   twice. Particles of other cells that are there, too, are too far away to be neighbours, in any image. */
+SPH_FN int sphi_rows_apart(const sph_grid *g, const sphi_block *k, sphi_rows *rows)
+{
+    if (k->x0 < 0 || k->x1 >= g->cells[0]) return 0;
+    if (k->y0 != rows->y0 || k->y1 != rows->y1 || k->z0 != rows->z0 || k->z1 != rows->z1)
+        sphi_rows_find(g, k, rows);
+    return (size_t)(k->x1 - k->x0) < rows->apart;
+}
+/* The rows of a hashed grid, if sphi_rows_apart. */
+SPH_FN int64_t sphi_rows_hashed(int dim, const sph_grid *g, const sphi_search *s, const sphi_block *k,
+                                sphi_run *run, int careful, int count_all, sph_index *out, int64_t room,
+                                int64_t *candidates)
+{
+    const size_t cells = (size_t)(k->x1 - k->x0) + 1, *from = s->rows->from;
+    int64_t y, z, count = 0;
+    for (z = k->z0; z <= k->z1; z++) {
+        run->z = z;
+        run->shift.z = dim > 2 ? sphi_row_shift(g->box.z, g->cells[2], &run->z) : SPH_R(0);
+        for (y = k->y0; y <= k->y1; y++) {
+            size_t at = (*from++ + (size_t)k->x0) & (g->buckets - 1), left = cells;
+            run->y = y;
+            run->shift.y = dim > 1 ? sphi_row_shift(g->box.y, g->cells[1], &run->y) : SPH_R(0);
+            run->own = careful || (y == k->y && z == k->z);
+            while (left > 0) { /* twice if the row passes the end of the table */
+                const size_t to = at + left < g->buckets ? at + left : g->buckets;
+                *candidates += g->first[to] - g->first[at];
+                if (!count_all && s->criterion == SPH_GATHER)
+                    count = sphi_buckets(dim, SPHI_BOXED, g, s, run, at, to, out, room, count);
+                else if (!count_all)
+                    count = sphi_buckets(dim, SPHI_RADII, g, s, run, at, to, out, room, count);
+                left -= to - at;
+                at = 0;
+            }
+        }
+    }
+    return count;
+}
+/* The rows of an open domain, whose cells have their own buckets. It would cost more than it saves to look at
+   less of the rows near the rim, or to leave them out. */
+SPH_FN int64_t sphi_rows_open(int dim, const sph_grid *g, const sphi_search *s, const sphi_block *k,
+                              sphi_run *run, int careful, int count_all, sph_index *out, int64_t room,
+                              int64_t *candidates)
+{
+    int64_t y, z, count = 0;
+    for (z = k->z0; z <= k->z1; z++)
+        for (y = k->y0; y <= k->y1; y++) {
+            const size_t row = (size_t)((z * g->cells[1] + y) * g->cells[0]), from = row + (size_t)k->x0,
+                         to = row + (size_t)k->x1 + 1;
+            run->own = careful || (y == k->y && z == k->z);
+            *candidates += g->first[to] - g->first[from];
+            if (!count_all) count = sphi_buckets(dim, SPHI_OPEN, g, s, run, from, to, out, room, count);
+        }
+    return count;
+}
+/* The rows of any grid. */
+SPH_FN int64_t sphi_rows_any(int dim, int kind, const sph_grid *g, const sphi_search *s, const sphi_block *k,
+                             sphi_run *run, int careful, int count_all, sph_index *out, int64_t room,
+                             int64_t *candidates)
+{
+    const int hashed = kind == SPHI_HASHED;
+    const sph_vec box = g->box;
+    int64_t x, y, z, count = 0;
+    for (z = k->z0; z <= k->z1; z++) {
+        run->z = z;
+        run->shift.z = dim > 2 ? sphi_row_shift(box.z, g->cells[2], &run->z) : SPH_R(0);
+        for (y = k->y0; y <= k->y1; y++) {
             size_t row;
-            run.y = y;
-            if (dim > 1 && box.y > SPH_R(0)) run.shift.y = box.y * (sph_real)sphi_image(g->cells[1], &run.y);
-            row = sphi_row_bucket(g, run.y, run.z);
-            for (x = x0; x <= x1;
-                 x += run.x1 - run.x0 + 1) { /* more than once only if a row passes the end of the box */
+            run->y = y;
+            run->shift.y = dim > 1 ? sphi_row_shift(box.y, g->cells[1], &run->y) : SPH_R(0);
+            run->own = careful || (y == k->y && z == k->z);
+            row = sphi_row_bucket(g, run->y, run->z);
+            for (x = k->x0; x <= k->x1;
+                 x += run->x1 - run->x0 + 1) { /* more than once only if a row passes the end of the box */
                 size_t from, left;
-                run.x0 = x;
-                if (box.x > SPH_R(0)) run.shift.x = box.x * (sph_real)sphi_image(g->cells[0], &run.x0);
-                run.x1 = run.x0 + (x1 - x) < g->cells[0] ? run.x0 + (x1 - x) : g->cells[0] - 1;
-                from = row + (size_t)run.x0;
-                left = (size_t)(run.x1 - run.x0) + 1;
+                run->x0 = x;
+                run->shift.x = sphi_row_shift(box.x, g->cells[0], &run->x0);
+                run->x1 = run->x0 + (k->x1 - x) < g->cells[0] ? run->x0 + (k->x1 - x) : g->cells[0] - 1;
+                from = row + (size_t)run->x0;
+                left = (size_t)(run->x1 - run->x0) + 1;
                 if (hashed && left > g->buckets) left = g->buckets;
                 while (left > 0) { /* twice if a hashed row passes the end of the table */
                     size_t to;
                     if (hashed) from &= g->buckets - 1;
                     to = from + left < g->buckets ? from + left : g->buckets;
                     *candidates += g->first[to] - g->first[from];
-                    if (!count_all) count = sphi_buckets(dim, kind, g, s, &run, from, to, out, room, count);
+                    if (!count_all) count = sphi_buckets(dim, kind, g, s, run, from, to, out, room, count);
                     left -= to - from;
                     from = to;
                 }
             }
         }
     }
+    return count;
+}
+/* The rare case of a hashed grid, not specialised. */
+SPHI_LARGE int64_t sphi_rows_overlapping(const sph_grid *g, const sphi_search *s, const sphi_block *k,
+                                         sphi_run *run, int careful, int count_all, sph_index *out,
+                                         int64_t room, int64_t *candidates)
+{
+    return sphi_rows_any(g->dim, SPHI_HASHED, g, s, k, run, careful, count_all, out, room, candidates);
+}
+
+/* The neighbours of one target, or with count_all the number of candidates alone. Adds the number of
+   candidates to *candidates. The target itself is looked for in the row of its own cell only. If it was not
+   there, because the caller has moved it since the grid was built, all is done again with more care. */
+SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search *s, int count_all,
+                        sph_index *out, int64_t room, int64_t *candidates)
+{
+    const sphi_block k = sphi_block_of(dim, kind, g, s);
+    sphi_run run;
+    int64_t count;
+    int careful = 0;
+    run.y = run.z = 0;
+    run.shift.x = run.shift.y = run.shift.z = SPH_R(0);
+    run.met = s->skip < 0 || count_all;
+    do {
+        if (kind == SPHI_OPEN)
+            count = sphi_rows_open(dim, g, s, &k, &run, careful, count_all, out, room, candidates);
+        else if (kind != SPHI_HASHED)
+            count = sphi_rows_any(dim, kind, g, s, &k, &run, careful, count_all, out, room, candidates);
+        else if (sphi_rows_apart(g, &k, s->rows))
+            count = sphi_rows_hashed(dim, g, s, &k, &run, careful, count_all, out, room, candidates);
+        else count = sphi_rows_overlapping(g, s, &k, &run, careful, count_all, out, room, candidates);
+    } while (!run.met && !careful++);
     return count;
 }
 
@@ -1040,16 +1212,20 @@ SPH_FN void sphi_sort(sph_index *a, sph_index n)
 }
 
 /* What a call of sph_grid_lists or sph_grid_count has to do. */
-typedef struct sphi_job {
+typedef struct sphi_job sphi_job;
+typedef int64_t (*sphi_pass_function)(int mode, const sphi_job *job, sph_index first, sph_index last,
+                                      sph_index *index, int64_t room, int64_t *candidates);
+struct sphi_job {
     const sph_grid *g;
     sph_points targets;
+    sphi_pass_function pass;
     int kind, criterion, flags;
     sph_scalars target_radius, source_radius;
     sph_real source_largest, widest;
     int by_slots;     /* passes go over the slots of the grid, not over the targets */
     int64_t capacity; /* 0: nothing is stored */
     sph_index *start, *index;
-} sphi_job;
+};
 
 /* SPHI_APPEND stores the rows one after the other in index[0 ... room - 1], and their lengths in
    start[i + 1]. The other way takes two passes: SPHI_LENGTHS stores the lengths in start[i + 1]; once
@@ -1069,9 +1245,13 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
     int64_t total = 0;
     sph_index buffer[SPHI_BUFFER], k;
     sphi_crowds crowds;
+    sphi_rows rows;
     sphi_search s;
     crowds.count = crowds.next = 0;
     s.crowds = &crowds;
+    rows.y0 = rows.z0 = 0;
+    rows.y1 = rows.z1 = -1; /* none yet */
+    s.rows = &rows;
     s.widest = job->widest;
     s.source = job->source_radius;
     s.criterion = job->criterion;
@@ -1131,35 +1311,20 @@ SPHI_PASS(sphi_pass_open_1, 1, SPHI_OPEN)
 SPHI_PASS(sphi_pass_open_2, 2, SPHI_OPEN)
 SPHI_PASS(sphi_pass_open_3, 3, SPHI_OPEN)
 #undef SPHI_PASS
-SPH_FN int64_t sphi_pass_part(int mode, const sphi_job *job, sph_index first, sph_index last,
-                              sph_index *index, int64_t room, int64_t *candidates)
+/* The passes of one dimension: a caller for whom it is a constant gets no other ones into the program. */
+SPH_FN sphi_pass_function sphi_pass_of(int dim, int kind)
 {
-    switch (job->kind * 4 + job->g->dim) {
-    case SPHI_HASHED * 4 + 1:
-        return sphi_pass_hashed_1(mode, job, first, last, index, room, candidates);
-    case SPHI_HASHED * 4 + 2:
-        return sphi_pass_hashed_2(mode, job, first, last, index, room, candidates);
-    case SPHI_HASHED * 4 + 3:
-        return sphi_pass_hashed_3(mode, job, first, last, index, room, candidates);
-    case SPHI_RADII * 4 + 1:
-        return sphi_pass_radii_1(mode, job, first, last, index, room, candidates);
-    case SPHI_RADII * 4 + 2:
-        return sphi_pass_radii_2(mode, job, first, last, index, room, candidates);
-    case SPHI_RADII * 4 + 3:
-        return sphi_pass_radii_3(mode, job, first, last, index, room, candidates);
-    case SPHI_BOXED * 4 + 1:
-        return sphi_pass_boxed_1(mode, job, first, last, index, room, candidates);
-    case SPHI_BOXED * 4 + 2:
-        return sphi_pass_boxed_2(mode, job, first, last, index, room, candidates);
-    case SPHI_BOXED * 4 + 3:
-        return sphi_pass_boxed_3(mode, job, first, last, index, room, candidates);
-    case SPHI_OPEN * 4 + 1:
-        return sphi_pass_open_1(mode, job, first, last, index, room, candidates);
-    case SPHI_OPEN * 4 + 2:
-        return sphi_pass_open_2(mode, job, first, last, index, room, candidates);
-    default:
-        return sphi_pass_open_3(mode, job, first, last, index, room, candidates);
-    }
+#define SPHI_PASSES(d) \
+    if (dim == d) \
+        return kind == SPHI_HASHED  ? sphi_pass_hashed_##d \
+               : kind == SPHI_RADII ? sphi_pass_radii_##d \
+               : kind == SPHI_BOXED ? sphi_pass_boxed_##d \
+                                    : sphi_pass_open_##d;
+    SPHI_PASSES(1)
+    SPHI_PASSES(2)
+    SPHI_PASSES(3)
+#undef SPHI_PASSES
+    return 0;
 }
 
 /* Where the room of a part begins. */
@@ -1184,9 +1349,8 @@ SPHI_LARGE int64_t sphi_pass_threads(int mode, const sphi_job *job, int parts, i
         const int64_t room =
             mode == SPHI_APPEND ? sphi_from(job->capacity, part + 1, parts) - from : job->capacity;
         int64_t looked_at = 0;
-        const int64_t mine =
-            sphi_pass_part(mode, job, sphi_first(n, part, parts), sphi_first(n, part + 1, parts),
-                           job->capacity > 0 ? job->index + from : job->index, room, &looked_at);
+        const int64_t mine = job->pass(mode, job, sphi_first(n, part, parts), sphi_first(n, part + 1, parts),
+                                       job->capacity > 0 ? job->index + from : job->index, room, &looked_at);
         total += mine;
         seen += looked_at;
         over |= mine > room;
@@ -1319,10 +1483,11 @@ SPH_FN int sphi_job_of(int dim, const sph_grid *grid, sph_query query, sph_index
     uniform = by_source && source_radius.stride == 0;
     if (uniform && by_target && target_radius.stride) uniform = 0;
     if (uniform && by_target) uniform = sphi_at(target_radius, 0) == sphi_at(source_radius, 0);
-    plain = !grid->hashed && (!by_source || uniform);
+    plain = !by_source || uniform;
     if (grid->hashed) job->kind = SPHI_HASHED;
     else if (!plain) job->kind = SPHI_RADII;
     else job->kind = sphi_boxed(dim, grid->box) ? SPHI_BOXED : SPHI_OPEN;
+    job->pass = sphi_pass_of(dim, job->kind);
     job->criterion = plain ? (int)SPH_GATHER : criterion;
     job->flags = flags;
     job->target_radius = uniform ? source_radius : target_radius;

@@ -737,6 +737,43 @@ static void test_targets(void)
         }
 }
 
+/* Targets that are the first sources, but have moved since the grid was built: none is its own neighbour, wherever its source was. */
+static void test_moved(void)
+{
+    enum { N = 125 };
+    int dim, hashed, periodic, criterion, flags;
+    pcg32 random;
+    pcg32_seed(&random, 4, 77);
+    for (dim = 1; dim <= 3; dim++)
+        for (hashed = 0; hashed < 2; hashed++)
+            for (periodic = 0; periodic < 2; periodic++) {
+                cloud c = make(LATTICE, dim, N, periodic, &random), t = cloud_new(dim, N);
+                const double spacing = 1.0 / c.side, length = periodic ? (hashed && dim > 1 ? 1e4 : 1.0) : 0.0;
+                const sph_real radius = SPH_R(1.7 * spacing), box = SPH_R(length);
+                sph_real *const from[3] = {c.x, c.y, c.z}, *const to[3] = {t.x, t.y, t.z};
+                problem p;
+                grid g;
+                sph_index i;
+                int a;
+                for (a = 0; a < dim; a++) {
+                    if (hashed) from[a][N - 1] = SPH_R(7e3); /* most cells are empty */
+                    for (i = 0; i < N; i++) to[a][i] = from[a][i] + SPH_R(3.0 * spacing * (2.0 * pcg32_uniform(&random) - 1.0));
+                }
+                if (periodic && hashed && dim == 1) from[0][N - 1] = SPH_R(0.999);
+                g = grid_new(dim, sph_points_periodic(points(&c), box, box, box), radius);
+                EXPECT(!g.g.scattered);
+                p = problem_new(dim, sph_points_periodic(points(&c), box, box, box), sph_points_periodic(points(&t), box, box, box), sph_scalars_same(&radius),
+                                sph_scalars_same(&radius));
+                if (dim > 1) EXPECT(g.g.hashed == hashed);
+                for (criterion = 0; criterion < CRITERIA; criterion++)
+                    for (flags = 0; flags < 8; flags++) check_lists("moved since the grid was built", &p, &g, criterion, flags);
+                problem_free(&p);
+                grid_free(&g);
+                cloud_free(&c);
+                cloud_free(&t);
+            }
+}
+
 /* ---- memory ---- */
 
 static void test_capacity(void)
@@ -1395,6 +1432,7 @@ int main(int count, char **word)
     test_flags();
     test_symmetry();
     test_targets();
+    test_moved();
     test_capacity();
     test_tight();
     test_workspace();

@@ -39,16 +39,16 @@ for cc in gcc clang; do
     native="-std=gnu99 -march=native"
     usable "paths of $cc" "$empty" '' "$cc -O1 $warn $native" -lm || continue
     avx2='' openmp=''
-    if ! has __AVX2__ || ! has __BMI2__; then
+    if ! has __AVX2__; then
         skip "AVX2 path of $cc" "not on this machine"
-    elif usable "AVX2 path of $cc" "$add" '' "$cc -std=c99 -O1 $warn -mavx2 -mbmi2" -lm; then avx2=1; fi
+    elif usable "AVX2 path of $cc" "$add" '' "$cc -std=c99 -O1 $warn -mavx2" -lm; then avx2=1; fi
     has __AVX512F__ && has __AVX512VL__ || skip "AVX-512 path of $cc" "not on this machine"
     usable "OpenMP of $cc" "$threads_of" '' "$cc -O1 $warn $native -fopenmp" -lm && openmp=1
     for single in 0 1; do
         portable=$cc-portable-$single best=$cc-best-$single flags="-DSPH_SINGLE=$single $native"
         sums "$portable" -DCHECKSUMS_ONLY=1 -DSPH_SINGLE=$single -DSPH_AVX512=0 -DSPH_AVX2=0
         if [ $avx2 ]; then
-            sums $cc-avx2-$single -DCHECKSUMS_ONLY=1 -DSPH_SINGLE=$single -mavx2 -mbmi2
+            sums $cc-avx2-$single -DCHECKSUMS_ONLY=1 -DSPH_SINGLE=$single -mavx2
             check "$cc, AVX2, SPH_SINGLE=$single: the pairs of the portable path" same_pairs $cc-avx2-$single "$portable"
         fi
         # shellcheck disable=SC2086

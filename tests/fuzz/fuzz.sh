@@ -27,7 +27,7 @@ here=$($CC -march=native -dM -E -x c /dev/null 2> /dev/null)
 # path TARGET: the flags of its path, or fails, aloud, where the processor does not have it
 path() {
     case $1 in
-    *-avx2) macros="__AVX2__ __BMI2__" flags="-mavx2 -mbmi2" ;;
+    *-avx2) macros="__AVX2__" flags="-mavx2" ;;
     *-avx512) macros="__AVX512F__ __AVX512VL__" flags=-march=native ;;
     *-crowded) macros='' flags=-DSPHI_CROWDED=4 ;;
     *-openmp) macros='' flags="-fopenmp -DSPH_OPENMP=1 -DSPHI_CROWDED=4" ;;
