@@ -12,17 +12,20 @@
 #define NUMBER_H
 
 #include <locale.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { NUMBER_TEXT = 32, NUMBER_LONGEST = 512 };
 
-/* What "%.*g" writes in the locale "C", with at most 17 digits. Returns text. */
+/* What "%.*g" writes in the locale "C", with at most 17 digits; "nan" for any NaN, because its sign means
+   nothing (that of tcc's NAN is set). Returns text. */
 static inline const char *number_text(char text[NUMBER_TEXT], int digits, double value)
 {
     const char *const point = localeconv()->decimal_point;
     char *at;
+    if (isnan(value)) return strcpy(text, "nan");
     snprintf(text, NUMBER_TEXT, "%.*g", digits, value);
     at = strstr(text, point);
     if (at) {
