@@ -1461,6 +1461,7 @@ SPH_FN int sphi_job_of(int dim, const sph_grid *grid, sph_query query, sph_index
     job->index = 0;
     job->capacity = 0;
     job->source_largest = SPH_R(0);
+    job->by_slots = grid->scattered && !(flags & SPH_LIST_FOREIGN);
     if (targets.n == 0 || grid->n == 0) return 0; /* nothing to look at */
     if (by_target && !target_radius.p) return sphi_refuse("query.target_radius", -1, SPH_ERROR_NULL);
     if (by_source && !source_radius.p) return sphi_refuse("query.source_radius", -1, SPH_ERROR_NULL);
@@ -1496,7 +1497,6 @@ SPH_FN int sphi_job_of(int dim, const sph_grid *grid, sph_query query, sph_index
     if (grid->box.x > SPH_R(0)) job->widest = sphi_lesser(job->widest, SPH_R(0.5) * grid->box.x);
     if (dim > 1 && grid->box.y > SPH_R(0)) job->widest = sphi_lesser(job->widest, SPH_R(0.5) * grid->box.y);
     if (dim > 2 && grid->box.z > SPH_R(0)) job->widest = sphi_lesser(job->widest, SPH_R(0.5) * grid->box.z);
-    job->by_slots = grid->scattered && !(flags & SPH_LIST_FOREIGN);
     return 0;
 }
 /* Does the job. Its answer is that of sph_grid_lists and sph_grid_count. */
