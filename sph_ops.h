@@ -1886,6 +1886,8 @@ SPH_FN int sphi_blocks_fill(int dim, const sph_moments *m, sphi_blocks *b)
 /* The right-hand side, scaled like the rows. */
 SPH_FN void sphi_blocks_values(int dim, const sph_moments *m, const sphi_blocks *b, sph_real *u, sph_real *v)
 {
+    int i;
+    for (i = 0; i < SPHI_MAX; i++) u[i] = v[i] = SPH_R(0); /* where dim is not a constant */
     u[0] = m->gfx * b->s[0];
     v[0] = m->wfxx * b->d[0];
     if (dim > 1) {
@@ -1927,6 +1929,8 @@ SPH_FN void sphi_operator_scaled(int dim, const sphi_blocks *b, sph_real h, sph_
                                  sph_real *v)
 {
     const sph_real a = SPH_R(1) / h, c = a * a;
+    int i;
+    for (i = 0; i < SPHI_MAX; i++) u[i] = v[i] = SPH_R(0); /* where dim is not a constant */
     u[0] = op.gradient.x * b->s[0] * a;
     v[0] = SPH_R(2) * op.hessian.xx * b->d[0] * c;
     if (dim > 1) {
