@@ -23,6 +23,7 @@
  * with r^2 in cache, which says how fast the core is at that moment. Times are medians over the rounds; ratios are taken within a round, and then their median.
  * Spread is (largest - smallest) / median of the time. "Flat" compares time per interaction over that of the reference, because in small clouds, with more
  * surface, particles have fewer neighbours. An interaction is an entry of the lists: i with j, and j with i.
+ * "surface" and "galaxy" are clouds most of whose cells are empty: see cloud_sparse. They are timed at n near 1e5, in 3D.
  * "+ permuting x, y, z" is for a host that sorts: grid, its three coordinates into cell order, lists of the sorted particles; random order is judged by it.
  */
 #if !defined(BENCH_SEARCH) && !defined(BENCH_OPS)
@@ -52,7 +53,7 @@ typedef struct cloud {
     sph_real h, radius;
     sph_real *own_radius; /* null: all have `radius` */
     sph_real box;         /* 0: open */
-    int shuffled;
+    const char *storage; /* how the particles lie, and in which order */
     sph_index *start, *index;
     int64_t pairs, capacity;
 } cloud;
@@ -429,7 +430,7 @@ static cloud cloud_new(int dim, int side, int shuffled)
     c.n = (sph_index)(dim == 2 ? (int64_t)side * side : (int64_t)side * side * side);
     c.h = SPH_R(1.2);
     c.radius = SPH_R(2.4);
-    c.shuffled = shuffled;
+    c.storage = shuffled ? "random" : "lattice";
     c.x = (sph_real *)memory((size_t)c.n * sizeof *c.x);
     c.y = (sph_real *)memory((size_t)c.n * sizeof *c.y);
     c.z = (sph_real *)memory((size_t)c.n * sizeof *c.z);
@@ -461,6 +462,48 @@ static cloud cloud_new(int dim, int side, int shuffled)
         c.f[k] = SPH_R(sin(0.1 * p[0]) + 0.3 * p[1] * p[2] / side);
     }
     free(to);
+    return c;
+}
+/* Clouds most of whose cells are empty. "surface": a layer 6 spacings deep, with every hundredth particle in drops up to 240 spacings above it, in the order of the layer. "galaxy":
+   Plummer's sphere within 6.3 of its radii, contrast 1e4, in random order; the radius is that of 57 neighbours on average, by the integral of the square of the density, 45/1024. */
+static cloud cloud_sparse(int galaxy, sph_index n)
+{
+    const sph_index layer = n - n / 100;
+    const int side = (int)ceil(sqrt((double)layer / 6.0));
+    cloud c;
+    pcg32 g;
+    sph_index i;
+    memset(&c, 0, sizeof c);
+    c.dim = 3;
+    c.n = n;
+    c.radius = SPH_R(galaxy ? pow(57.0 / (n * 4.18879020478639098 * 45.0 / 1024.0), 1.0 / 3.0) : 2.4);
+    c.storage = galaxy ? "galaxy" : "surface";
+    c.x = (sph_real *)memory((size_t)n * sizeof *c.x);
+    c.y = (sph_real *)memory((size_t)n * sizeof *c.y);
+    c.z = (sph_real *)memory((size_t)n * sizeof *c.z);
+    c.start = (sph_index *)memory(((size_t)n + 1) * sizeof *c.start);
+    pcg32_seed(&g, 3, 1);
+    for (i = 0; i < n; i++) {
+        const double u = pcg32_uniform(&g), v = pcg32_uniform(&g), w = pcg32_uniform(&g);
+        double p[3];
+        if (galaxy) { /* (r^2 / (1 + r^2))^(3/2) of the mass lies within r */
+            const double most = pow(6.3 * 6.3 / (1.0 + 6.3 * 6.3), 1.5), r = 1.0 / sqrt(pow(u * most, -2.0 / 3.0) - 1.0), up = 1.0 - 2.0 * v;
+            p[0] = r * sqrt(1.0 - up * up) * cos(6.283185307179586 * w);
+            p[1] = r * sqrt(1.0 - up * up) * sin(6.283185307179586 * w);
+            p[2] = r * up;
+        } else if (i < layer) {
+            p[0] = i % side + 0.4 * u;
+            p[1] = i / side % side + 0.4 * v;
+            p[2] = i / side / side + 0.4 * w;
+        } else {
+            p[0] = side * u;
+            p[1] = side * v;
+            p[2] = 6.0 + 240.0 * w;
+        }
+        c.x[i] = SPH_R(p[0]);
+        c.y[i] = SPH_R(p[1]);
+        c.z[i] = SPH_R(p[2]);
+    }
     return c;
 }
 /* The same particles with lists of their own. Their memory is set when the capacity is known. */
@@ -602,10 +645,7 @@ static void csv_line(const cloud *c, const char *what, const char *path, int thr
 {
     if (!csv) return;
     fprintf(csv, "%s,%s,%d,%ld,%s,%s,%s,%d,%d,", variant, PRECISION, c->dim, (long)c->n,
-            !c            ? ""
-            : c->shuffled ? "random"
-                          : "lattice",
-            what, path, threads, rounds);
+            c->storage, what, path, threads, rounds);
     if (particle > 0.0) fprintf(csv, "%.4g", particle);
     fputc(',', csv);
     if (interaction > 0.0) fprintf(csv, "%.4g", interaction);
@@ -640,7 +680,7 @@ static void line(const char *what, const char *path, const task *a, const task *
     m = median(a->rounds, t);
     wf = over_reference(a, b);
     if (peer) sprintf(versus, "%.3f", against);
-    printf("  %-34s %-8s %-8s %3d %12.1f %15.2f %8.2f %10s %6.0f%%\n", what, a->c->shuffled ? "random" : "lattice", path, a->threads, m * 1e9 / (double)a->c->n,
+    printf("  %-34s %-8s %-8s %3d %12.1f %15.2f %8.2f %10s %6.0f%%\n", what, a->c->storage, path, a->threads, m * 1e9 / (double)a->c->n,
            m * 1e9 / (double)a->c->pairs, wf, versus, 100.0 * (high - low) / m);
     csv_line(a->c, what, path, a->threads, a->rounds, m * 1e9 / (double)a->c->n, m * 1e9 / (double)a->c->pairs, wf, against, (high - low) / m, 0.0);
 }
@@ -920,6 +960,49 @@ end:
     fflush(stdout);
 }
 
+static void bench_sparse(sph_index n)
+{
+    int galaxy;
+    rounds_wanted = 5;
+    work_size = search_main.workspace(3, n);
+    work = memory(work_size);
+    for (galaxy = 0; galaxy < 2; galaxy++) {
+        cloud c = cloud_sparse(galaxy, n), sorted = cloud_view(&c);
+        pair plain, portable = {0, 0}, permuted;
+        task *peer = 0;
+        sorted.x = (sph_real *)memory((size_t)n * sizeof *sorted.x);
+        sorted.y = (sph_real *)memory((size_t)n * sizeof *sorted.y);
+        sorted.z = (sph_real *)memory((size_t)n * sizeof *sorted.z);
+        count_pairs(&c);
+        c.capacity = sorted.capacity = c.pairs + 16 + c.pairs / 1000; /* paths may differ in pairs on the edge */
+        c.index = sorted.index = (sph_index *)memory((size_t)c.capacity * sizeof *c.index);
+        task_count = 0;
+        plain = add_pair(&search_main, &c, 1);
+        permuted = add_sorted(&search_main, &c, &sorted);
+#if HAVE_PORTABLE
+        portable = add_pair(&search_portable, &c, 1);
+#endif
+        if (HAVE_NANOFLANN) {
+            peer = add(NANOFLANN, "nanoflann", 0, 0, 0, &c, 1);
+            peer->most = 3;
+        }
+        run_tasks();
+        if (!galaxy) heading(&c);
+        pair_lines("", plain, peer, 0);
+        pair_lines(" + permuting x, y, z", permuted, peer, 0);
+        if (portable.grid) pair_lines("", portable, peer, 0);
+        if (peer) line("nanoflann: tree + searches", "", peer, 0, 0);
+        free(c.index);
+        free(sorted.start);
+        free(sorted.x);
+        free(sorted.y);
+        free(sorted.z);
+        cloud_free(&c);
+    }
+    free(work);
+    fflush(stdout);
+}
+
 int main(int argc, char **argv)
 {
     const char *sizes = "1e4,1e5", *csv_name = 0, *targets_name = 0;
@@ -954,6 +1037,7 @@ int main(int argc, char **argv)
         if (end == sizes || !(n >= 1000.0) || n > 3e7) stop("-n: numbers between 1e3 and 3e7, separated by commas", 0);
         sizes = *end == ',' ? end + 1 : end;
         bench_size(dim, (int)(pow(n, 1.0 / dim) + 0.5), *sizes == 0, level, &flat_lists, &flat_density);
+        if (dim == 3 && n >= 5e4 && n < 3e5) bench_sparse((sph_index)n);
     }
     if (flat_lists.sizes > 1 && level != BRIEF) {
         printf("\n  largest / smallest cost of an interaction, in W + F, over all n: lists %.2f, density %.2f\n", flat_lists.high / flat_lists.low,
