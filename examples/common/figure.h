@@ -34,14 +34,17 @@ static inline void figure_close(FILE *out)
     }
     figure_files[k].to = NULL;
 }
-/* Call it first: a folder that is missing or full is better known before the run than after it. */
-static inline void figure_folder(const char *dir)
+/* Call it first: a folder that is missing or full is better known before the run than after it. The driver's
+   name makes the file its own, because drivers run side by side. */
+static inline void figure_folder(const char *dir, const char *driver)
 {
-    char path[PART_FILE_PATH];
-    FILE *const file = figure_open(dir, "figure_folder");
+    char name[64], path[PART_FILE_PATH];
+    FILE *file;
+    snprintf(name, sizeof name, "%.40s_folder", driver);
+    file = figure_open(dir, name);
     fputs("x\n", file); /* an empty file fits on a full disk, too */
     figure_close(file);
-    snprintf(path, sizeof path, "%s/figure_folder.csv", dir);
+    snprintf(path, sizeof path, "%s/%s.csv", dir, name);
     remove(path);
 }
 

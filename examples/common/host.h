@@ -70,7 +70,7 @@ static inline void *need_zeros(size_t count, size_t size)
 /* In words, until the next call: an answer that is not 0. */
 static inline const char *answer_text(sph_index answer)
 {
-    static char text[160];
+    static char text[320];
     const host_refusal *const why = &host_refused;
     if (answer > 0) snprintf(text, sizeof text, "%ld particles without a finite result", (long)answer);
     else if (!why->argument || why->error != (int)answer) return sph_status_text((int)answer);

@@ -904,7 +904,7 @@ int main(int argc, char **argv)
         "The static test of the paper on divergence cleaning (figure 1): published against measured.", specs,
         4);
     report_open(&r, "cleaning_disc", out);
-    figure_folder(figures);
+    figure_folder(figures, "cleaning_disc");
     setting(&r);
     identities(&r);
     figure_1(&r, o, figures, full, quiet);

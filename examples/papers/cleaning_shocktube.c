@@ -451,7 +451,7 @@ int main(int argc, char **argv)
     FILE *profile;
     options_parse(argc, argv, "The shock tube of Brio & Wu by all of SPMHD, with and without divergence cleaning.", specs, 4);
     report_open(&r, "cleaning_shocktube", out);
-    figure_folder(figures);
+    figure_folder(figures, "cleaning_shocktube");
     v = volumes_new(full ? 6400 : 3200);
     coarse = volumes_new(v.n / 2);
     profile = figure_open(figures, "cleaning_shocktube_profiles");

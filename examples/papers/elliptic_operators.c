@@ -1095,7 +1095,7 @@ int main(int argc, char **argv)
                   "Figures 1 to 4 and sections 2 to 4.2 of the paper on the elliptic operator, measured.",
                   specs, 3);
     report_open(&r, "elliptic_operators", out);
-    figure_folder(figures);
+    figure_folder(figures, "elliptic_operators");
     definition1(&r);
     free_surface(&r, &c);
     continuity(&r, &c);

@@ -228,7 +228,7 @@ int main(int argc, char **argv)
     options_parse(argc, argv, "Table 1 of the paper on the elliptic operator: published against measured.",
                   specs, 3);
     report_open(&r, "elliptic_slit", out);
-    figure_folder(figures);
+    figure_folder(figures, "elliptic_slit");
     stencil(&r, &c);
     table(&r, &c, figures);
     misprints(&r, &c);

@@ -477,7 +477,7 @@ int main(int argc, char **argv)
                   "Figures 5 and 6 and the monotonicity of the paper on the elliptic operator, measured.",
                   specs, 3);
     report_open(&r, "elliptic_stability", out);
-    figure_folder(figures);
+    figure_folder(figures, "elliptic_stability");
     figure5(&r, &c, figures);
     printed_tau(&r, &c);
     figure6(&r, &c, figures, full);

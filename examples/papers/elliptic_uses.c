@@ -679,7 +679,7 @@ int main(int argc, char **argv)
                   "through a jump of the conductivity.",
                   specs, 4);
     report_open(&r, "elliptic_uses", out);
-    figure_folder(figures);
+    figure_folder(figures, "elliptic_uses");
     projections(&r, figures, &s, 3 + full);
     disc(&r, figures, &s, 3 + full);
     slab_limits(&r, &s);

@@ -373,7 +373,7 @@ int main(int argc, char **argv)
     options_parse(argc, argv, "Tables 1, 2, 3 and figure 2 of the ICSPM paper: published against measured.",
                   specs, 3);
     report_open(&r, "icspm_uniform", out);
-    figure_folder(figures);
+    figure_folder(figures, "icspm_uniform");
     line_open(&s, LARGEST + 1);
     tables(&r, &s, bvp);
     table3_ratio(&r, bvp);
