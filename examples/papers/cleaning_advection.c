@@ -226,7 +226,7 @@ int main(int argc, char **argv)
     setting s;
     options_parse(argc, argv, "A peak of div B in a stream, cleaned or not, with all of SPMHD.", specs, 6);
     report_open(&r, "cleaning_advection", out);
-    figure_folder(figures);
+    figure_folder(figures, "cleaning_advection");
     s.side = side;
     s.quiet = quiet;
     s.figures = figures;

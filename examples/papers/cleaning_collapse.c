@@ -625,7 +625,7 @@ int main(int argc, char **argv)
         return 2;
     }
     report_open(&r, "cleaning_collapse", s.out);
-    figure_folder(s.figures);
+    figure_folder(s.figures, "cleaning_collapse");
     signal(SIGINT, interrupt);
 #define PLAN(title, clean, number, same, resistivity, longer, most) \
     do { \

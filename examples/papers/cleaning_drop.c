@@ -581,7 +581,7 @@ int main(int argc, char **argv)
                   "against measured.",
                   specs, 4);
     report_open(&r, "cleaning_drop", out);
-    figure_folder(figures);
+    figure_folder(figures, "cleaning_drop");
     curves = figure_open(figures, "cleaning_fig8");
     shapes = figure_open(figures, "cleaning_fig7");
     fprintf(curves, "alpha,run,t,mean_div_v,max_density_error,kinetic,total,axis_x,axis_y\n");

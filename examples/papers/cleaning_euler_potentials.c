@@ -237,7 +237,7 @@ int main(int argc, char **argv)
     options_parse(argc, argv, "Euler potentials in three dimensions where the flow winds the field up.",
                   specs, 4);
     report_open(&r, "cleaning_euler_potentials", out);
-    figure_folder(figures);
+    figure_folder(figures, "cleaning_euler_potentials");
     curves = figure_open(figures, "cleaning_euler_potentials_windings");
     fprintf(curves, "way,layers,windings,kept,error\n");
     for (a = 0; a < (full ? SIZES : SIZES - 1); a++) {

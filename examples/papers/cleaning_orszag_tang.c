@@ -990,7 +990,7 @@ int main(int argc, char **argv)
                   "against measured.",
                   specs, (int)(sizeof specs / sizeof *specs));
     report_open(&r, "cleaning_orszag_tang", out);
-    figure_folder(s.figures);
+    figure_folder(s.figures, "cleaning_orszag_tang");
     signal(SIGINT, interrupt);
     count = plan_levels(levels, &s, side);
     for (a = 0; a < count; a++)

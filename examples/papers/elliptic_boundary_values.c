@@ -353,7 +353,7 @@ int main(int argc, char **argv)
     progress bar;
     options_parse(argc, argv, "Tables 2 to 9 and figures 7, 8 of the elliptic paper: published against measured.", specs, 3);
     report_open(&r, "elliptic_boundary_values", out);
-    figure_folder(figures);
+    figure_folder(figures, "elliptic_boundary_values");
     for (k = 0; k < 4; k++) uniform(&r, &uniform_tables[k], &c, apart);
     for (t = 0; t < 4; t++)
         for (k = 0; k < (full ? LEVELS : LEVELS - 1); k++) all += (double)side_of[k] * side_of[k] * clouds_of(&random_tables[t], side_of[k], full);

@@ -261,7 +261,7 @@ int main(int argc, char **argv)
         "The elliptic operator on particles in all states of disorder: true errors, orders, monotone rows.",
         specs, 4);
     report_open(&r, "elliptic_clouds", out);
-    figure_folder(figures);
+    figure_folder(figures, "elliptic_clouds");
     csv = figure_open(figures, "elliptic_clouds_errors");
     fprintf(csv, "dim,cloud,problem,scheme,N,error,lost,trace\n");
     for (dim = 2; dim <= 3; dim++)

@@ -389,7 +389,7 @@ int main(int argc, char **argv)
                   specs, sizeof specs / sizeof *specs);
     if (side == 0) side = full ? 60 : 40;
     report_open(&r, "elliptic_spe10", out);
-    figure_folder(figures);
+    figure_folder(figures, "elliptic_spe10");
     for (dim = 2; dim <= 3; dim++) {
         const char *const path = dim == 2 ? (layer ? layer : perm) : block ? block : perm;
         for (kind = 0; kind < (path ? 1 : 2); kind++) {
