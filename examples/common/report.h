@@ -41,7 +41,7 @@ typedef enum report_verdict {
     REPORT_VERDICTS /* their number */
 } report_verdict;
 
-enum { REPORT_COLUMNS = 7, REPORT_CRITERION = 96 };
+enum { REPORT_COLUMNS = 7, REPORT_CRITERION = 96, REPORT_DIGITS = 9 };
 
 typedef struct report {
     part_file file;
@@ -132,16 +132,14 @@ static inline void report_row(report *r, const char *item, const char *setting, 
 /* A number as the CSV shows it; NAN for an absent published value is "". */
 static inline const char *report_published(char text[NUMBER_TEXT], double value)
 {
-    return isnan(value) ? "" : number_text(text, 9, value);
+    return isnan(value) ? "" : number_text(text, REPORT_DIGITS, value);
 }
-
-static inline const char *report_measured(char text[NUMBER_TEXT], double value) { return number_text(text, 9, value); }
 
 static inline void report_number_row(report *r, const char *item, const char *setting, const char *quantity, double published, double measured,
                                      const char *criterion, const char *reason, report_verdict verdict)
 {
     char published_text[NUMBER_TEXT], measured_text[NUMBER_TEXT];
-    report_row(r, item, setting, quantity, report_published(published_text, published), report_measured(measured_text, measured), criterion, reason, verdict);
+    report_row(r, item, setting, quantity, report_published(published_text, published), number_text(measured_text, REPORT_DIGITS, measured), criterion, reason, verdict);
 }
 
 static inline void report_fail(const report *r, const char *what, const char *path, const char *advice)
@@ -237,7 +235,7 @@ static inline void report_not_reproduced(report *r, const char *item, const char
 static inline void report_info(report *r, const char *item, const char *setting, const char *quantity, double measured)
 {
     char text[NUMBER_TEXT];
-    report_row(r, item, setting, quantity, NULL, report_measured(text, measured), NULL, NULL, REPORT_INFO);
+    report_row(r, item, setting, quantity, NULL, number_text(text, REPORT_DIGITS, measured), NULL, NULL, REPORT_INFO);
 }
 
 /* Add the run's times, put the CSV under its final name, print a summary and
