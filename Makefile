@@ -11,6 +11,9 @@ WARN = -std=c99 -Wall -Wextra -Wpedantic
 # the drivers' sweeps run in two thirds of the time with it; compilers that know not the pragma (tcc, which accepts any flag) go without
 SIMD := $(shell echo 'double f(int n) { double s = 0; int i; _Pragma("omp simd reduction(+ : s)") for (i = 0; i < n; i++) s += i; return s; }' | \
     $(CC) -fopenmp-simd -x c -c -o /dev/null - > /dev/null 2>&1 && echo -fopenmp-simd -DSPH_SIMD=1)
+# the drivers' sweeps are shared by threads where there are POSIX threads; else one does all
+PTHREADS := $(shell printf '\043include <pthread.h>\n\043include <unistd.h>\nlong processors(void) { return sysconf(_SC_NPROCESSORS_ONLN); }\n' | \
+    $(CC) -std=c99 -pthread -x c -c -o /dev/null - > /dev/null 2>&1 && echo -DTHREADS=1 -pthread)
 LDLIBS = -lm
 BUILD = build
 # make cannot name files whose names have spaces: such a BUILD is reached by a link
@@ -32,6 +35,10 @@ DRIVERS_elliptic = $(patsubst examples/papers/%.c,%,$(wildcard examples/papers/e
 DRIVERS_clustering = $(patsubst examples/papers/%.c,%,$(wildcard examples/papers/clustering_*.c))
 DRIVERS_cleaning = $(patsubst examples/papers/%.c,%,$(wildcard examples/papers/cleaning_*.c))
 DRIVERS = $(foreach p,$(PAPERS),$(DRIVERS_$(p)))
+# what takes longest starts first, so that nothing long is left alone at the end
+LONG_RUNS = clustering_shaft cleaning_collapse clustering_cavity elliptic_boundary_values cleaning_orszag_tang icspm_random clustering_box cleaning_disc clustering_dam cleaning_drop
+LONG_COMPILES = elliptic_operators elliptic_clouds elliptic_boundary_values elliptic_uses icspm_dimensions cleaning_disc clustering_flows
+THREADED := $(patsubst examples/papers/%.c,%,$(shell grep -l -e THREADS_OPTION -e CLUSTERING_OPTIONS examples/papers/*.c))
 
 # Tests of the headers are built twice, in double and in float; tests of what the examples share in double only.
 TESTS_DOUBLE = common sparse elliptic_reference collapse
@@ -39,10 +46,11 @@ TESTS_OPTIONAL = gsl
 TESTS = $(filter-out $(TESTS_DOUBLE) $(TESTS_OPTIONAL),$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))
 TESTS_FLOAT = $(TESTS)
 TEST_PROGRAMS = $(TESTS:%=$(BUILD)/tests/%) $(TESTS_FLOAT:%=$(BUILD)/tests/%-float) $(TESTS_DOUBLE:%=$(BUILD)/tests/%)
-TEST_SCRIPTS = tests/index.sh tests/signatures.sh tests/hosts/generated.sh tests/readme.sh tests/docs.sh tests/compile/matrix.sh tests/compile/names.sh tests/compile/options.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/files.sh tests/faults.sh tests/single.sh tests/bare.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
+TEST_SCRIPTS = tests/index.sh tests/signatures.sh tests/hosts/generated.sh tests/readme.sh tests/docs.sh tests/compile/matrix.sh tests/compile/names.sh tests/compile/options.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/threads.sh tests/files.sh tests/faults.sh tests/single.sh tests/bare.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
 
 help:
-	@echo "make reproduce        run the papers' benchmarks, published beside measured values, and print a scoreboard"
+	@echo "make reproduce        run the papers' benchmarks, published beside measured values, and print a scoreboard;"
+	@echo "                      several at a time, on all processors (-j N: N at a time; -j1: one, with threads)"
 	@echo "make reproduce-PAPER  one paper's ($(PAPERS))"
 	@echo "make reproduce-full   with more realisations and finer clouds"
 	@echo "make test             the tests; the last line is 'N passed, N failed'"
@@ -51,7 +59,9 @@ help:
 	@echo "make check-matrix     the headers with every compiler that is installed: standards, levels, precisions, warnings as errors"
 	@echo "make check-embedded   the self-check on microcontrollers and other processors, in emulators; code size and memory"
 	@echo "make fuzz             FUZZ_SECONDS (60) of libFuzzer for each target of tests/fuzz, after a replay of its corpus under sanitizers"
-	@echo "make bench            time the search and the operators, as ratios to the machine's limits"
+	@echo "make bench            time the search, beside other codes, and the operators, beside the machine's limits"
+	@echo "make bench-flags      what compilers and flags are worth (OPTIONS: sh tests/bench/run.sh -h)"
+	@echo "make bench-compile    seconds of compilation and bytes of code"
 	@echo "make bench-gpu        sweeps on a GPU beside one core (needs nvcc and a GPU)"
 	@echo "make docs             the manual, the headers' comments and the Markdown files as pages (needs doxygen)"
 	@echo "make coverage         lines and branches of the headers that the tests reach (needs gcovr)"
@@ -73,21 +83,39 @@ reproduce-%: run-quick-%
 	@:
 
 drivers_of = $(if $(filter all,$(1)),$(DRIVERS),$(DRIVERS_$(1)))
+long_first = $(filter $(2),$(1)) $(filter-out $(1),$(2))
 
-# $(1): paper or all; $(2): options. All drivers run (side by side under make -j, each with its output in one piece), then the scoreboard tells; the answer is failure if any driver failed.
+# Without -j as many compilers as processors, and four drivers side by side. Each has its share of the processors
+# as threads: programs share a processor better than threads do.
+PROCESSORS := $(shell getconf _NPROCESSORS_ONLN 2> /dev/null || getconf NPROCESSORS_ONLN 2> /dev/null || echo 1)
+asked_jobs = $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS)))
+AT_A_TIME = $(or $(asked_jobs),$(shell echo $$(($(PROCESSORS) < 4 ? $(PROCESSORS) : 4))))
+SHARE = $(shell echo $$(($(PROCESSORS) > $(AT_A_TIME) ? $(PROCESSORS) / $(AT_A_TIME) : 1)))
+jobs = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(1))
+
+# $(1): paper or all; $(2): options. All drivers run (side by side, each with its output in one piece; alone, with a line of progress), then the scoreboard tells; the answer is failure if any driver failed.
 define run
 	@if [ -z "$(strip $(call drivers_of,$(1)))" ]; then echo "no paper called '$(1)'; there are: $(PAPERS)"; exit 2; fi
 	@mkdir -p "$(RESULTS)" "$(FIGURES)"
-	+@$(MAKE) --no-print-directory $(BUILD)/examples/scoreboard $(addprefix $(BUILD)/examples/,$(call drivers_of,$(1)))
+	+@$(MAKE) --no-print-directory $(call jobs,$(PROCESSORS)) $(addprefix $(BUILD)/examples/,$(call long_first,$(LONG_COMPILES),$(call drivers_of,$(1))) scoreboard)
 	+@rm -f $(patsubst %,"$(RESULTS)/%.csv",$(call drivers_of,$(1))); failed=0; \
-	$(MAKE) --no-print-directory --keep-going $(if $(filter -j%,$(MAKEFLAGS)),--output-sync=target) OPTIONS=$(2) $(addprefix driver-,$(call drivers_of,$(1))) || failed=1; \
+	$(if $(filter 1,$(AT_A_TIME)),,CI=1) $(MAKE) --no-print-directory --keep-going $(call jobs,$(AT_A_TIME)) $(if $(filter 1,$(AT_A_TIME)),,--output-sync=target) \
+	    OPTIONS=$(2) THREADS=$(SHARE) $(addprefix driver-,$(call long_first,$(LONG_RUNS),$(call drivers_of,$(1)))) || failed=1; \
 	$(MAKE) --no-print-directory figures || failed=1; \
 	echo; $(BUILD)/examples/scoreboard $(patsubst %,"$(RESULTS)/%.csv",$(call drivers_of,$(1))) || failed=1; \
+	$(call seconds,$(patsubst %,"$(RESULTS)/%.csv",$(call drivers_of,$(1)))); \
 	exit $$failed
 endef
+# the drivers' times, longest first: of the processor, by the clock
+seconds = echo; for table in $(1); do [ ! -f "$$table" ] || awk -F , ' \
+    $$1 == "item" { for (k = 1; k <= NF; k++) if ($$k == "measured") m = k } \
+    $$1 == "run" && $$3 == "CPU time [s]" { cpu = $$m } \
+    $$1 == "run" && $$3 == "wall time [s]" { n = split(FILENAME, part, "/"); sub(".csv", "", part[n]); printf "%7.1f s of CPU time, %5.0f s: %s\n", cpu, $$m, part[n] }' \
+    "$$table"; done | sort -rn
 
+THREADS = $(PROCESSORS)
 driver-%:
-	@echo; echo "======== $*"; $(BUILD)/examples/$* -out "$(RESULTS)" -figures "$(FIGURES)" $(OPTIONS)
+	@echo; echo "======== $*"; $(BUILD)/examples/$* -out "$(RESULTS)" -figures "$(FIGURES)" $(if $(filter $*,$(THREADED)),-threads $(THREADS)) $(OPTIONS)
 run-quick-%:
 	$(call run,$*,)
 run-full-%:
@@ -103,9 +131,13 @@ figures:
 $(BUILD)/examples/scoreboard: examples/common/scoreboard.c $(COMMON)
 	@mkdir -p $(@D)
 	$(CC) $(WARN) $(CFLAGS) -o $@ $< $(LDLIBS)
-$(BUILD)/examples/%: examples/papers/%.c $(COMMON) $(HEADERS)
+# the search, which all drivers share and which takes as long to compile as all else of a short one
+$(BUILD)/common/host_search.o: examples/common/host_search.c $(COMMON) $(HEADERS)
 	@mkdir -p $(@D)
-	$(CC) $(WARN) $(CFLAGS) $(SIMD) -o $@ $< $(LDLIBS)
+	$(CC) $(WARN) $(CFLAGS) $(SIMD) $(PTHREADS) -c -o $@ $<
+$(BUILD)/examples/%: examples/papers/%.c $(BUILD)/common/host_search.o $(COMMON) $(HEADERS)
+	@mkdir -p $(@D)
+	$(CC) $(WARN) $(CFLAGS) $(SIMD) $(PTHREADS) -DHOST_LINKED=1 -o $@ $< $(BUILD)/common/host_search.o $(LDLIBS)
 
 # the pictures that are checked in have gone through pngquant, to 64 colours
 GALLERY = $(patsubst examples/%.c,%,$(wildcard examples/*.c))
@@ -162,7 +194,9 @@ mutation:
 	python3 tests/mutation/mutate.py $(OPTIONS)
 
 bench:
-	@CC="$(CC)" BUILD="$(BUILD)" sh tests/bench/run.sh
+	@CC="$(CC)" BUILD="$(BUILD)" sh tests/bench/run.sh speed $(OPTIONS)
+bench-flags bench-compile:
+	@CC="$(CC)" BUILD="$(BUILD)" sh tests/bench/run.sh $(@:bench-%=%) $(OPTIONS)
 bench-gpu:
 	@PATH="$$PATH:/usr/local/cuda/bin"; mkdir -p $(BUILD)/bench; \
 	if ! command -v nvcc > /dev/null 2>&1; then echo "nvcc is not installed"; exit 2; fi; \
@@ -197,4 +231,4 @@ dist:
 clean: # what a link leads to as well
 	rm -rf $(BUILD)/* $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures gallery test test-sanitize fuzz check-matrix check-hosts check-embedded version install uninstall dist check-packages docs coverage lint mutation bench bench-gpu clean
+.PHONY: help reproduce reproduce-full figures gallery test test-sanitize fuzz check-matrix check-hosts check-embedded version install uninstall dist check-packages docs coverage lint mutation bench bench-flags bench-compile bench-gpu clean

@@ -26,7 +26,7 @@
  *
  *     sph_query query = sph_query_of(x, SPH_GATHER, radius, 0);               what to look for
  *     work = malloc(sph_grid_workspace(3, n));
- *     sph_grid_build(3, x, support, work, sph_grid_workspace(3, n), &grid);   sorts particles into cells
+ *     sph_grid_build(3, x, radius, work, sph_grid_workspace(3, n), &grid);    sorts particles
  *     sph_grid_count(3, &grid, query, start, &pairs);                         counts: fills start[0 ... n]
  *     index = malloc((size_t)pairs * sizeof *index);
  *     sph_grid_lists(3, &grid, query, start, index, pairs, &pairs);
@@ -167,40 +167,63 @@ typedef enum sph_list_flags {
     SPH_LIST_FOREIGN = 8 /* target i has nothing to do with source i (not together with SELF or HALF) */
 } sph_list_flags;
 
-/* The sources, sorted into cells. The grid's radius is the width of a cell in y and z, and that of SPHI_FINE
-   cells in x. Cells that follow each other in x follow each other in memory, so that the neighbours of a
-   particle are a few contiguous runs of slots. If the bounding box has no more than 2 n cells, each cell has
-   its own bucket. If it has more (most of them empty), cells are hashed into about n buckets; a row along x
-   is still contiguous. The fields are for the functions below. */
+/* The sources, sorted into slots such that those of near slots are near each other, in one of three ways.
+   CELLS: the grid's radius is the width of a cell in y and z, and that of SPHI_FINE cells in x. Cells that
+   follow each other in x follow each other in memory, so that the neighbours of a particle are a few
+   contiguous runs of slots. If the bounding box has no more than 2 n cells, each has its own bucket.
+   HASHED CELLS: if it has more (most of them empty), cells are hashed into about n buckets; a row along x is
+   still contiguous.
+   A TREE, where radii differ so much that no width of a cell suits all of them: the slots are halved at the
+   median of the longer axis, and so are the halves, down to leaves of at most SPHI_LEAF slots. Node 1 is the
+   root, and the halves of node k are the nodes 2 k and 2 k + 1.
+   The fields are for the functions below. */
 typedef struct sph_grid {
     sph_index n;
-    int dim, hashed, scattered; /* scattered: many particles that follow each other are not near each other */
-    int64_t cells[3];           /* along each axis */
-    size_t buckets;             /* a power of two if hashed */
-    sph_real radius;            /* the one that will mostly be searched */
+    int dim, hashed, levels; /* levels: of the tree; 0 if there are cells */
+    int scattered;           /* 1 if many particles that follow each other are not near each other */
+    int64_t cells[3];        /* along each axis */
+    size_t buckets;          /* a power of two if hashed */
+    sph_real radius;         /* of all sources, or their mean */
+    sph_real largest;        /* radius of a source */
     sph_vec low, inverse_width, box;
     sph_index *first, *member; /* first slot of each bucket; particle of each slot */
     sph_real *x, *y, *z;       /* coordinates of each slot, inside the box along periodic axes */
+    sph_real *own;             /* radius of each slot, or null if all sources have the same */
+    sph_real *node; /* of each node of a tree: centre and half lengths of its box, largest radius */
 } sph_grid;
 
 enum {
     SPHI_FINE = 8,      /* cells along x per radius */
     SPHI_PAD = 16,      /* slots beyond the last that whole lanes may read */
-    SPHI_FARTHEST = 32, /* largest radius / the grid's: it bounds the number of cells that a row looks at */
+    SPHI_FARTHEST = 32, /* with a radius of more than so many cells a target looks at all slots */
+    SPHI_ALIKE = 4,     /* radii that differ by no more than this factor take cells of one width */
+    SPHI_VIEW = 64,     /* leaves that are kept for a group of targets; whole lanes */
+    SPHI_IMAGES = 27,   /* of a periodic box and around it */
     SPHI_ALIGN = 8,     /* bytes to which memory is aligned, inside the caller's */
     SPHI_CROWDS = 8,    /* crowded cells whose bounds are kept from one target to the next */
     SPHI_ROWS = 16      /* rows of a hashed grid whose places are kept, likewise */
 };
+/* tests take fewer */
 #ifndef SPHI_CROWDED
-#define SPHI_CROWDED 1024 /* a cell with as many particles is crowded; tests take fewer */
+#define SPHI_CROWDED 1024 /* a cell with as many particles is crowded */
+#endif
+#ifndef SPHI_LEAF
+#define SPHI_LEAF 32 /* most slots in a leaf of the tree */
 #endif
 
-/* Bytes for the coordinates of a slot. The same memory first holds the bucket of each particle, until
-   all have their slots. */
+/* Bytes for the coordinates and the radius of a slot. The same memory first holds the bucket of each
+   particle, until all have their slots. */
 SPH_FN size_t sphi_place_size(int dim)
 {
-    const size_t coordinates = (size_t)dim * sizeof(sph_real);
-    return coordinates > sizeof(sph_index) ? coordinates : sizeof(sph_index);
+    const size_t place = ((size_t)dim + 1) * sizeof(sph_real);
+    return place > sizeof(sph_index) ? place : sizeof(sph_index);
+}
+/* Bytes per slot for the first slots of the buckets, or for the tree, which has at most 4 nodes for SPHI_LEAF
+   slots. */
+SPH_FN size_t sphi_cells_size(int dim)
+{
+    const size_t nodes = (2 * (size_t)dim + 1) * sizeof(sph_real) * 4 / SPHI_LEAF;
+    return nodes > 2 * sizeof(sph_index) ? nodes : 2 * sizeof(sph_index);
 }
 /* An even number of slots, so that an array of eight-byte numbers behind one of four-byte numbers
    is aligned. */
@@ -210,8 +233,9 @@ SPH_FN size_t sphi_padded(sph_index n) { return ((size_t)n + SPHI_PAD + 1) / 2 *
    they need no workspace. */
 SPH_FN size_t sph_grid_workspace(int dim, sph_index n)
 {
-    const size_t bytes = sphi_place_size(dim > 0 && dim < 4 ? dim : 1) + 3 * sizeof(sph_index);
-    if (dim < 1 || dim > 3 || n < 0 || (uint64_t)n + SPHI_PAD + 1 > SIZE_MAX / bytes / 2) return 0;
+    const int d = dim > 0 && dim < 4 ? dim : 1;
+    const size_t bytes = sphi_place_size(d) + sizeof(sph_index) + sphi_cells_size(d);
+    if (dim != d || n < 0 || (uint64_t)n + SPHI_PAD + 1 > SIZE_MAX / bytes / 2) return 0;
     if (n > SPHI_INDEX_MAX - SPHI_TILE) return 0; /* loops over slots go by tiles, and look a tile ahead */
     return sphi_padded(n) * bytes + SPHI_ALIGN;
 }
@@ -361,19 +385,12 @@ SPHI_LARGE sph_vec sphi_source(int dim, const sph_grid *g, sph_points s, sph_ind
     return sphi_wrap_point(dim, g, sphi_point(dim, s, i));
 }
 
-/* Three loops over the particles find buckets, slots and coordinates. Only the second one cannot run in
-   parallel. If the particles are stored in an order far from that of the cells, each loop then waits for one
-   kind of distant memory only, and for many such accesses at a time. */
-SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real radius, sph_grid *g)
+/* The corners of the box around all sources. */
+SPH_FN void sphi_bounds(int dim, sph_points s, sph_vec *low, sph_vec *high)
 {
-    const double most =
-        2.0 * (double)s.n < (double)SPHI_INDEX_MAX ? 2.0 * (double)s.n : (double)SPHI_INDEX_MAX;
-    const int parts = sphi_parts(), boxed = sphi_boxed(dim, g->box);
-    sph_index *const bucket_of = (sph_index *)(void *)g->x;
-    sph_vec low = sphi_point(dim, s, 0), high = low;
-    sph_index i, jumps = 0, last = 0;
-    size_t b;
-    int fine, part;
+    const int parts = sphi_parts();
+    int part;
+    *low = *high = sphi_point(dim, s, 0);
 #if SPH_OPENMP
 #pragma omp parallel for
 #endif
@@ -389,12 +406,27 @@ SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real radius, sph_grid 
 #pragma omp critical(sphi_bounds)
 #endif
         {
-            sphi_enclose(l, &low, &high);
-            sphi_enclose(h, &low, &high);
+            sphi_enclose(l, low, high);
+            sphi_enclose(h, low, high);
         }
     }
-    g->hashed = 0;
-    for (fine = SPHI_FINE; sphi_axes(dim, g, low, high, radius, fine) > most; fine /= 2)
+}
+
+/* Three loops over the particles find buckets, slots and coordinates. Only the second one cannot run in
+   parallel. If the particles are stored in an order far from that of the cells, each loop then waits for one
+   kind of distant memory only, and for many such accesses at a time. */
+SPHI_LARGE void sphi_cells_fill(int dim, sph_points s, sph_scalars radius, sph_grid *g)
+{
+    const double most =
+        2.0 * (double)s.n < (double)SPHI_INDEX_MAX ? 2.0 * (double)s.n : (double)SPHI_INDEX_MAX;
+    const int parts = sphi_parts(), boxed = sphi_boxed(dim, g->box);
+    sph_index *const bucket_of = (sph_index *)(void *)g->x;
+    sph_vec low, high;
+    sph_index i, jumps = 0, last = 0;
+    size_t b;
+    int fine, part;
+    sphi_bounds(dim, s, &low, &high);
+    for (fine = SPHI_FINE; sphi_axes(dim, g, low, high, g->radius, fine) > most; fine /= 2)
         if (fine == 1) {
             g->hashed = 1;
             break;
@@ -433,18 +465,147 @@ SPHI_LARGE void sphi_grid_fill(int dim, sph_points s, sph_real radius, sph_grid 
         const sph_index end = sphi_first(s.n, part + 1, parts);
         sph_index k;
         for (k = sphi_first(s.n, part, parts); k < end; k++) {
-            const sph_vec p = boxed ? sphi_source(dim, g, s, g->member[k]) : sphi_point(dim, s, g->member[k]);
+            const sph_index j = g->member[k];
+            const sph_vec p = boxed ? sphi_source(dim, g, s, j) : sphi_point(dim, s, j);
             g->x[k] = p.x;
             if (dim > 1) g->y[k] = p.y;
             if (dim > 2) g->z[k] = p.z;
+            if (g->own) g->own[k] = sphi_at(radius, j);
         }
     }
-    for (i = 0; i < SPHI_PAD; i++) { /* whole lanes read these slots, but nothing uses them */
-        g->member[s.n + i] = 0;
-        g->x[s.n + i] = SPH_R(0);
-        if (dim > 1) g->y[s.n + i] = SPH_R(0);
-        if (dim > 2) g->z[s.n + i] = SPH_R(0);
+}
+
+/* -------- the tree */
+
+/* The first slot of the i-th node of a level. Node 2^level + i has the slots from there to the next one. */
+SPH_FN sph_index sphi_cut(sph_index n, int level, int64_t i)
+{
+    const int64_t each = (int64_t)n >> level, rest = (int64_t)n - (each << level);
+    return (sph_index)(each * i + (rest * i >> level));
+}
+SPH_FN sph_real *sphi_node(const sph_grid *g, int64_t k) { return g->node + (2 * g->dim + 1) * k; }
+
+SPH_FN void sphi_swap(const sph_grid *g, sph_real *const *arrays, int count, sph_index a, sph_index b)
+{
+    const sph_index j = g->member[a];
+    int c;
+    for (c = 0; c < count; c++) {
+        const sph_real v = arrays[c][a];
+        arrays[c][a] = arrays[c][b];
+        arrays[c][b] = v;
     }
+    g->member[a] = g->member[b];
+    g->member[b] = j;
+}
+/* Moves the slots first ... end - 1 until none of those before `middle` has a larger key than one of the
+   others (C. A. R. Hoare, 1961, Comm. ACM 4, 321: algorithms 63 and 65). keys is one of the arrays. The pivot
+   has about the rank that is looked for within some keys. They are taken at random places, because regular
+   ones may all be on one side of a lattice; these depend on the arguments alone. */
+SPHI_LARGE void sphi_select(const sph_grid *g, const sph_real *keys, sph_real *const *arrays, int count,
+                            sph_index first, sph_index end, sph_index middle)
+{
+    uint32_t random = (uint32_t)first * 2654435761u + (uint32_t)end;
+    while (end - first > 1) {
+        const sph_index n = end - first;
+        const int samples = n > 4096 ? 31 : n > 512 ? 15 : n > 64 ? 7 : 3;
+        sph_real sample[31], pivot;
+        sph_index a = first, b = end - 1;
+        int s, t;
+        for (s = 0; s < samples; s++) {
+            sph_real v;
+            random = random * 1664525u + 1013904223u;
+            v = keys[first + (sph_index)((double)n * random / 4294967296.0)];
+            for (t = s; t > 0 && sample[t - 1] > v; t--) sample[t] = sample[t - 1];
+            sample[t] = v;
+        }
+        pivot = sample[(int)((double)(middle - first) * samples / (double)n)];
+        for (;;) {
+            while (keys[a] < pivot) a++;
+            while (keys[b] > pivot) b--;
+            if (a >= b) break;
+            sphi_swap(g, arrays, count, a++, b--);
+        }
+        /* slots before a are not above the pivot, slots behind b not below it; a may be b, in its place */
+        if (middle == a) return;
+        if (middle < a) end = a;
+        else first = b + 1;
+    }
+}
+/* Finds the box of a node and halves its slots, if it is no leaf. */
+SPHI_LARGE void sphi_node_make(const sph_grid *g, sph_real *const *arrays, int count, int level, int64_t i)
+{
+    const sph_index first = sphi_cut(g->n, level, i), end = sphi_cut(g->n, level, i + 1);
+    const int dim = g->dim;
+    sph_real *const node = sphi_node(g, ((int64_t)1 << level) + i);
+    int c, longest = 0;
+    for (c = 0; c < count; c++) {
+        const sph_real *const v = arrays[c];
+        sph_real low = v[first], high = low;
+        sph_index k;
+        for (k = first + 1; k < end; k++) {
+            low = v[k] < low ? v[k] : low;
+            high = v[k] > high ? v[k] : high;
+        }
+        if (c == dim) node[2 * dim] = high;
+        else {
+            node[c] = SPH_R(0.5) * low + SPH_R(0.5) * high;
+            node[dim + c] = high - node[c] > node[c] - low ? high - node[c] : node[c] - low;
+            if (node[dim + c] > node[dim + longest]) longest = c;
+        }
+    }
+    if (level + 1 < g->levels)
+        sphi_select(g, arrays[longest], arrays, count, first, end, sphi_cut(g->n, level + 1, 2 * i + 1));
+}
+/* The sources in the order of a tree, with its nodes. */
+SPHI_LARGE void sphi_tree_fill(int dim, sph_points s, sph_scalars radius, sph_grid *g)
+{
+    sph_real *const arrays[4] = {g->x, dim > 1 ? g->y : g->own, dim > 2 ? g->z : g->own, g->own};
+    const int parts = sphi_parts();
+    sph_vec low, high;
+    sph_index jumps = 0;
+    int level, top, part;
+    int64_t i;
+    sphi_bounds(dim, s, &low, &high);
+    sphi_axes(dim, g, low, high, g->largest, 1); /* sets low, for periodic axes */
+#if SPH_OPENMP
+#pragma omp parallel for reduction(+ : jumps)
+#endif
+    for (part = 0; part < parts; part++) {
+        const sph_index end = sphi_first(s.n, part + 1, parts);
+        sph_index k = sphi_first(s.n, part, parts);
+        sph_vec last = sphi_source(dim, g, s, k);
+        for (; k < end; k++) {
+            const sph_vec p = sphi_source(dim, g, s, k);
+            const sph_real reach = SPH_R(2) * sphi_at(radius, k);
+            jumps += SPHI_ABS(p.x - last.x) > reach || (dim > 1 && SPHI_ABS(p.y - last.y) > reach) ||
+                     (dim > 2 && SPHI_ABS(p.z - last.z) > reach);
+            last = p;
+            g->member[k] = k;
+            g->x[k] = p.x;
+            if (dim > 1) g->y[k] = p.y;
+            if (dim > 2) g->z[k] = p.z;
+            g->own[k] = sphi_at(radius, k);
+        }
+    }
+    g->scattered = jumps > s.n / 4;
+    for (g->levels = 1; (int64_t)SPHI_LEAF << (g->levels - 1) < s.n; g->levels++) {}
+    /* level by level as long as nodes are large, then one branch after the other, which stays in the cache */
+    for (top = 0; top < g->levels - 1 && s.n >> top > 4096; top++) {
+        const int64_t nodes = (int64_t)1 << top;
+#if SPH_OPENMP
+#pragma omp parallel for schedule(dynamic, 1)
+#endif
+        for (i = 0; i < nodes; i++) sphi_node_make(g, arrays, dim + 1, top, i);
+    }
+#if SPH_OPENMP
+#pragma omp parallel for schedule(dynamic, 1) private(level)
+#endif
+    for (i = 0; i < (int64_t)1 << top; i++)
+        for (level = top; level < g->levels; level++) {
+            int64_t k;
+            for (k = i << (level - top); k < (i + 1) << (level - top); k++)
+                sphi_node_make(g, arrays, dim + 1, level, k);
+        }
 }
 
 /* A grid of no sources. */
@@ -452,27 +613,52 @@ SPH_FN void sphi_grid_empty(int dim, sph_grid *grid)
 {
     grid->n = 0;
     grid->dim = dim;
-    grid->hashed = grid->scattered = 0;
+    grid->hashed = grid->levels = grid->scattered = 0;
     grid->cells[0] = grid->cells[1] = grid->cells[2] = 0;
     grid->buckets = 0;
-    grid->radius = SPH_R(0);
+    grid->radius = grid->largest = SPH_R(0);
     grid->low.x = grid->low.y = grid->low.z = SPH_R(0);
     grid->inverse_width = grid->box = grid->low;
     grid->first = grid->member = 0;
-    grid->x = grid->y = grid->z = 0;
+    grid->x = grid->y = grid->z = grid->own = grid->node = 0;
 }
 
-/* Sorts the sources into cells. radius is the one that will mostly be searched; others work, too. It may be
-   at most half of a box length. The coordinates are copied, so later changes of the arrays do not matter
-   until the next build. work may be aligned in any way. Without sources the grid is empty; work and radius
-   are then not read, and work may be null.
+/* Sets the mean and the largest of the radii. *alike becomes 1 if no two of them differ by more than the
+   factor SPHI_ALIKE. Returns 0 or a negative sph_error. */
+SPH_FN int sphi_radii(sph_index n, sph_scalars radius, sph_real *mean, sph_real *largest, int *alike)
+{
+    const sph_index count = radius.stride ? n : 1;
+    sph_real least;
+    double sum = 0;
+    sph_index i;
+    if (!radius.p) return sphi_refuse("radius", -1, SPH_ERROR_NULL);
+    least = *largest = sphi_at(radius, 0);
+    for (i = 0; i < count; i++) {
+        const sph_real own = sphi_at(radius, i);
+        if (!sphi_radius_ok(own)) return sphi_refuse("radius", i, SPH_ERROR_H);
+        *largest = own > *largest ? own : *largest;
+        least = own < least ? own : least;
+        sum += (double)own / (double)count;
+    }
+    *mean = least < *largest ? (sph_real)sum : least;
+    *alike = !(*largest > SPH_R(SPHI_ALIKE) * least);
+    return 0;
+}
+
+/* Sorts the sources. radius: the support radius of each source, or one for all (sph_scalars_same). Give those
+   that you will mostly search with: other radii find the same neighbours, but far larger or smaller ones take
+   longer. None may be more than half of a box length. Coordinates and radii are copied, so later changes of
+   the arrays do not matter until the next build. work may be aligned in any way. Without sources the grid is
+   empty; work and radius are then not read, and may be null.
    Returns 0 or a negative sph_error: SPH_ERROR_CAPACITY if work_size is below
-   sph_grid_workspace(dim, sources.n). */
-SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_real radius, void *work, size_t work_size,
+   sph_grid_workspace(dim, sources.n); SPH_ERROR_H and SPH_ERROR_BOX as for sph_grid_lists. */
+SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_scalars radius, void *work, size_t work_size,
                                 sph_grid *grid)
 {
-    const int error = sphi_check_points(dim, sources);
     const size_t padded = sphi_padded(sources.n > 0 ? sources.n : 0);
+    sph_real mean, largest;
+    sph_index k;
+    int alike, error = sphi_check_points(dim, sources);
     if (error) return error;
     if (!grid || (!work && sources.n > 0)) return sphi_refuse("work, grid", -1, SPH_ERROR_NULL);
     if (sources.n == 0) {
@@ -480,22 +666,35 @@ SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_real radius, vo
         return 0;
     }
     if (sph_grid_workspace(dim, sources.n) == 0) return sphi_refuse("sources.n", -1, SPH_ERROR_COUNT);
-    if (!sphi_radius_ok(radius)) return sphi_refuse("radius", -1, SPH_ERROR_H);
-    if (sphi_check_box(dim, sources, radius, 0)) return SPH_ERROR_BOX;
+    error = sphi_radii(sources.n, radius, &mean, &largest, &alike);
+    if (error) return error;
+    if (sphi_check_box(dim, sources, largest, 0)) return SPH_ERROR_BOX;
     if (work_size < sph_grid_workspace(dim, sources.n)) return SPH_ERROR_CAPACITY;
     work = sphi_aligned(work);
+    sphi_grid_empty(dim, grid);
     grid->n = sources.n;
-    grid->dim = dim;
     grid->box = sources.box;
-    grid->radius = radius;
+    grid->radius = mean;
+    grid->largest = largest;
     grid->x = (sph_real *)work;
     grid->y = grid->x + (dim > 1 ? padded : 0);
     grid->z = grid->y + (dim > 2 ? padded : 0);
-    grid->member = (sph_index *)(void *)((char *)work + padded * sphi_place_size(dim));
-    grid->first = grid->member + padded;
-    if (dim == 1) sphi_grid_fill(1, sources, radius, grid);
-    else if (dim == 2) sphi_grid_fill(2, sources, radius, grid);
-    else sphi_grid_fill(3, sources, radius, grid);
+    if (radius.stride) grid->own = grid->z + padded;
+    grid->node = (sph_real *)(void *)((char *)work + padded * sphi_place_size(dim));
+    grid->first = (sph_index *)(void *)grid->node;
+    grid->member = (sph_index *)(void *)((char *)grid->node + padded * sphi_cells_size(dim));
+    if (alike) {
+        if (dim == 1) sphi_cells_fill(1, sources, radius, grid);
+        else if (dim == 2) sphi_cells_fill(2, sources, radius, grid);
+        else sphi_cells_fill(3, sources, radius, grid);
+    } else sphi_tree_fill(dim, sources, radius, grid);
+    for (k = sources.n; k < sources.n + SPHI_PAD; k++) { /* whole lanes read these slots, nothing uses them */
+        grid->member[k] = 0;
+        grid->x[k] = SPH_R(0);
+        if (dim > 1) grid->y[k] = SPH_R(0);
+        if (dim > 2) grid->z[k] = SPH_R(0);
+        if (grid->own) grid->own[k] = SPH_R(0);
+    }
     return 0;
 }
 
@@ -536,17 +735,34 @@ typedef struct sphi_rows {
     size_t apart, from[SPHI_ROWS];
 } sphi_rows;
 
+/* The leaves of a tree that a group of targets may see, which follow each other and are near each other, in
+   the images in which they are seen. */
+typedef struct sphi_view {
+    sph_index until;        /* the group ends before this target */
+    sph_vec p, half_length; /* the middle of the targets, and how far they are from it along each axis */
+    sph_real own;           /* their largest radius */
+    sph_real slack;         /* by how much rounding may change a distance */
+    int image;              /* from where to look for more, if there was no room for all: image and node; */
+    int64_t next;           /* or SPHI_IMAGES and 0 */
+    int count;
+    signed char seen_in[SPHI_VIEW];
+    sph_index leaf[SPHI_VIEW];
+    sph_real x[SPHI_VIEW], y[SPHI_VIEW], z[SPHI_VIEW];    /* the middle of each leaf */
+    sph_real dx[SPHI_VIEW], dy[SPHI_VIEW], dz[SPHI_VIEW]; /* half of its lengths and the slack */
+    sph_real largest[SPHI_VIEW];                          /* of its radii */
+} sphi_view;
+
 /* What the search for one list needs. */
 typedef struct sphi_search {
     sph_vec p;             /* the target, inside the box */
     sph_real radius;       /* nothing farther is a neighbour */
     sph_real own;          /* R_i */
     sph_real widest;       /* half of the smallest box: within a larger radius a pair may have two images */
-    sph_scalars source;    /* R_j */
-    int criterion;         /* how the radius of a pair follows from own and source */
+    int criterion;         /* how the radius of a pair follows from own and that of the source */
     sph_index skip, least; /* without the particle skip, and only particles from least on */
     sphi_crowds *crowds;
     sphi_rows *rows;
+    sphi_view *view;
 } sphi_search;
 
 /* The cells x0 ... x1 of a row along x, and the image in which they are seen: `shift` is 0, or
@@ -592,30 +808,30 @@ SPH_FN int sphi_in_run(int dim, const sph_grid *g, sph_vec p, const sphi_run *ru
     return dim < 3 || sphi_cell(p.z, g->low.z, g->inverse_width.z, g->cells[2]) == run->z;
 }
 
-/* What is known when the loops are compiled: that cells are hashed, with any radii; or that they are not
-   hashed, with radii of pairs, with one radius in some box, or with one radius in an open domain. */
-enum { SPHI_HASHED, SPHI_RADII, SPHI_BOXED, SPHI_OPEN };
+/* What is known when the loops are compiled: that there is a tree, or that cells are hashed, with any radii;
+   or that they are not hashed, with radii of pairs, with one radius in some box, or with one radius in an
+   open domain. */
+enum { SPHI_TREE, SPHI_HASHED, SPHI_RADII, SPHI_BOXED, SPHI_OPEN };
 
-/* The squares of the radii of the pairs, for the slots m ... m + n - 1. */
-SPH_FN void sphi_limits_by(int criterion, const sph_grid *g, const sphi_search *s, sph_index m, int n,
+/* The squares of the radii of pairs with n sources, which have these radii. */
+SPH_FN void sphi_limits_by(int criterion, const sphi_search *s, const sph_real *radius, int n,
                            sph_real *limit)
 {
     const sph_real own = s->own, widest = s->widest;
     int l;
     SPH_ASSERT(n >= SPHI_LANES);
     for (l = 0; l < n; l++) {
-        const sph_real radius =
-            sphi_lesser(sphi_pair_radius(criterion, own, sphi_at(s->source, g->member[m + l])), widest);
-        limit[l] = radius * radius;
+        const sph_real pair = sphi_lesser(sphi_pair_radius(criterion, own, radius[l]), widest);
+        limit[l] = pair * pair;
     }
 }
-SPH_FN void sphi_limits(const sph_grid *g, const sphi_search *s, sph_index m, int n, sph_real *limit)
+SPH_FN void sphi_limits(const sphi_search *s, const sph_real *radius, int n, sph_real *limit)
 {
     int l;
     SPH_ASSERT(n >= SPHI_LANES); /* whole lanes */
-    if (s->criterion == SPH_SCATTER) sphi_limits_by(SPH_SCATTER, g, s, m, n, limit);
-    else if (s->criterion == SPH_LARGER) sphi_limits_by(SPH_LARGER, g, s, m, n, limit);
-    else if (s->criterion == SPH_MEAN) sphi_limits_by(SPH_MEAN, g, s, m, n, limit);
+    if (s->criterion == SPH_SCATTER) sphi_limits_by(SPH_SCATTER, s, radius, n, limit);
+    else if (s->criterion == SPH_LARGER) sphi_limits_by(SPH_LARGER, s, radius, n, limit);
+    else if (s->criterion == SPH_MEAN) sphi_limits_by(SPH_MEAN, s, radius, n, limit);
     else
         for (l = 0; l < n; l++) limit[l] = s->radius * s->radius;
 }
@@ -657,7 +873,8 @@ SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const 
         /* excess: the square of the distance minus that of the radius; it is negative for neighbours */
         sph_real limits[SPHI_TILE], excess[SPHI_TILE];
         int c, l;
-        if (kind <= SPHI_RADII) sphi_limits(g, s, a, (n + SPHI_LANES - 1) / SPHI_LANES * SPHI_LANES, limits);
+        if (kind <= SPHI_RADII)
+            sphi_limits(s, g->own + a, (n + SPHI_LANES - 1) / SPHI_LANES * SPHI_LANES, limits);
         for (c = 0; c < n; c += SPHI_LANES)
             for (l = c; l < c + SPHI_LANES; l++) {
                 const sph_real dx = (p.x - g->x[a + l]) - shift.x;
@@ -812,7 +1029,8 @@ SPH_FN int64_t sphi_filter_wide(int dim, int kind, const sph_grid *g, const sphi
         const __m256i drop = _mm256_or_si256(_mm256_cmpeq_epi32(j, skip), _mm256_cmpgt_epi32(least, j));
         unsigned mask;
         if (kind == SPHI_RADII && at == 0)
-            sphi_limits(g, s, m, b - m < SPHI_TILE ? (int)((b - m + 7) / 8 * 8) : (int)SPHI_TILE, limits);
+            sphi_limits(s, g->own + m, b - m < SPHI_TILE ? (int)((b - m + 7) / 8 * 8) : (int)SPHI_TILE,
+                        limits);
         mask = sphi_nearer8(dim, g, s, m, shift, limit, kind == SPHI_RADII ? limits + at : 0) &
                ~(unsigned)_mm256_movemask_ps(_mm256_castsi256_ps(drop));
         mask &= b - m < 8 ? (1u << (b - m)) - 1u : 0xffu;
@@ -899,7 +1117,7 @@ SPH_FN sph_index sphi_lower_bound(const sph_grid *g, sph_index a, sph_index b, s
 }
 SPH_FN sph_real sphi_source_radius(const sph_grid *g, const sphi_search *s, sph_index slot)
 {
-    return s->criterion == SPH_GATHER ? SPH_R(0) : sphi_at(s->source, g->member[slot]);
+    return s->criterion == SPH_GATHER ? SPH_R(0) : g->own[slot];
 }
 SPH_FN void sphi_crowd_add(int dim, const sph_grid *g, const sphi_search *s, sph_index slot,
                            sphi_crowd *crowd)
@@ -981,14 +1199,20 @@ SPHI_LARGE int64_t sphi_take(const sph_grid *g, const sphi_search *s, sphi_run *
     }
     return end;
 }
-/* A run with a crowd in it. The code is not specialised, because few particles are not taken as a whole. */
+/* One compiled copy for all dimensions and kinds, where speed does not matter. */
+SPHI_LARGE int64_t sphi_filter_any(int kind, const sph_grid *g, const sphi_search *s, sphi_run *run,
+                                   sph_index a, sph_index b, sph_index *out, int64_t room, int64_t count)
+{
+    return sphi_filter(g->dim, kind, g, s, run, a, b, out, room, count);
+}
+/* A run with a crowd in it. Few particles are not taken as a whole. */
 SPHI_LARGE int64_t sphi_filter_crowded(int kind, const sph_grid *g, const sphi_search *s, sphi_run *run,
                                        size_t from, size_t to, sph_index *out, int64_t room, int64_t count)
 {
     for (; from < to; from++) {
         const sph_index a = g->first[from], b = g->first[from + 1];
         if (sphi_crowd_taken(kind, g, s, run, from)) count = sphi_take(g, s, run, a, b, out, room, count);
-        else if (a < b) count = sphi_filter(g->dim, kind, g, s, run, a, b, out, room, count);
+        else if (a < b) count = sphi_filter_any(kind, g, s, run, a, b, out, room, count);
     }
     return count;
 }
@@ -1165,21 +1389,182 @@ SPHI_LARGE int64_t sphi_rows_overlapping(const sph_grid *g, const sphi_search *s
     return sphi_rows_any(g->dim, SPHI_HASHED, g, s, k, run, careful, count_all, out, room, candidates);
 }
 
+/* -------- lists: images of a periodic box, by their numbers */
+
+enum { SPHI_INSIDE = 13 }; /* the image that is no image */
+SPH_FN sph_vec sphi_image_shift(sph_vec box, int image)
+{
+    sph_vec shift;
+    shift.x = box.x * (sph_real)(image % 3 - 1);
+    shift.y = box.y * (sph_real)(image / 3 % 3 - 1);
+    shift.z = box.z * (sph_real)(image / 9 - 1);
+    return shift;
+}
+/* The first image from `image` on that differs from others: only axes with a length have images. */
+SPH_FN int sphi_next_image(int dim, sph_vec box, int image)
+{
+    if (!sphi_boxed(dim, box)) return image <= SPHI_INSIDE ? SPHI_INSIDE : SPHI_IMAGES;
+    while (image < SPHI_IMAGES && ((!(box.x > SPH_R(0)) && image % 3 != 1) ||
+                                   (!(dim > 1 && box.y > SPH_R(0)) && image / 3 % 3 != 1) ||
+                                   (!(dim > 2 && box.z > SPH_R(0)) && image / 9 != 1)))
+        image++;
+    return image;
+}
+
+/* With a radius far beyond that of the grid a target has to look at too many rows: so at all slots, in all
+   images. The code is not specialised, because then most of the slots are neighbours. */
+SPHI_LARGE int64_t sphi_rows_far(const sph_grid *g, const sphi_search *s, sphi_run *run, int count_all,
+                                 sph_index *out, int64_t room, int64_t *candidates)
+{
+    const int kind = s->criterion == SPH_GATHER ? SPHI_BOXED : SPHI_RADII;
+    int64_t count = 0;
+    int image;
+    run->own = 1;
+    for (image = 0; (image = sphi_next_image(g->dim, g->box, image)) < SPHI_IMAGES; image++) {
+        *candidates += g->n;
+        run->shift = sphi_image_shift(g->box, image);
+        if (!count_all) count = sphi_filter_any(kind, g, s, run, 0, g->n, out, room, count);
+    }
+    run->met = 1;
+    return count;
+}
+
+/* -------- lists: the leaves of a tree around a group of targets */
+
+/* By how much a place is outside of an interval, given its distance from the middle. */
+SPH_FN sph_real sphi_outside(sph_real distance, sph_real half_length)
+{
+    const sph_real d = SPHI_ABS(distance) - half_length;
+    return SPH_R(0.5) * (d + SPHI_ABS(d));
+}
+/* Finds the leaves that the group may see, from where the view stands, until it is full. A node is left out
+   with all below it if it is farther away than the largest radius of a pair with one of its sources. */
+SPHI_LARGE void sphi_view_fill(const sph_grid *g, const sphi_search *s, sphi_view *v)
+{
+    const int64_t leaves = (int64_t)1 << (g->levels - 1);
+    const int dim = g->dim;
+    int l;
+    v->count = 0;
+    for (; (v->image = sphi_next_image(dim, g->box, v->image)) < SPHI_IMAGES; v->image++) {
+        const sph_vec shift = sphi_image_shift(g->box, v->image);
+        if (v->next == 0) v->next = 1;
+        do {
+            const sph_real *const node = sphi_node(g, v->next), *const half_length = node + dim;
+            const sph_real x = node[0] + shift.x, y = dim > 1 ? node[1] + shift.y : SPH_R(0),
+                           z = dim > 2 ? node[2] + shift.z : SPH_R(0);
+            const sph_real dx = half_length[0] + v->slack,
+                           dy = dim > 1 ? half_length[1] + v->slack : SPH_R(0),
+                           dz = dim > 2 ? half_length[2] + v->slack : SPH_R(0);
+            const sph_real a = sphi_outside(v->p.x - x, v->half_length.x + dx),
+                           b = sphi_outside(v->p.y - y, v->half_length.y + dy),
+                           c = sphi_outside(v->p.z - z, v->half_length.z + dz);
+            const sph_real pair =
+                sphi_lesser(sphi_pair_radius(s->criterion, v->own, node[2 * dim]), s->widest);
+            if (a * a + b * b + c * c <= pair * pair * (SPH_R(1) + SPH_R(16) * SPH_EPSILON)) {
+                if (v->next < leaves) {
+                    v->next *= 2;
+                    continue;
+                }
+                if (v->count == SPHI_VIEW) return;
+                l = v->count++;
+                v->seen_in[l] = (signed char)v->image;
+                v->leaf[l] = (sph_index)(v->next - leaves);
+                v->x[l] = x;
+                v->y[l] = y;
+                v->z[l] = z;
+                v->dx[l] = dx;
+                v->dy[l] = dy;
+                v->dz[l] = dz;
+                v->largest[l] = node[2 * dim];
+            }
+            v->next++; /* to the next branch, or from the last one to node 1 */
+            while (v->next % 2 == 0) v->next /= 2;
+        } while (v->next != 1);
+        v->next = 0;
+    }
+    for (l = v->count; l % SPHI_LANES != 0; l++) /* whole lanes are read, but not used */
+        v->x[l] = v->y[l] = v->z[l] = v->dx[l] = v->dy[l] = v->dz[l] = v->largest[l] = SPH_R(0);
+}
+/* The neighbours of a target in the leaves of a view. */
+SPH_FN int64_t sphi_view_row(int dim, const sph_grid *g, const sphi_search *s, sphi_run *run, int careful,
+                             sph_index *out, int64_t room, int64_t count)
+{
+    const sphi_view *const v = s->view;
+    const int level = g->levels - 1;
+    sph_real limit[SPHI_VIEW], excess[SPHI_VIEW];
+    int hit[SPHI_VIEW], hits = 0, c, l;
+    if (v->count == 0) return count;
+    sphi_limits(s, v->largest, (v->count + SPHI_LANES - 1) / SPHI_LANES * SPHI_LANES, limit);
+    for (c = 0; c < v->count; c += SPHI_LANES)
+        for (l = c; l < c + SPHI_LANES; l++) {
+            const sph_real dx = sphi_outside(s->p.x - v->x[l], v->dx[l]);
+            const sph_real dy = dim > 1 ? sphi_outside(s->p.y - v->y[l], v->dy[l]) : SPH_R(0);
+            const sph_real dz = dim > 2 ? sphi_outside(s->p.z - v->z[l], v->dz[l]) : SPH_R(0);
+            const sph_real d2 = dx * dx + (dim > 1 ? dy * dy : SPH_R(0)) + (dim > 2 ? dz * dz : SPH_R(0));
+            limit[l] *= SPH_R(1) + SPH_R(16) * SPH_EPSILON;
+            excess[l] = d2 - limit[l];
+        }
+    for (c = 0; c < v->count; c++) { /* without a branch */
+        hit[hits] = c;
+        hits += (int)sphi_negative(excess[c]);
+    }
+    for (c = 0; c < hits;) {
+        const int first = hit[c];
+        sph_index from = sphi_cut(g->n, level, v->leaf[first]), to;
+        int last = first;
+        run->own = careful;
+        do { /* leaves that follow each other are one run */
+            last = hit[c++];
+            run->own |= excess[last] == -limit[last]; /* the target is in there */
+        } while (c < hits && v->leaf[hit[c]] == v->leaf[last] + 1 && v->seen_in[hit[c]] == v->seen_in[last]);
+        to = sphi_cut(g->n, level, (int64_t)v->leaf[last] + 1);
+        run->shift = sphi_image_shift(g->box, v->seen_in[first]);
+        if (s->criterion == SPH_GATHER)
+            count = sphi_filter(dim, SPHI_BOXED, g, s, run, from, to, out, room, count);
+        else count = sphi_filter(dim, SPHI_RADII, g, s, run, from, to, out, room, count);
+    }
+    return count;
+}
+/* The neighbours of a target in a tree. If the view has no room for all leaves, the target is a group by
+   itself, and looks at some leaves after the other. */
+SPH_FN int64_t sphi_tree_row(int dim, const sph_grid *g, const sphi_search *s, sphi_run *run, int careful,
+                             sph_index *out, int64_t room)
+{
+    sphi_view *const v = s->view;
+    const int all = v->image == SPHI_IMAGES;
+    int64_t count = 0;
+    int last;
+    do {
+        last = v->image == SPHI_IMAGES;
+        count = sphi_view_row(dim, g, s, run, careful || !all, out, room, count);
+        if (!last) sphi_view_fill(g, s, v);
+    } while (!last);
+    run->met |= !all;
+    return count;
+}
+
 /* The neighbours of one target, or with count_all the number of candidates alone. Adds the number of
-   candidates to *candidates. The target itself is looked for in the row of its own cell only. If it was not
-   there, because the caller has moved it since the grid was built, all is done again with more care. */
+   candidates to *candidates. The target itself is looked for in the row of its own cell only, or in the leaf
+   around it. If it was not there, because the caller has moved it since the grid was built, all is done again
+   with more care. */
 SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search *s, int count_all,
                         sph_index *out, int64_t room, int64_t *candidates)
 {
-    const sphi_block k = sphi_block_of(dim, kind, g, s);
+    sphi_block k;
     sphi_run run;
     int64_t count;
     int careful = 0;
     run.y = run.z = 0;
     run.shift.x = run.shift.y = run.shift.z = SPH_R(0);
     run.met = s->skip < 0 || count_all;
+    if (kind == SPHI_TREE) *candidates += g->n;
+    if (kind == SPHI_TREE && count_all) return 0;
+    if (kind != SPHI_TREE && s->radius > SPH_R(SPHI_FARTHEST) * g->radius)
+        return sphi_rows_far(g, s, &run, count_all, out, room, candidates);
+    if (kind != SPHI_TREE) k = sphi_block_of(dim, kind, g, s);
     do {
-        if (kind == SPHI_OPEN)
+        if (kind == SPHI_TREE) count = sphi_tree_row(dim, g, s, &run, careful, out, room);
+        else if (kind == SPHI_OPEN)
             count = sphi_rows_open(dim, g, s, &k, &run, careful, count_all, out, room, candidates);
         else if (kind != SPHI_HASHED)
             count = sphi_rows_any(dim, kind, g, s, &k, &run, careful, count_all, out, room, candidates);
@@ -1219,9 +1604,12 @@ struct sphi_job {
     const sph_grid *g;
     sph_points targets;
     sphi_pass_function pass;
-    int kind, criterion, flags;
-    sph_scalars target_radius, source_radius;
-    sph_real source_largest, widest;
+    int kind, flags;
+    int criterion; /* of the query */
+    int plain;     /* the radius of a pair depends on the target alone */
+    sph_scalars radius;
+    sph_real widest;
+    sph_real slack;   /* of a tree: by how much rounding may change a distance */
     int by_slots;     /* passes go over the slots of the grid, not over the targets */
     int64_t capacity; /* 0: nothing is stored */
     sph_index *start, *index;
@@ -1233,6 +1621,57 @@ struct sphi_job {
    stored in an order far from that of the cells. They are visited in the order of the slots, where
    near targets follow each other. */
 enum { SPHI_APPEND, SPHI_LENGTHS, SPHI_PLACE, SPHI_BUFFER = 768 };
+
+/* The target at place k of a pass. Returns its number. */
+SPH_FN sph_index sphi_target(int dim, int kind, const sphi_job *job, sph_index k, sphi_search *s)
+{
+    const sph_grid *const g = job->g;
+    const sph_index i = job->by_slots ? g->member[k] : k;
+    if (i >= job->targets.n) return i; /* a source only */
+    s->p = job->by_slots ? sphi_slot(dim, g, k) : sphi_wrap_point(dim, g, sphi_point(dim, job->targets, i));
+    s->own = job->criterion == SPH_SCATTER ? SPH_R(0) : sphi_at(job->radius, i);
+    if (job->plain) s->own = sphi_pair_radius(job->criterion, s->own, g->largest);
+    s->radius = kind > SPHI_RADII ? s->own : sphi_pair_radius(s->criterion, s->own, g->largest);
+    s->radius = sphi_lesser(s->radius, s->widest);
+    s->skip = job->flags & (SPH_LIST_SELF | SPH_LIST_FOREIGN) ? -1 : i;
+    s->least = job->flags & SPH_LIST_HALF ? i : 0;
+    return i;
+}
+/* Makes a group of s, the target at place k, and those that follow and are near, and finds the leaves that
+   they may see. If there is no room for all leaves, the group is made smaller. */
+SPHI_LARGE void sphi_view_begin(int dim, const sphi_job *job, sph_index k, sph_index last,
+                                const sphi_search *s)
+{
+    sphi_view *const v = s->view;
+    sph_index most = last - k < SPHI_LEAF ? last - k : SPHI_LEAF;
+    do {
+        sphi_search other = *s;
+        sph_vec low = s->p, high = s->p;
+        v->own = s->own;
+        for (v->until = k + 1; v->until < k + most; v->until++) {
+            sph_vec l = low, h = high;
+            sph_real wide;
+            if (sphi_target(dim, SPHI_TREE, job, v->until, &other) >= job->targets.n) continue;
+            sphi_enclose(other.p, &l, &h);
+            wide = SPH_R(1.5) * (job->criterion == SPH_SCATTER ? job->g->radius : other.own);
+            if (other.own > SPH_R(2) * s->own || h.x - l.x > wide || h.y - l.y > wide || h.z - l.z > wide)
+                break;
+            low = l;
+            high = h;
+            v->own = other.own > v->own ? other.own : v->own;
+        }
+        v->p.x = SPH_R(0.5) * low.x + SPH_R(0.5) * high.x;
+        v->p.y = SPH_R(0.5) * low.y + SPH_R(0.5) * high.y;
+        v->p.z = SPH_R(0.5) * low.z + SPH_R(0.5) * high.z;
+        v->half_length.x = SPH_R(0.5) * (high.x - low.x);
+        v->half_length.y = SPH_R(0.5) * (high.y - low.y);
+        v->half_length.z = SPH_R(0.5) * (high.z - low.z);
+        v->image = 0;
+        v->next = 0;
+        sphi_view_fill(job->g, s, v);
+        most = (v->until - k) / 2;
+    } while (v->image < SPHI_IMAGES && most > 0);
+}
 
 /* One compiled copy serves all three modes, so that a row is placed with the same rounding with which it was
    counted: PLACE reads start, which holds what LENGTHS or APPEND counted. Returns the sum of the lengths,
@@ -1246,37 +1685,33 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
     sph_index buffer[SPHI_BUFFER], k;
     sphi_crowds crowds;
     sphi_rows rows;
+    sphi_view view;
     sphi_search s;
     crowds.count = crowds.next = 0;
     s.crowds = &crowds;
     rows.y0 = rows.z0 = 0;
     rows.y1 = rows.z1 = -1; /* none yet */
     s.rows = &rows;
+    view.until = first;
+    view.slack = job->slack;
+    s.view = &view;
     s.widest = job->widest;
-    s.source = job->source_radius;
-    s.criterion = job->criterion;
+    s.criterion = job->plain ? (int)SPH_GATHER : job->criterion;
     for (k = first; k < last; k++) {
-        const sph_index i = job->by_slots ? g->member[k] : k;
         const int64_t left = mode == SPHI_APPEND && room > total ? room - total : 0;
         int64_t count;
-        sph_index *row = index, p;
+        sph_index *row = index, p, i;
         int64_t row_room = left;
         int buffered;
+        i = sphi_target(dim, kind, job, k, &s);
         if (i >= job->targets.n) continue;
+        if (kind == SPHI_TREE && k >= view.until && total <= SPHI_INDEX_MAX)
+            sphi_view_begin(dim, job, k, last, &s);
         if (left > 0) row = index + total;
-        if (job->by_slots) {
-            s.p = sphi_slot(dim, g, k);
-        } else s.p = sphi_wrap_point(dim, g, sphi_point(dim, job->targets, i));
         if (mode == SPHI_PLACE) { /* by way of the buffer, which has room for whole lanes */
             row_room = job->start[i + 1] - job->start[i];
             row = index + job->start[i];
         }
-        s.own = job->criterion == SPH_SCATTER ? SPH_R(0) : sphi_at(job->target_radius, i);
-        s.radius = sphi_lesser(
-            kind > SPHI_RADII ? s.own : sphi_pair_radius(job->criterion, s.own, job->source_largest),
-            s.widest);
-        s.skip = job->flags & (SPH_LIST_SELF | SPH_LIST_FOREIGN) ? -1 : i;
-        s.least = job->flags & SPH_LIST_HALF ? i : 0;
         buffered = mode == SPHI_PLACE && row_room <= SPHI_BUFFER / 2;
         count = sphi_row(dim, kind, g, &s, total > SPHI_INDEX_MAX, buffered ? buffer : row,
                          buffered ? (int64_t)SPHI_BUFFER : row_room, candidates);
@@ -1298,6 +1733,9 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
     { \
         return sphi_pass(dim, kind, mode, job, first, last, index, room, candidates); \
     }
+SPHI_PASS(sphi_pass_tree_1, 1, SPHI_TREE)
+SPHI_PASS(sphi_pass_tree_2, 2, SPHI_TREE)
+SPHI_PASS(sphi_pass_tree_3, 3, SPHI_TREE)
 SPHI_PASS(sphi_pass_hashed_1, 1, SPHI_HASHED)
 SPHI_PASS(sphi_pass_hashed_2, 2, SPHI_HASHED)
 SPHI_PASS(sphi_pass_hashed_3, 3, SPHI_HASHED)
@@ -1316,10 +1754,11 @@ SPH_FN sphi_pass_function sphi_pass_of(int dim, int kind)
 {
 #define SPHI_PASSES(d) \
     if (dim == d) \
-        return kind == SPHI_HASHED  ? sphi_pass_hashed_##d \
-               : kind == SPHI_RADII ? sphi_pass_radii_##d \
-               : kind == SPHI_BOXED ? sphi_pass_boxed_##d \
-                                    : sphi_pass_open_##d;
+        return kind == SPHI_TREE     ? sphi_pass_tree_##d \
+               : kind == SPHI_HASHED ? sphi_pass_hashed_##d \
+               : kind == SPHI_RADII  ? sphi_pass_radii_##d \
+               : kind == SPHI_BOXED  ? sphi_pass_boxed_##d \
+                                     : sphi_pass_open_##d;
     SPHI_PASSES(1)
     SPHI_PASSES(2)
     SPHI_PASSES(3)
@@ -1411,13 +1850,13 @@ SPHI_LARGE int64_t sphi_lists(const sphi_job *job)
     return total;
 }
 
-/* What is looked for: the neighbours of these targets, by this criterion, within these support radii, in
-   lists with these flags. There is one radius for each target and source, or one for all (sph_scalars_same).
-   Radii that the criterion does not use are not read. */
+/* What is looked for: the neighbours of these targets, by this criterion, in lists with these flags. radius:
+   the support radius R_i of each target, or one for all (sph_scalars_same); SPH_SCATTER does not read it.
+   Those of the sources, R_j, are the grid's. */
 typedef struct sph_query {
     sph_points targets;
     int criterion; /* an sph_criterion */
-    sph_scalars target_radius, source_radius;
+    sph_scalars radius;
     int flags; /* of sph_list_flags, added up */
 } sph_query;
 
@@ -1428,7 +1867,7 @@ SPH_FN sph_query sph_query_of(sph_points points, int criterion, sph_scalars radi
     sph_query q;
     q.targets = points;
     q.criterion = criterion;
-    q.target_radius = q.source_radius = radius;
+    q.radius = radius;
     q.flags = flags;
     return q;
 }
@@ -1436,14 +1875,14 @@ SPH_FN sph_query sph_query_of(sph_points points, int criterion, sph_scalars radi
 /* Checks what is asked for and makes a job of it, still without the room for its lists. */
 SPH_FN int sphi_job_of(int dim, const sph_grid *grid, sph_query query, sph_index *start, sphi_job *job)
 {
-    const sph_scalars target_radius = query.target_radius, source_radius = query.source_radius;
+    const sph_scalars radius = query.radius;
     const int criterion = query.criterion, flags = query.flags;
     sph_points targets = query.targets;
     const int by_source = criterion != SPH_GATHER, by_target = criterion != SPH_SCATTER;
     const int known = SPH_LIST_SELF | SPH_LIST_HALF | SPH_LIST_SORTED | SPH_LIST_FOREIGN;
-    sph_real largest = SPH_R(0);
+    sph_real largest;
     sph_index i;
-    int error, uniform, plain;
+    int error, c;
     if (grid && grid->dim != dim) return sphi_refuse("dim", -1, SPH_ERROR_DIM);
     if (grid && !(flags & SPH_LIST_FOREIGN) && targets.n > grid->n)
         return sphi_refuse("query.targets.n", -1, SPH_ERROR_RANGE);
@@ -1460,39 +1899,33 @@ SPH_FN int sphi_job_of(int dim, const sph_grid *grid, sph_query query, sph_index
     job->start = start;
     job->index = 0;
     job->capacity = 0;
-    job->source_largest = SPH_R(0);
     job->by_slots = grid->scattered && !(flags & SPH_LIST_FOREIGN);
     if (targets.n == 0 || grid->n == 0) return 0; /* nothing to look at */
-    if (by_target && !target_radius.p) return sphi_refuse("query.target_radius", -1, SPH_ERROR_NULL);
-    if (by_source && !source_radius.p) return sphi_refuse("query.source_radius", -1, SPH_ERROR_NULL);
-    for (i = 0; by_target && i < (target_radius.stride ? targets.n : 1); i++) {
-        const sph_real radius = sphi_at(target_radius, i);
-        if (!sphi_radius_ok(radius)) return sphi_refuse("query.target_radius", i, SPH_ERROR_H);
-        if (radius > largest) largest = radius;
+    if (by_target && !radius.p) return sphi_refuse("query.radius", -1, SPH_ERROR_NULL);
+    largest = by_source ? grid->largest : SPH_R(0);
+    for (i = 0; by_target && i < (radius.stride ? targets.n : 1); i++) {
+        const sph_real own = sphi_at(radius, i);
+        if (!sphi_radius_ok(own)) return sphi_refuse("query.radius", i, SPH_ERROR_H);
+        if (own > largest) largest = own;
     }
-    for (i = 0; by_source && i < (source_radius.stride ? grid->n : 1); i++) {
-        const sph_real radius = sphi_at(source_radius, i);
-        if (!sphi_radius_ok(radius)) return sphi_refuse("query.source_radius", i, SPH_ERROR_H);
-        if (radius > job->source_largest) job->source_largest = radius;
-    }
-    if (job->source_largest > largest) largest = job->source_largest;
     targets.box = job->targets.box = grid->box;
     if (sphi_check_box(dim, targets, largest, 0)) return SPH_ERROR_BOX;
-    if (largest > SPH_R(SPHI_FARTHEST) * grid->radius) return sphi_refuse("query", -1, SPH_ERROR_RADIUS);
 
-    /* equal radii for all are one radius, by every criterion */
-    uniform = by_source && source_radius.stride == 0;
-    if (uniform && by_target && target_radius.stride) uniform = 0;
-    if (uniform && by_target) uniform = sphi_at(target_radius, 0) == sphi_at(source_radius, 0);
-    plain = !by_source || uniform;
-    if (grid->hashed) job->kind = SPHI_HASHED;
-    else if (!plain) job->kind = SPHI_RADII;
+    job->plain = !by_source || !grid->own;
+    if (grid->levels) job->kind = SPHI_TREE;
+    else if (grid->hashed) job->kind = SPHI_HASHED;
+    else if (!job->plain) job->kind = SPHI_RADII;
     else job->kind = sphi_boxed(dim, grid->box) ? SPHI_BOXED : SPHI_OPEN;
     job->pass = sphi_pass_of(dim, job->kind);
-    job->criterion = plain ? (int)SPH_GATHER : criterion;
+    job->criterion = criterion;
     job->flags = flags;
-    job->target_radius = uniform ? source_radius : target_radius;
-    job->source_radius = source_radius;
+    job->radius = radius;
+    job->slack = SPH_R(0);
+    for (c = 0; grid->levels && c < dim; c++) {
+        const sph_real *const root = sphi_node(grid, 1);
+        const sph_real box[3] = {grid->box.x, grid->box.y, grid->box.z};
+        job->slack += SPH_R(16) * SPH_EPSILON * (SPHI_ABS(root[c]) + root[dim + c] + box[c]);
+    }
     job->widest = largest;
     if (grid->box.x > SPH_R(0)) job->widest = sphi_lesser(job->widest, SPH_R(0.5) * grid->box.x);
     if (dim > 1 && grid->box.y > SPH_R(0)) job->widest = sphi_lesser(job->widest, SPH_R(0.5) * grid->box.y);
@@ -1522,7 +1955,6 @@ SPH_FN sph_index sphi_job_do(const sphi_job *job, int64_t *pairs)
    index then hold nothing of use, and nothing beyond capacity was written.
    SPH_ERROR_PAIRS: there are more pairs than sph_index can count, so that start cannot hold their number.
    *pairs is then an upper bound of it. As above, start and index hold nothing of use.
-   SPH_ERROR_RADIUS: a radius is more than 32 times the radius that the grid was built for.
    SPH_ERROR_BOX: a radius is more than half of a periodic box.
    SPH_ERROR_H: a radius is not within 1e-150 ... 1e150 (in float 1e-18 ... 1e18), where its square is still a
    number. On these and all other errors nothing is written but *pairs. */
@@ -1583,30 +2015,6 @@ SPH_FN int64_t sphi_search_guess(int dim, sph_index n)
     const int64_t pairs = n * (others < each ? others : each);
     return sph_search_size(dim, n, pairs) ? pairs : 0;
 }
-/* The largest radius, or 0 if one of them is bad. *usual is how far a target has to look for
-   sources, on average. */
-SPH_FN sph_real sphi_search_radius(sph_index n, sph_scalars radius, int criterion, sph_real *usual)
-{
-    const sph_index count = radius.stride ? n : 1;
-    sph_real largest = SPH_R(0), mean;
-    double sum = 0;
-    sph_index i;
-    for (i = 0; i < count; i++) {
-        const sph_real own = sphi_at(radius, i);
-        if (!sphi_radius_ok(own)) {
-            sphi_refuse("radius", i, SPH_ERROR_H);
-            return SPH_R(0);
-        }
-        if (own > largest) largest = own;
-        sum += (double)own / (double)count;
-    }
-    mean = (sph_real)sum;
-    if (criterion == SPH_MEAN) mean = SPH_R(0.5) * (mean + largest);
-    if (criterion == SPH_SCATTER || criterion == SPH_LARGER || mean > largest) mean = largest;
-    *usual = mean * SPH_R(SPHI_FARTHEST) < largest ? largest / SPH_R(SPHI_FARTHEST) : mean;
-    return largest;
-}
-
 /* Finds the neighbours of all points in one call. Grid and lists are in one block of memory, which has `size`
    bytes and may be aligned in any way. No point is its own neighbour. radius: support radii (kernel support
    times h), one for each particle, or one for all (sph_scalars_same). The block may be empty at first (null,
@@ -1626,8 +2034,9 @@ SPH_FN sph_index sph_search(int dim, sph_points points, sph_scalars radius, int 
     const size_t fixed = sph_search_size(dim, points.n, 0), work = sph_grid_workspace(dim, points.n);
     const size_t left = size > fixed ? (size - fixed) / sizeof(sph_index) : 0;
     const int64_t room = left < (size_t)SPHI_INDEX_MAX ? (int64_t)left : SPHI_INDEX_MAX;
-    sph_real largest, usual = SPH_R(0);
+    sph_real mean, largest;
     sph_index error, *start, *index;
+    int alike;
     if (!found) return sphi_refuse("found", -1, SPH_ERROR_NULL);
     found->pairs = 0;
     found->list.start = found->list.index = 0;
@@ -1637,17 +2046,16 @@ SPH_FN sph_index sph_search(int dim, sph_points points, sph_scalars radius, int 
     if (criterion < (int)SPH_GATHER || criterion > (int)SPH_MEAN)
         return sphi_refuse("criterion", -1, SPH_ERROR_VALUE);
     if (points.n == 0) return 0;
-    if (!radius.p) return sphi_refuse("radius", -1, SPH_ERROR_NULL);
     if (!memory && size > 0) return sphi_refuse("memory", -1, SPH_ERROR_NULL);
     if (fixed == 0) return sphi_refuse("points.n", -1, SPH_ERROR_COUNT);
-    largest = sphi_search_radius(points.n, radius, criterion, &usual);
-    if (!(largest > SPH_R(0))) return SPH_ERROR_H;
+    error = sphi_radii(points.n, radius, &mean, &largest, &alike);
+    if (error) return error;
     if (sphi_check_box(dim, points, largest, 0)) return SPH_ERROR_BOX;
     if (size < fixed) {
         found->pairs = sphi_search_guess(dim, points.n);
         return SPH_ERROR_CAPACITY;
     }
-    error = sph_grid_build(dim, points, usual, memory, work, &found->grid);
+    error = sph_grid_build(dim, points, radius, memory, work, &found->grid);
     start = (sph_index *)(void *)((char *)sphi_aligned(memory) + (work - SPHI_ALIGN));
     index = start + points.n + 1;
     if (!error)

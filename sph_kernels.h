@@ -81,6 +81,7 @@
  *                   1: sph_real is float.
  *   SPH_SIMD        1 under OpenMP 4 or later, else 0.
  *                   1: the compiler obeys "omp simd". It needs -fopenmp, or -fopenmp-simd -DSPH_SIMD=1.
+ *                   clang, and gcc from version 12 on, vectorise the sweeps without it.
  *   SPH_PURE_SQRT   1 on gcc and clang, else 0.
  *                   1: the compiler is told that sqrt has no side effect. sqrt then no longer sets errno in
  *                   the files that include this header. Without this option, or -fno-math-errno, no loop with
@@ -244,21 +245,86 @@
 #  endif
 #endif
 
-/* SPH_SUM(a, b): the next loop adds to a and b, in any order.
-   SPH_EACH: the passes of the next loop are independent.
-   clang obeys its own pragma without a flag (and warns about omp simd at -Os). gcc needs -fopenmp, or
-   -fopenmp-simd -DSPH_SIMD=1. */
+/* Loops over neighbours. Both are for (p = from; p < to; p++), where p is a variable of the caller's:
+       SPH_SUM(p, from, to, a, b) { ... }   adds to a and b, in any order; at most 16 names
+       SPH_EACH(p, from, to) { ... }        has passes that are independent of each other
+   The body must not leave the loop, and must not read the sums. clang obeys its own pragma without a flag
+   (and warns about omp simd at -Os). gcc knows no word for "in any order" but omp simd, which needs a flag.
+   Without the flag it may not reorder a sum, and at -O2 vectorises loops of constant length only. So pairs go
+   SPHI_ABREAST at a time, and each of them has its own sum, which are added at the end. gcc obeys omp simd
+   where it has been told to. Its older versions cannot gather neighbours without hardware for that. */
 #define SPHI_PRAGMA(x) _Pragma(#x)
 #if defined(__clang__) && !SPH_OPENCL
-#  define SPH_SUM(...) SPHI_PRAGMA(clang loop vectorize(assume_safety))
-#  define SPH_EACH SPHI_PRAGMA(clang loop vectorize(assume_safety))
+#  ifdef __AVX__ /* Several vectors abreast would be half a row, and the other half would go pair by pair. */
+#    define SPHI_ANY_ORDER SPHI_PRAGMA(clang loop vectorize(assume_safety) interleave_count(1))
+#  else
+#    define SPHI_ANY_ORDER SPHI_PRAGMA(clang loop vectorize(assume_safety))
+#  endif
+#  define SPH_SUM(p, from, to, ...) SPHI_ANY_ORDER SPHI_LOOP(p, from, to)
+#  define SPH_EACH(p, from, to) SPHI_ANY_ORDER SPHI_LOOP(p, from, to)
 #elif SPH_SIMD
-#  define SPH_SUM(...) SPHI_PRAGMA(omp simd reduction(+ : __VA_ARGS__))
-#  define SPH_EACH SPHI_PRAGMA(omp simd)
+#  define SPH_SUM(p, from, to, ...) SPHI_PRAGMA(omp simd reduction(+ : __VA_ARGS__)) SPHI_LOOP(p, from, to)
+#  define SPH_EACH(p, from, to) SPHI_PRAGMA(omp simd) SPHI_LOOP(p, from, to)
+#elif defined(__GNUC__) && __GNUC__ >= 12 && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && \
+    (defined(__SSE2__) || defined(__aarch64__) || defined(__VSX__)) && \
+    !(defined(__CUDACC__) || defined(__INTEL_COMPILER) || defined(__NVCOMPILER))
+#  ifdef __AVX2__
+#    define SPHI_ABREAST 8 /* as many as a vector of 32-bit indices holds */
+#    define SPHI_SUM_END(a) \
+        a = ((sphi_##a[0] + sphi_##a[1]) + (sphi_##a[2] + sphi_##a[3])) + \
+            ((sphi_##a[4] + sphi_##a[5]) + (sphi_##a[6] + sphi_##a[7]))
+#  else
+#    define SPHI_ABREAST 4
+#    define SPHI_SUM_END(a) a = (sphi_##a[0] + sphi_##a[1]) + (sphi_##a[2] + sphi_##a[3])
+#  endif
+#  define SPHI_SUM_BEGIN(a) sphi_##a[SPHI_ABREAST] = {a}
+#  define SPHI_SUM_PAIR(a) a = SPH_R(-0.0) /* x + -0 is x, and costs nothing; x + 0 is not, where x is -0 */
+#  define SPHI_SUM_ADD(a) sphi_##a[sphi_lane] += a
+#  define SPH_SUM(p, from, to, ...) \
+    for (sph_real SPHI_NAMES(SPHI_SUM_BEGIN, __VA_ARGS__), sphi_open = SPH_R(1); sphi_open > SPH_R(0); \
+         sphi_open = SPH_R(0), SPHI_NAMES(SPHI_SUM_END, __VA_ARGS__)) \
+    SPHI_LANES_LOOP(p, from, to, SPHI_NAMES(SPHI_SUM_PAIR, __VA_ARGS__), \
+                    SPHI_NAMES(SPHI_SUM_ADD, __VA_ARGS__))
+#  define SPH_EACH(p, from, to) SPHI_LANES_LOOP(p, from, to, (void)0, (void)0)
+/* First the whole blocks, then the rest. The first pragma unrolls that, so that the length of a whole block
+   is constant. The last one keeps the lanes a loop, because it is loops that gcc vectorises. */
+#  define SPHI_LANES_LOOP(p, from, to, before, after) \
+    SPHI_PRAGMA(GCC unroll 2) \
+    for (int sphi_rest = 0; sphi_rest < 2; sphi_rest++) \
+        for (sph_index sphi_p = sphi_rest ? (sph_index)((to) - ((to) - (from)) % SPHI_ABREAST) : (from), \
+                       sphi_least = sphi_rest ? 1 : SPHI_ABREAST; \
+             (to) - sphi_p >= sphi_least; sphi_p = (sph_index)(sphi_p + SPHI_ABREAST)) \
+            SPHI_PRAGMA(GCC ivdep) SPHI_PRAGMA(GCC unroll 1) \
+            for (int sphi_lane = 0, sphi_n = sphi_rest ? (int)((to) - sphi_p) : SPHI_ABREAST; \
+                 sphi_lane < sphi_n; sphi_lane++) \
+                for (int sphi_once = (p = (sph_index)(sphi_p + sphi_lane), before, 1); sphi_once; \
+                     sphi_once = (after, 0))
+/* each(a), each(b), ... */
+#  define SPHI_NAMES(each, ...) SPHI_NAMES_OF(SPHI_COUNT(__VA_ARGS__), each, __VA_ARGS__)
+#  define SPHI_NAMES_OF(count, each, ...) SPHI_PASTE(SPHI_NAMES_, count)(each, __VA_ARGS__)
+#  define SPHI_COUNT(...) SPHI_COUNT_OF(__VA_ARGS__, 16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)
+#  define SPHI_COUNT_OF(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, count, ...) count
+#  define SPHI_NAMES_1(each, a) each(a)
+#  define SPHI_NAMES_2(each, a, ...) each(a), SPHI_NAMES_1(each, __VA_ARGS__)
+#  define SPHI_NAMES_3(each, a, ...) each(a), SPHI_NAMES_2(each, __VA_ARGS__)
+#  define SPHI_NAMES_4(each, a, ...) each(a), SPHI_NAMES_3(each, __VA_ARGS__)
+#  define SPHI_NAMES_5(each, a, ...) each(a), SPHI_NAMES_4(each, __VA_ARGS__)
+#  define SPHI_NAMES_6(each, a, ...) each(a), SPHI_NAMES_5(each, __VA_ARGS__)
+#  define SPHI_NAMES_7(each, a, ...) each(a), SPHI_NAMES_6(each, __VA_ARGS__)
+#  define SPHI_NAMES_8(each, a, ...) each(a), SPHI_NAMES_7(each, __VA_ARGS__)
+#  define SPHI_NAMES_9(each, a, ...) each(a), SPHI_NAMES_8(each, __VA_ARGS__)
+#  define SPHI_NAMES_10(each, a, ...) each(a), SPHI_NAMES_9(each, __VA_ARGS__)
+#  define SPHI_NAMES_11(each, a, ...) each(a), SPHI_NAMES_10(each, __VA_ARGS__)
+#  define SPHI_NAMES_12(each, a, ...) each(a), SPHI_NAMES_11(each, __VA_ARGS__)
+#  define SPHI_NAMES_13(each, a, ...) each(a), SPHI_NAMES_12(each, __VA_ARGS__)
+#  define SPHI_NAMES_14(each, a, ...) each(a), SPHI_NAMES_13(each, __VA_ARGS__)
+#  define SPHI_NAMES_15(each, a, ...) each(a), SPHI_NAMES_14(each, __VA_ARGS__)
+#  define SPHI_NAMES_16(each, a, ...) each(a), SPHI_NAMES_15(each, __VA_ARGS__)
 #else
-#  define SPH_SUM(...)
-#  define SPH_EACH
+#  define SPH_SUM(p, from, to, ...) SPHI_LOOP(p, from, to)
+#  define SPH_EACH(p, from, to) SPHI_LOOP(p, from, to)
 #endif
+#define SPHI_LOOP(p, from, to) for (p = (from); p < (to); p++)
 
 #if SPH_PURE_SQRT
 #  pragma GCC diagnostic push
@@ -1139,8 +1205,7 @@ typedef enum sph_error {
     SPH_ERROR_SELF = -10,    /* a row holds its own particle */
     SPH_ERROR_CAPACITY = -11, /* the caller's memory is too small: see the function for what is needed */
     SPH_ERROR_BOX = -12,    /* a box length that cannot be; a support beyond half of it; far positions */
-    SPH_ERROR_RADIUS = -13, /* a radius exceeds what the grid was built for */
-    SPH_ERROR_PAIRS = -14   /* more pairs than sph_index can count, or memory can hold */
+    SPH_ERROR_PAIRS = -13   /* more pairs than sph_index can count, or memory can hold */
 } sph_error;
 
 /* What they answer for each particle, where an array of such answers is asked for. The outputs of a particle
@@ -1275,8 +1340,6 @@ SPH_FN const char *sph_status_text(int status)
     case SPH_ERROR_BOX:
         return "a box length is negative, not finite or too short, a support reaches beyond half of it, a "
                "position lies more than 2^20 lengths out, or the axis must be open";
-    case SPH_ERROR_RADIUS:
-        return "a radius is more than 32 times the one that the grid was built for";
     case SPH_ERROR_PAIRS:
         return "there are more pairs than sph_index can count or memory can hold: take smaller radii, or a "
                "wider SPH_INDEX";

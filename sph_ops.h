@@ -1054,8 +1054,7 @@ SPH_FN sph_index sphi_sum_of_weights(sph_kernel k, int dim, sph_cloud cloud, SPH
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i);
         sph_real sum = sphi_at(weights, i) * sph_kernel_w(k, dim, SPH_R(0), h_i);
-        SPH_SUM(sum)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sum) {
             const sph_index j = cloud.list.index[p];
             sum += sphi_at(weights, j) *
                    sph_kernel_w(k, dim,
@@ -1093,8 +1092,7 @@ SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_cloud cloud,
                        own = sphi_at(cloud.volume, i) * sph_kernel_w(k, dim, SPH_R(0), h_i);
         sph_real sum = own, sum_f = own * sphi_at(f, i);
         int state = SPH_OK;
-        SPH_SUM(sum, sum_f)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sum, sum_f) {
             const sph_index j = cloud.list.index[p];
             const sph_real w =
                 sphi_at(cloud.volume, j) *
@@ -1132,8 +1130,7 @@ SPH_FN sph_density_sums sphi_density_sums(sph_kernel k, int dim, sph_index i, sp
     sph_density_sums sums = sph_density_pair(k, dim, SPH_R(0), sphi_at(m, i));
     sph_real weight = sums.weight, slope = sums.slope;
     sph_index p;
-    SPH_SUM(weight, slope)
-    for (p = list.start[i]; p < list.start[i + 1]; p++) {
+    SPH_SUM(p, list.start[i], list.start[i + 1], weight, slope) {
         const sph_index j = list.index[p];
         const sph_density_sums c = sph_density_pair(
             k, dim, u * sph_length(dim, sphi_separation(dim, x, x_i, sphi_point(dim, x, j))), sphi_at(m, j));
@@ -1426,8 +1423,7 @@ SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_cloud cloud,
         const sph_real h_i = sphi_at(cloud.h, i), f_i = sphi_at(f, i);
         sph_real sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
         sph_vec sum;
-        SPH_SUM(sx, sy, sz)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sx, sy, sz) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             const sph_vec g = sph_gradient_pair_difference(
@@ -1454,8 +1450,7 @@ SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points
     sph_real xx = SPH_R(0), xy = SPH_R(0), yy = SPH_R(0), xz = SPH_R(0), yz = SPH_R(0), zz = SPH_R(0),
              sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
     sph_index p;
-    SPH_SUM(xx, xy, yy, xz, yz, zz, sx, sy, sz)
-    for (p = list.start[i]; p < list.start[i + 1]; p++) {
+    SPH_SUM(p, list.start[i], list.start[i + 1], xx, xy, yy, xz, yz, zz, sx, sy, sz) {
         const sph_index j = list.index[p];
         const sph_vec e = sphi_separation(dim, x, sphi_point(dim, x, j), x_i);
         const sph_vec we =
@@ -1595,8 +1590,7 @@ SPH_FN sph_index sph_laplacian_brookshaw(sph_kernel k, int dim, sph_cloud cloud,
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i), f_i = sphi_at(f, i);
         sph_real sum = SPH_R(0);
-        SPH_SUM(sum)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sum) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             sum +=
@@ -1620,8 +1614,7 @@ SPH_FN sph_index sph_laplacian_rows_brookshaw(sph_kernel k, int dim, sph_cloud c
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i);
         int lost;
-        SPH_EACH
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+        SPH_EACH(p, cloud.list.start[i], cloud.list.start[i + 1]) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             row[p] =
@@ -2540,8 +2533,7 @@ SPH_FN sph_index sph_second_derivative_bim(sph_kernel k, sph_cloud cloud, sph_sc
         sph_real value = SPH_R(0);
         if (!state) {
             sph_real sum = SPH_R(0), gamma = sphi_at(cloud.volume, i) * sph_kernel_w(k, 1, SPH_R(0), h_i);
-            SPH_SUM(sum, gamma)
-            for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sum, gamma) {
                 const sph_index j = cloud.list.index[p];
                 const sph_real r = SPHI_ABS(x_i - sphi_point(1, cloud.points, j).x);
                 sum += sph_laplacian_weight_brookshaw(k, 1, r, h_i, sphi_at(cloud.volume, j)) *
@@ -2922,8 +2914,7 @@ SPH_FN sph_shepard sphi_elliptic_shepard(sph_kernel k, int dim, const sphi_ellip
     sph_index p;
     if (a->options.gradient == (int)SPH_GRADIENT_DIFFUSE) nu = SPH_R(1);
     else {
-        SPH_SUM(nu, sx, sy, sz)
-        for (p = a->cloud.list.start[i]; p < a->cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, a->cloud.list.start[i], a->cloud.list.start[i + 1], nu, sx, sy, sz) {
             const sph_index j = a->cloud.list.index[p];
             const sph_vec e = sphi_separation(dim, a->cloud.points, sphi_point(dim, a->cloud.points, j), x_i);
             const sph_wf v =
@@ -2972,8 +2963,7 @@ SPH_FN sph_elliptic_moments sphi_elliptic_moments_of(sph_kernel k, int dim, cons
     sph_sym gamma;
     sph_vec n;
     sph_index p;
-    SPH_SUM(xx, xy, yy, xz, yz, zz, nx, ny, nz)
-    for (p = a->cloud.list.start[i]; p < a->cloud.list.start[i + 1]; p++) {
+    SPH_SUM(p, a->cloud.list.start[i], a->cloud.list.start[i + 1], xx, xy, yy, xz, yz, zz, nx, ny, nz) {
         const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, a->cloud.list.index[p]);
         const sph_vec te = sph_scale(c.V_j * sph_elliptic_projection(dim, gradient, c.e, c.g), c.e);
         xx += te.x * c.e.x;
@@ -3008,8 +2998,8 @@ SPH_FN sph_elliptic_moments sphi_elliptic_moments_of(sph_kernel k, int dim, cons
         nx = own * s.gradient.x; /* The particle itself counts in N only. With it, N is 0. */
         ny = own * s.gradient.y;
         nz = own * s.gradient.z;
-        SPH_SUM(k0, k1, k2, k3, k4, k5, k6, k7, k8, nx, ny, nz)
-        for (p = a->cloud.list.start[i]; p < a->cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, a->cloud.list.start[i], a->cloud.list.start[i + 1], k0, k1, k2, k3, k4, k5, k6, k7, k8, nx,
+                ny, nz) {
             const sphi_elliptic_pair c =
                 sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, a->cloud.list.index[p]);
             const sph_vec g = sph_scale(c.V_j, sph_elliptic_gradient_vector(dim, gradient, c.e, c.g));
@@ -3139,8 +3129,7 @@ SPH_FN sph_index sphi_elliptic_apply(int scheme, sph_kernel k, int dim, const sp
         sph_elliptic_moments moments;
         sph_real conditioning, sum = SPH_R(0);
         int state = sphi_elliptic_correct(scheme, k, dim, a, s, i, &correction, &moments, &conditioning);
-        SPH_SUM(sum)
-        for (p = a->cloud.list.start[i]; p < a->cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, a->cloud.list.start[i], a->cloud.list.start[i + 1], sum) {
             const sph_index j = a->cloud.list.index[p];
             const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, j);
             sum += sph_elliptic_weight(dim, a->options.gradient, c.e, c.g, correction, c.V_j) *
@@ -3166,8 +3155,7 @@ SPH_FN sph_index sphi_elliptic_row(int scheme, sph_kernel k, int dim, const sphi
         sph_elliptic_moments moments;
         sph_real conditioning;
         int state = sphi_elliptic_correct(scheme, k, dim, a, s, i, &correction, &moments, &conditioning);
-        SPH_EACH
-        for (p = a->cloud.list.start[i]; p < a->cloud.list.start[i + 1]; p++) {
+        SPH_EACH(p, a->cloud.list.start[i], a->cloud.list.start[i + 1]) {
             const sph_index j = a->cloud.list.index[p];
             const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, s, x_i, h_i, j);
             row[p] = sph_elliptic_weight(dim, a->options.gradient, c.e, c.g, correction, c.V_j) *
@@ -3610,8 +3598,7 @@ SPH_FN sph_index sph_rows_apply(sph_cloud cloud, const SPH_GLOBAL sph_real *row,
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_real u_i = sphi_at(u, i), less = diagonal.p ? SPH_R(0) : u_i;
         sph_real sum = diagonal.p ? sphi_at(diagonal, i) * u_i : SPH_R(0);
-        SPH_SUM(sum)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++)
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sum)
             sum += row[p] * (sphi_at(u, cloud.list.index[p]) - less);
         failed += sphi_store(out, i, sum);
     }
@@ -4171,8 +4158,7 @@ SPH_FN sph_index sph_density_number(sph_kernel k, int dim, sph_cloud cloud, sph_
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i);
         sph_real sum = sph_kernel_w(k, dim, SPH_R(0), h_i);
-        SPH_SUM(sum)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++)
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sum)
             sum += sph_kernel_w(
                 k, dim,
                 sph_length(dim, sphi_separation(dim, cloud.points, x_i,
@@ -4259,8 +4245,7 @@ SPH_FN sph_index sphi_fluid_range(int form, int uniform, sph_kernel k, int dim, 
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0), rate = SPH_R(0), heating = SPH_R(0);
         sph_vec sum;
         int lost;
-        SPH_SUM(ax, ay, az, rate, heating)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], ax, ay, az, rate, heating) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             const sph_fluid_side other = sphi_fluid_side(reads, f, f->m, j);
@@ -4362,8 +4347,7 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, 
         const sph_fluid_side own = sphi_fluid_side(SPHI_READ_RHO + SPHI_READ_MU, &fluid, mu, i);
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0);
         sph_vec sum;
-        SPH_SUM(ax, ay, az)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], ax, ay, az) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)),
                           v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
@@ -4436,8 +4420,7 @@ SPH_FN sph_index sph_velocity_xsph(sph_kernel k, int dim, sph_cloud cloud, sph_f
         const sph_fluid_side own = sphi_fluid_side(SPHI_READ_RHO, &fluid, rho, i);
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0);
         sph_vec sum;
-        SPH_SUM(ax, ay, az)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], ax, ay, az) {
             const sph_index j = cloud.list.index[p];
             const sph_vec v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, v, j));
             const sph_real r =
@@ -4509,8 +4492,7 @@ SPH_FN sph_index sph_wall_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall
         sph_wall_sums sums;
         sph_vec answer = u;
         int state = SPH_OK;
-        SPH_SUM(weight, pressure, vx, vy, vz)
-        for (q = cloud.list.start[i]; q < cloud.list.start[i + 1]; q++) {
+        SPH_SUM(q, cloud.list.start[i], cloud.list.start[i + 1], weight, pressure, vx, vy, vz) {
             const sph_index j = cloud.list.index[q];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)),
                           v_j = sphi_vector_at(dim, v, j);
@@ -5185,8 +5167,7 @@ SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_cloud clou
         const sph_vec x_i = sphi_point(dim, cloud.points, i), A_i = sphi_vector_at(dim, field, i);
         const sph_real h_i = sphi_at(cloud.h, i);
         sph_real sum = SPH_R(0);
-        SPH_SUM(sum)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sum) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             const sph_vec A_ij = sph_subtract(dim, A_i, sphi_vector_at(dim, field, j));
@@ -5211,8 +5192,7 @@ SPH_FN sph_index sph_divergence_symmetric(sph_kernel k, int dim, sph_cloud cloud
         const sph_vec x_i = sphi_point(dim, cloud.points, i), A_i = sphi_vector_at(dim, field, i);
         const sph_real h_i = sphi_at(cloud.h, i), own = sph_medium_weight(sphi_medium_side(&medium, i));
         sph_real sum = SPH_R(0);
-        SPH_SUM(sum)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sum) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             const sph_medium_side other = sphi_medium_side(&medium, j);
@@ -5240,8 +5220,7 @@ SPH_FN sph_index sph_gradient_symmetric(sph_kernel k, int dim, sph_cloud cloud, 
                        f_i = sphi_at(f, i), rho_i = sphi_at(medium.rho, i);
         sph_real sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
         sph_vec sum;
-        SPH_SUM(sx, sy, sz)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sx, sy, sz) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             const sph_medium_side other = sphi_medium_side(&medium, j);
@@ -5277,8 +5256,7 @@ SPH_FN sph_index sph_curl_difference(sph_kernel k, int dim, sph_cloud cloud, sph
         const sph_medium_side own = sphi_medium_side(&medium, i);
         sph_real cx = SPH_R(0), cy = SPH_R(0), cz = SPH_R(0);
         sph_vec sum;
-        SPH_SUM(cx, cy, cz)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], cx, cy, cz) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             const sph_vec A_ij = sph_subtract(3, A_i, sphi_vector_at(parts, field, j));
@@ -5343,8 +5321,7 @@ SPH_FN sph_index sph_cleaning_rates(sph_kernel k, int dim, sph_cloud cloud, sph_
         sph_real sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0), divergence = SPH_R(0);
         sph_vec sum;
         int lost;
-        SPH_SUM(sx, sy, sz, divergence)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sx, sy, sz, divergence) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             const sph_medium_side other = sphi_medium_side(&medium, j);
@@ -5435,8 +5412,7 @@ SPH_FN sph_index sphi_mhd_range(int uniform, int parts, int cleans, sph_kernel k
         sums.speed = sph_mhd_fast_speed(own.cs, own.field, own.medium.rho, SPH_R(0));
         for (tile = cloud.list.start[i]; tile < cloud.list.start[i + 1]; tile = end) {
             end = cloud.list.start[i + 1] - tile < SPHI_TILE ? cloud.list.start[i + 1] : tile + SPHI_TILE;
-            SPH_SUM(ax, ay, az, tension, sv, sB, heat, ix, iy, iz, cx, cy, cz, rx, ry, rz)
-            for (p = tile; p < end; p++) {
+            SPH_SUM(p, tile, end, ax, ay, az, tension, sv, sB, heat, ix, iy, iz, cx, cy, cz, rx, ry, rz) {
                 const sph_index j = cloud.list.index[p];
                 const sph_vec x_ij =
                     sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
@@ -5680,8 +5656,7 @@ SPH_FN sph_index sph_gravity_correction(sph_kernel k, sph_cloud cloud, sph_mediu
         const sph_real h_i = sphi_at(cloud.h, i), own = sphi_at(zeta, i) / sphi_at(medium.omega, i);
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0);
         sph_vec sum;
-        SPH_SUM(ax, ay, az)
-        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], ax, ay, az) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(3, cloud.points, x_i, sphi_point(3, cloud.points, j));
             const sph_real scaled = sphi_at(zeta, j) / sphi_at(medium.omega, j);

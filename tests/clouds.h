@@ -208,7 +208,7 @@ static inline void cloud_neighbors(cloud *c, double radius)
     sph_grid g;
     free(c->index);
     c->index = 0;
-    if (sph_grid_build(c->dim, cloud_points(c), reach, work, size, &g) != 0) abort();
+    if (sph_grid_build(c->dim, cloud_points(c), R, work, size, &g) != 0) abort();
     if (sph_grid_count(c->dim, &g, sph_query_of(cloud_points(c), SPH_GATHER, R, 0), c->start, &c->pairs) != 0) abort();
     c->index = (sph_index *)cloud_memory((size_t)c->pairs, sizeof *c->index);
     if (sph_grid_lists(c->dim, &g, sph_query_of(cloud_points(c), SPH_GATHER, R, 0), c->start, c->index, c->pairs, &c->pairs) != 0) abort();

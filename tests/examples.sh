@@ -24,7 +24,7 @@ fi
 
 table=$scratch/icspm_uniform.csv
 check "a run" answers 0 "0 differs" "$bin/icspm_uniform" -out "$scratch" -figures "$scratch"
-check "columns of the result table" grep -q -x 'item,setting,quantity,published,measured,criterion,verdict' "$table"
+check "columns of the result table" grep -q -x 'item,setting,quantity,published,reference,source,measured,criterion,verdict' "$table"
 check "all of tables 1, 2, 3 match" test "$(grep -c '^Table [123],.*,match$' "$table")" -ge 105
 check "no partial table is left" test ! -e "$table.part"
 check "figure 2 has 41 particles" test "$(wc -l < "$scratch/icspm_fig2.csv")" -eq 42
@@ -35,4 +35,23 @@ check "scoreboard" answers 0 "icspm_uniform" "$bin/scoreboard" "$table"
 sed 's/,match$/,differs/' "$table" > "$scratch/wrong.csv"
 check "scoreboard of a table that differs" answers 1 "differ" "$bin/scoreboard" "$scratch/wrong.csv"
 check "scoreboard of no table" answers 2 "missing.csv" "$bin/scoreboard" "$scratch/missing.csv"
+sed 's/,match$/,fitted/' "$table" > "$scratch/fits.csv"
+check "a fit is no match" answers 0 "^ *fits  *[0-9][0-9]*  *0  *0  *0  *0  *0  *0  *0  *[1-9]" "$bin/scoreboard" "$scratch/fits.csv"
+sed '3s/,,,/,,theory,/' "$table" > "$scratch/source.csv"
+check "a published value has no other source" answers 2 "record 3.*another source" "$bin/scoreboard" "$scratch/source.csv"
+
+# A row whose criterion excludes the value that it judges would be a match that says nothing.
+cat > "$scratch/refused.c" << 'END'
+#include "examples/common/report.h"
+int main(int argc, char **argv)
+{
+    static report r;
+    report_open(&r, "refused", argv[1]);
+    report_range(&r, "item", "setting", "within", 1, 2, argc > 2 ? 1.5 : 0.5, 3);
+    return report_close(&r);
+}
+END
+check "a table of one row" "$CC" -std=c99 -I. "$scratch/refused.c" -o "$scratch/refused" -lm
+check "a range with the published value" answers 0 "1 match" "$scratch/refused" "$scratch"
+check "a range without it" answers 2 "value to compare with is 1, and the criterion 'in \[1.5, 3\]' excludes it" "$scratch/refused" "$scratch" without
 finish examples

@@ -9,7 +9,8 @@
  * -DSPH_OPENMP=1 it runs all of it with 1, 2, 3 and 7 threads.
  */
 #define SPH_FN static inline /* one copy of each function is enough */
-#define SPHI_CROWDED 8       /* so that small clouds have crowded cells */
+#define SPHI_CROWDED 8       /* so that small clouds have crowded cells, */
+#define SPHI_LEAF 2          /* and more leaves than a target has room for */
 #include <assert.h>
 #define SPH_ASSERT(x) assert(x) /* what one pass of the search guarantees to the next */
 
@@ -233,13 +234,16 @@ static void check_sample(const sample *s)
     static const int flags[CRITERIA] = {0, SPH_LIST_SORTED, SPH_LIST_HALF, SPH_LIST_SELF | SPH_LIST_SORTED};
     const size_t size = sph_grid_workspace(s->dim, s->n);
     void *const work = cloud_memory(size, 1);
-    int criterion, same;
-    for (same = 0; same < 2; same++) {
+    int criterion, way;
+    for (way = 0; way < 3; way++) {
+        const sph_real one = SPH_R(2.6);
         sph_index i;
         sph_grid g;
-        for (i = 0; same && i < s->n; i++) s->R[i] = SPH_R(2.6); /* one radius for all: other loops of the search */
-        CHECK(sph_grid_build(s->dim, sample_points(s), SPH_R(2.6), work, size, &g) == 0);
-        for (criterion = 0; criterion < CRITERIA; criterion++) check_rooms(s, &g, criterion, flags[(criterion + same) % CRITERIA]);
+        for (i = 0; way == 1 && i < s->n; i++) s->R[i] = one;                               /* one radius for all: other loops of the search */
+        for (i = 0; way == 2 && i < s->n; i++) s->R[i] = SPH_R(i % 5 == 1 ? 0.21 : 2.73);   /* a tree */
+        CHECK(sph_grid_build(s->dim, sample_points(s), way == 1 ? sph_scalars_same(&one) : sph_scalars_array(s->R), work, size, &g) == 0);
+        CHECK((g.levels > 0) == (way == 2));
+        for (criterion = 0; criterion < CRITERIA; criterion++) check_rooms(s, &g, criterion, flags[(criterion + way) % CRITERIA]);
     }
     free(work);
 }
@@ -302,7 +306,7 @@ static void check_collapse(int dim, sph_index n, sph_index apart, int flags)
         s.y[i] = s.z[i] = SPH_R(0.3);
     }
     for (i = 0; i < ROOM + GUARD; i++) index[i] = guard_value;
-    CHECK(sph_grid_build(dim, sample_points(&s), radius, work, size, &g) == 0);
+    CHECK(sph_grid_build(dim, sample_points(&s), R, work, size, &g) == 0);
     for (k = 0; k < 3; k++) {
         const sph_index answer = countable ? SPH_ERROR_CAPACITY : SPH_ERROR_PAIRS;
         room = k == 0 ? ROOM : k == 1 ? 1 : 0;
@@ -348,6 +352,7 @@ static void test_shared_buckets(void)
             sph_real *const coordinate[3] = {s.x, s.y, s.z};
             const size_t size = sph_grid_workspace(dim, n);
             void *const work = cloud_memory(size, 1);
+            const sph_real one = SPH_R(1);
             int shared = 0;
             sph_grid g;
             sph_index i;
@@ -359,10 +364,10 @@ static void test_shared_buckets(void)
                     coordinate[a][i] = SPH_R(i < CROWD ? 0.0 : elsewhere);
                 }
             }
-            CHECK(sph_grid_build(dim, sample_points(&s), SPH_R(1), work, size, &g) == 0 && g.hashed);
+            CHECK(sph_grid_build(dim, sample_points(&s), sph_scalars_same(&one), work, size, &g) == 0 && g.hashed);
             for (b = 0; b < g.buckets; b++) shared |= g.first[b + 1] - g.first[b] >= 2 * CROWD;
             shared &= cell[dim - 1] > 0; /* in another row */
-            if (shared) check_rooms(&s, &g, place % CRITERIA, found ? SPH_LIST_HALF : 0);
+            if (shared) check_rooms(&s, &g, SPH_GATHER, found ? SPH_LIST_HALF : 0);
             found += shared;
             free(work);
             sample_free(&s);
@@ -386,7 +391,7 @@ static void test_beside_a_crowd(void)
             sph_grid g;
             sample_radii(&s);
             for (a = 0; a < dim; a++) coordinate[a][CROWD] = SPH_R(0.17 * k);
-            CHECK(sph_grid_build(dim, sample_points(&s), SPH_R(1.36), work, size, &g) == 0);
+            CHECK(sph_grid_build(dim, sample_points(&s), sph_scalars_array(s.R), work, size, &g) == 0);
             check_rooms(&s, &g, k % CRITERIA, 0);
             free(work);
             sample_free(&s);
@@ -412,9 +417,9 @@ static void test_unused_radii(void)
     work = cloud_memory(size, 1);
     start = (sph_index *)cloud_memory((size_t)s.n + 1, sizeof *start);
     R = sph_scalars_array(s.R);
-    CHECK(sph_grid_build(2, sample_points(&s), SPH_R(2.6), work, size, &g) == 0);
-    CHECK(sph_grid_count(2, &g, (sph_query){sample_points(&s), SPH_GATHER, R, none, 0}, start, &pairs[0]) == 0);
-    CHECK(sph_grid_count(2, &g, (sph_query){sample_points(&s), SPH_SCATTER, none, R, 0}, start, &pairs[1]) == 0);
+    CHECK(sph_grid_build(2, sample_points(&s), R, work, size, &g) == 0);
+    CHECK(sph_grid_count(2, &g, (sph_query){sample_points(&s), SPH_GATHER, R, 0}, start, &pairs[0]) == 0);
+    CHECK(sph_grid_count(2, &g, (sph_query){sample_points(&s), SPH_SCATTER, none, 0}, start, &pairs[1]) == 0);
     CHECK(pairs[0] > 0 && pairs[0] == pairs[1]); /* j gathers i where i scatters to j */
     free(work);
     free(start);
@@ -435,7 +440,7 @@ static void test_radius_limits(void)
         const sph_points points = sph_points_separate(3, x, 0, 0);
         int64_t pairs = -1;
         sph_grid g;
-        CHECK(sph_grid_build(1, points, limits[k], work, size, &g) == 0);
+        CHECK(sph_grid_build(1, points, R, work, size, &g) == 0);
         CHECK(sph_grid_count(1, &g, sph_query_of(points, SPH_LARGER, R, 0), start, &pairs) == 0);
         CHECK(pairs == 2);
         free(work);

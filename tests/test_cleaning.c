@@ -55,7 +55,7 @@ static void lists(state *s)
         if (R[i] > reach) reach = R[i];
     }
     free(s->c.index);
-    CHECK(sph_grid_build(s->c.dim, cloud_points(&s->c), reach, work, size, &g) == 0);
+    CHECK(sph_grid_build(s->c.dim, cloud_points(&s->c), sph_scalars_array(R), work, size, &g) == 0);
     CHECK(sph_grid_count(s->c.dim, &g, sph_query_of(cloud_points(&s->c), SPH_LARGER, sph_scalars_array(R), 0), s->c.start, &s->c.pairs) == 0);
     s->c.index = (sph_index *)cloud_memory((size_t)s->c.pairs, sizeof *s->c.index);
     CHECK(sph_grid_lists(s->c.dim, &g, sph_query_of(cloud_points(&s->c), SPH_LARGER, sph_scalars_array(R), 0), s->c.start, s->c.index, s->c.pairs, &s->c.pairs) == 0);

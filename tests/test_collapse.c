@@ -111,7 +111,7 @@ static void test_neighbours(void)
         double widest = 0;
         sph_index i;
         for (i = 0; i < s.n; i++) widest = fmax(widest, s.radius[i]);
-        CHECK(sph_grid_build(3, x, widest, work, size, &grid) == 0);
+        CHECK(sph_grid_build(3, x, radius, work, size, &grid) == 0);
         CHECK(sph_grid_lists(3, &grid, sph_query_of(x, SPH_LARGER, radius, SPH_LIST_SORTED), start, index, s.rows.pairs, &pairs) == 0);
         CHECK(pairs == s.rows.pairs);
         for (i = 0; i < s.n; i++) qsort(s.rows.index + s.rows.start[i], (size_t)(s.rows.start[i + 1] - s.rows.start[i]), sizeof *s.rows.index, ascending);

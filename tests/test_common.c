@@ -329,9 +329,20 @@ static int write_report(const char *dir, char *path)
     report_absolute(&r, "i", "s", "q", 0.0, -2e-6, 1e-6);
     report_range(&r, "i", "s", "q", (double)NAN, 0.5, 0.0, 1.0);
     report_range(&r, "i", "s", "q", 0.5, 1.5, 0.0, 1.0);
+    report_range(report_beside(&r, REPORT_THEORY), "i", "s", "q", 1.0, 1.0, 0.0, 1.0);
+    report_factor(report_beside(&r, REPORT_OTHERS), "i", "s", "q", 2.0, 3.0, 1.5);
+    report_factor(report_beside(&r, REPORT_REGRESSION), "i", "s", "q", 3.0, 1.9, 1.5);
+    report_factor(&r, "i", "s", "q", 3.0, (double)NAN, 1.5);
+    report_absolute(report_with_fit(&r), "i", "s", "q", 1.0, 1.25, 0.5);
+    report_absolute(report_with_fit(&r), "i", "s", "q", 1.0, 1.75, 0.5);
+    report_absolute(&r, "i", "s", "q", 1.0, 1.25, 0.5); /* neither source nor fit stays on */
     report_band(&r, "i", "s", "q", 0.5, 0.6, 0.0, 1.0, REPORT_NOT_REPRODUCED, "chance");
     report_band(&r, "i", "s", "q", 1.5, 0.6, 0.0, 1.0, REPORT_NOT_REPRODUCED, "chance, \"most\"");
     report_claim(&r, "i", "s", "q", NULL, "no", "falls", 0);
+    report_claim_known(&r, "i", "s", "q", "p", "m", "falls", 1, 1, "why");
+    report_claim_known(&r, "i", "s", "q", "p", "m", "falls", 0, 1, "why");
+    report_claim_known(&r, "i", "s", "q", "p", "m", "falls", 0, 0, "why");
+    report_claim_known(&r, "i", "s", "q", "p", "m", "falls", 1, 0, "why");
     report_not_reproduced(&r, "i", "s", "q", 1.0 / 3.0, 2.0, "misprint");
     report_info(&r, "i", "s", "q", 1e-300);
     const int differs = report_close(&r);
@@ -339,16 +350,13 @@ static int write_report(const char *dir, char *path)
     return differs;
 }
 
-static void check_record(const report_record *row, const char *published, const char *measured,
-                         const char *criterion, const char *verdict)
+static void check_record(const report_record *row, const char *const *expected)
 {
     CHECK(strcmp(row->field[0], "i") == 0);
     CHECK(strcmp(row->field[1], "s") == 0);
     CHECK(strcmp(row->field[2], "q") == 0);
-    CHECK(strcmp(row->field[3], published) == 0);
-    CHECK(strcmp(row->field[4], measured) == 0);
-    CHECK(strcmp(row->field[5], criterion) == 0);
-    CHECK(strcmp(row->field[6], verdict) == 0);
+    for (int k = 0; k < 6; ++k)
+        CHECK(strcmp(row->field[REPORT_PUBLISHED + k], expected[k]) == 0);
 }
 
 static void check_awkward_rows(FILE *csv, report_record *row)
@@ -356,32 +364,45 @@ static void check_awkward_rows(FILE *csv, report_record *row)
     for (int k = 0; k < AWKWARD && report_read(csv, row) == 1; ++k) {
         for (int column = 0; column < 4; ++column)
             CHECK(strcmp(row->field[column], awkward[(k + column) % AWKWARD]) == 0);
-        CHECK(strlen(row->field[4]) == 2999 && strspn(row->field[4], "\"") == 2999);
-        CHECK(strcmp(row->field[5], awkward[(k + 4) % AWKWARD]) == 0);
-        CHECK(strcmp(row->field[6], "match") == 0);
+        CHECK(strlen(row->field[REPORT_MEASURED]) == 2999 && strspn(row->field[REPORT_MEASURED], "\"") == 2999);
+        CHECK(strcmp(row->field[REPORT_JUDGED_BY], awkward[(k + 4) % AWKWARD]) == 0);
+        CHECK(strcmp(row->field[REPORT_VERDICT], "match") == 0);
     }
 }
 
 static void test_report(const char *dir)
 {
-    static const char *const expected[][4] = {
-        {"2", "2.000001", "rel <= 1e-06", "match"},
-        {"2", "2.000003", "rel <= 1e-06", "differs"},
-        {"2", "nan", "rel <= 1e-06", "differs"},
-        {"0", "0", "rel <= 1e-06", "differs"},
-        {"0", "-1e-07", "abs <= 1e-06", "match"},
-        {"0", "-2e-06", "abs <= 1e-06", "differs"},
-        {"", "0.5", "in [0, 1]", "match"},
-        {"0.5", "1.5", "in [0, 1]", "differs"},
-        {"0.5", "0.6", "published in [0, 1]", "consistent"},
-        {"1.5", "0.6", "published in [0, 1]; chance, \"most\"", "not-reproduced"},
-        {"", "no", "falls", "differs"},
-        {"0.333333333", "2", "misprint", "not-reproduced"},
-        {"", "1e-300", "", "info"},
+    /* published, reference, source, measured, criterion, verdict */
+    static const char *const expected[][6] = {
+        {"2", "", "", "2.000001", "rel <= 1e-06", "match"},
+        {"2", "", "", "2.000003", "rel <= 1e-06", "differs"},
+        {"2", "", "", "nan", "rel <= 1e-06", "differs"},
+        {"0", "", "", "0", "rel <= 1e-06", "differs"},
+        {"0", "", "", "-1e-07", "abs <= 1e-06", "match"},
+        {"0", "", "", "-2e-06", "abs <= 1e-06", "differs"},
+        {"", "", "", "0.5", "in [0, 1]", "match"},
+        {"0.5", "", "", "1.5", "in [0, 1]", "differs"},
+        {"", "1", "theory", "1", "in [0, 1]", "match"},
+        {"", "2", "other authors", "3", "within a factor of 1.5", "match"},
+        {"", "3", "regression", "1.9", "within a factor of 1.5", "differs"},
+        {"3", "", "", "nan", "within a factor of 1.5", "differs"},
+        {"1", "", "", "1.25", "abs <= 0.5", "fitted"},
+        {"1", "", "", "1.75", "abs <= 0.5", "differs"},
+        {"1", "", "", "1.25", "abs <= 0.5", "match"},
+        {"0.5", "", "", "0.6", "published in [0, 1]", "consistent"},
+        {"1.5", "", "", "0.6", "published in [0, 1]; chance, \"most\"", "not-reproduced"},
+        {"", "", "", "no", "falls", "differs"},
+        {"p", "", "", "m", "falls", "match"},
+        {"p", "", "", "m", "falls", "differs"},
+        {"p", "", "", "m", "why", "not-reproduced"},
+        {"p", "", "", "m", "known not to hold, but it does", "differs"},
+        {"0.333333333", "", "", "2", "misprint", "not-reproduced"},
+        {"", "", "", "1e-300", "", "info"},
     };
+    enum { ROWS = sizeof expected / sizeof *expected };
     char path[PART_FILE_PATH];
-    CHECK(write_report(dir, path) == 6);
-    CHECK(write_report(dir, path) == 6); /* replaces the first */
+    CHECK(write_report(dir, path) == 11);
+    CHECK(write_report(dir, path) == 11); /* replaces the first */
 
     FILE *csv = fopen(path, "r");
     CHECK(csv != NULL);
@@ -390,9 +411,9 @@ static void test_report(const char *dir)
     report_record row = {0};
     CHECK(report_read(csv, &row) == 1 && strcmp(row.field[0], "item") == 0);
     check_awkward_rows(csv, &row);
-    for (int k = 0; k < 13; ++k) {
+    for (int k = 0; k < ROWS; ++k) {
         CHECK(report_read(csv, &row) == 1);
-        check_record(&row, expected[k][0], expected[k][1], expected[k][2], expected[k][3]);
+        check_record(&row, expected[k]);
     }
     CHECK(report_read(csv, &row) == 1 && strcmp(row.field[2], "CPU time [s]") == 0);
     CHECK(report_read(csv, &row) == 1 && strcmp(row.field[2], "wall time [s]") == 0);
@@ -466,18 +487,18 @@ static void test_series(const char *dir)
 static void test_malformed(void)
 {
     CHECK(status_of("") == 0);
-    CHECK(status_of("a,b,c,d,e,f,g\n") == 1);
-    CHECK(status_of("a,b,c,d,e,f,g\r\n") == 1);
-    CHECK(status_of(",,,,,,\n") == 1);
-    CHECK(status_of("\"a\",b,c,d,e,f,\"g\"\n") == 1);
-    CHECK(status_of("a,b,c,d,e,f,g") == -1);
-    CHECK(status_of("a,b,c,d,e,f\n") == -1);
+    CHECK(status_of("a,b,c,d,e,f,x,y,g\n") == 1);
+    CHECK(status_of("a,b,c,d,e,f,x,y,g\r\n") == 1);
+    CHECK(status_of(",,,,,,,,\n") == 1);
+    CHECK(status_of("\"a\",b,c,d,e,f,x,y,\"g\"\n") == 1);
+    CHECK(status_of("a,b,c,d,e,f,x,y,g") == -1);
     CHECK(status_of("a,b,c,d,e,f,g,h\n") == -1);
+    CHECK(status_of("a,b,c,d,e,f,g,h,i,j\n") == -1);
     CHECK(status_of("\n") == -1);
-    CHECK(status_of("a,b,c,d,e,f,\"g\n") == -1);
-    CHECK(status_of("a,b,c,d,e,f,\"g\"x\n") == -1);
-    CHECK(status_of("a,b,c,d,e,f,g\"x\"\n") == -1);
-    CHECK(status_of("a,b,c,d,e,f,\"g\"") == -1);
+    CHECK(status_of("a,b,c,d,e,f,x,y,\"g\n") == -1);
+    CHECK(status_of("a,b,c,d,e,f,x,y,\"g\"x\n") == -1);
+    CHECK(status_of("a,b,c,d,e,f,x,y,g\"x\"\n") == -1);
+    CHECK(status_of("a,b,c,d,e,f,x,y,\"g\"") == -1);
 }
 
 static void test_progress(void)

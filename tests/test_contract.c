@@ -398,7 +398,7 @@ CALL(gravity_direct, RANGE_ONE, A(M), X(GRAVITY), vector_out_of(w, O0), potentia
 CALL(gravity_zeta, RANGE_ONE, A(M), A(RHO), scalar_out_of(w))
 CALL(gravity_correction, RANGE_ONE, gas_of(w), A(F), X(GRAVITY), vector_out_of(w, O0))
 CALL(grid_workspace, w->dim, w->n)
-CALL(grid_build, w->dim, points_of(w), X(DISTANCE), w->a[WORK], w->work_size, (sph_grid *)w->a[GRID])
+CALL(grid_build, w->dim, points_of(w), A(REACH), w->a[WORK], w->work_size, (sph_grid *)w->a[GRID])
 CALL(grid_lists, w->dim, (const sph_grid *)w->a[GRID], query_of(w), I(I0), I(I1),
      (int64_t)w->number[CAPACITY], (int64_t *)w->a[REPORT])
 CALL(grid_count, w->dim, (const sph_grid *)w->a[GRID], query_of(w), I(I0),
@@ -622,7 +622,7 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(gravity_zeta, KERNEL | TARGETS | COUNTED, 4, MASSES | BIT(RHO), 0, BIT(S0), BIT(STATUS), 0),
     FUNCTION(gravity_correction, KERNEL | TARGETS | COUNTED, 4, GAS | BIT(F), 0, XYZ(O0), 0, N(GRAVITY)),
     FUNCTION(grid_workspace, CALLER | DIM | COUNTED | SIZE, ALL, 0, 0, 0, 0, 0),
-    FUNCTION(grid_build, CALLER | DIM | COUNTED | OPAQUE | TOTALS, ALL, XYZ(PX), 0, BIT(WORK) | BIT(GRID), 0, N(DISTANCE)),
+    FUNCTION(grid_build, CALLER | DIM | COUNTED | OPAQUE | TOTALS, ALL, XYZ(PX) | BIT(REACH), 0, BIT(WORK) | BIT(GRID), 0, 0),
     FUNCTION(grid_lists, CALLER | DIM | COUNTED | OPAQUE | SAYS | TOTALS, ALL, XYZ(PX) | BIT(REACH) | BIT(GRID), 0, BIT(I0) | BIT(I1) | BIT(REPORT), 0, N(CRITERION) | N(FLAGS) | N(CAPACITY)),
     FUNCTION(grid_count, CALLER | DIM | COUNTED | OPAQUE | SAYS | TOTALS, ALL, XYZ(PX) | BIT(REACH) | BIT(GRID), 0, BIT(I0) | BIT(REPORT), 0, N(CRITERION) | N(FLAGS)),
     FUNCTION(search, CALLER | DIM | COUNTED | OPAQUE | SAYS | TOTALS, ALL, XYZ(PX) | BIT(REACH), 0, BIT(WORK) | BIT(REPORT), 0, N(CRITERION)),
@@ -657,9 +657,9 @@ static uint64_t there(int dim, uint64_t set)
     return set;
 }
 
-static void build_grid(const world *w)
+static void build_grid(const world *w, sph_scalars radius)
 {
-    if (sph_grid_build(w->dim, points_of(w), SPH_R(w->number[DISTANCE]), w->a[WORK], w->work_size, (sph_grid *)w->a[GRID]) != 0) abort();
+    if (sph_grid_build(w->dim, points_of(w), radius, w->a[WORK], w->work_size, (sph_grid *)w->a[GRID]) != 0) abort();
 }
 
 static ground ground_new(int dim, int side)
@@ -729,7 +729,7 @@ static ground ground_new(int dim, int side)
         for (p = c.start[i]; p < c.start[i + 1]; p++) sum += real_of(w, ROW)[p] = SPH_R(0.5 + pcg32_uniform(&random));
         real_of(w, DIAGONAL)[i] = -sum;
     }
-    build_grid(w);
+    build_grid(w, scalars_of(w, REACH));
     memcpy(w->a[ORDER], sph_grid_permutation((const sph_grid *)w->a[GRID]), n * sizeof(sph_index));
     memcpy(g.good_bytes, g.live, g.total);
     cloud_free(&c);
@@ -1095,8 +1095,8 @@ static int spoil_small_box(const function *f, world *w, int v)
     w->box[v] = 1.8 * reach;
     if (!looks_at_box(f) || !(reach > 0.0)) return NOT_THIS;
     if (f->reads & BIT(GRID)) { /* the grid's own box, good for its reach but not for these radii */
-        w->number[DISTANCE] = 0.5 * reach;
-        build_grid(w);
+        const sph_real half = SPH_R(0.5 * reach);
+        build_grid(w, sph_scalars_same(&half));
     }
     return GO;
 }
@@ -1106,7 +1106,7 @@ static int spoil_image(const function *f, world *w, int v)
     int c;
     if (a < 0) return END;
     for (c = 0; c < w->dim; c++) w->box[c] = 8.0;
-    if (f->reads & BIT(GRID)) build_grid(w); /* of its own box */
+    if (f->reads & BIT(GRID)) build_grid(w, scalars_of(w, REACH)); /* of its own box */
     real_of(w, a)[w->n - 1] -= SPH_R(8.0 * 2097152.0);
     blame.argument = "points";
     blame.particle = w->n - 1;
@@ -1186,7 +1186,7 @@ static int spoil_lonely(const function *f, world *w, int v) /* empty rows, with 
 static int moved(const function *f, const world *w)
 {
     if (!(f->reads & BIT(PX))) return NOT_THIS;
-    if (f->reads & BIT(GRID)) build_grid(w);
+    if (f->reads & BIT(GRID)) build_grid(w, scalars_of(w, REACH));
     if (f->has & ENDS) blame.particle = -2; /* which may be at one place now */
     return GO;
 }
@@ -1340,7 +1340,7 @@ static const struct {
 } errors[] = {{"NULL", SPH_ERROR_NULL},    {"DIM", SPH_ERROR_DIM},   {"KERNEL", SPH_ERROR_KERNEL},     {"COUNT", SPH_ERROR_COUNT},
               {"RANGE", SPH_ERROR_RANGE},  {"H", SPH_ERROR_H},       {"POSITION", SPH_ERROR_POSITION}, {"VALUE", SPH_ERROR_VALUE},
               {"LIST", SPH_ERROR_LIST},    {"SELF", SPH_ERROR_SELF}, {"CAPACITY", SPH_ERROR_CAPACITY}, {"BOX", SPH_ERROR_BOX},
-              {"RADIUS", SPH_ERROR_RADIUS}, {"PAIRS", SPH_ERROR_PAIRS}};
+              {"PAIRS", SPH_ERROR_PAIRS}};
 enum { ERRORS = sizeof errors / sizeof *errors };
 
 static const struct {

@@ -525,7 +525,7 @@ static void test_periodic(void)
     sph_real re = SPH_R(0), im = SPH_R(0);
     sph_vec wave = {SPH_R(0), SPH_R(0), SPH_R(0)};
     s.x = sph_points_periodic(s.x, SPH_R(SIDE), SPH_R(SIDE), SPH_R(0));
-    CHECK(sph_grid_build(2, s.x, reach, work, size, &g) == 0);
+    CHECK(sph_grid_build(2, s.x, R, work, size, &g) == 0);
     CHECK(sph_grid_count(2, &g, sph_query_of(s.x, SPH_GATHER, R, 0), s.c.start, &s.c.pairs) == 0);
     free(s.c.index);
     s.c.index = (sph_index *)cloud_memory((size_t)s.c.pairs, sizeof *s.c.index);

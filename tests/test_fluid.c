@@ -551,7 +551,7 @@ static void test_distribution(void)
         c.y[i] = SPH_R(dx * sqrt(0.75) * (i / 24));
     }
     x = sph_points_periodic(cloud_points(&c), SPH_R(24 * dx), SPH_R(20 * dx * sqrt(0.75)), SPH_R(0));
-    CHECK(sph_grid_build(2, x, reach, work, size, &grid) == 0);
+    CHECK(sph_grid_build(2, x, R, work, size, &grid) == 0);
     CHECK(sph_grid_count(2, &grid, sph_query_of(x, SPH_GATHER, R, 0), c.start, &c.pairs) == 0);
     c.index = (sph_index *)cloud_memory((size_t)c.pairs, sizeof *c.index);
     CHECK(sph_grid_lists(2, &grid, sph_query_of(x, SPH_GATHER, R, 0), c.start, c.index, c.pairs, &c.pairs) == 0);
@@ -724,7 +724,7 @@ static flow periodic_lattice(int hexagonal, double h_over_dx, double jitter, sph
     f.c.h = SPH_R(h_over_dx * dx);
     reach = sph_kernel_support(k, f.c.h);
     x = sph_points_periodic(cloud_points(&f.c), SPH_R(box[0]), SPH_R(box[1]), SPH_R(0));
-    CHECK(sph_grid_build(2, x, reach, work, size, &grid) == 0);
+    CHECK(sph_grid_build(2, x, sph_scalars_same(&reach), work, size, &grid) == 0);
     CHECK(sph_grid_count(2, &grid, sph_query_of(x, SPH_GATHER, sph_scalars_same(&reach), 0), f.c.start, &f.c.pairs) == 0);
     f.c.index = (sph_index *)cloud_memory((size_t)f.c.pairs, sizeof *f.c.index);
     CHECK(sph_grid_lists(2, &grid, sph_query_of(x, SPH_GATHER, sph_scalars_same(&reach), 0), f.c.start, f.c.index, f.c.pairs, &f.c.pairs) == 0);

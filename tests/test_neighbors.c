@@ -79,14 +79,15 @@ typedef struct grid {
     guarded work;
 } grid;
 
-static grid grid_new(int dim, sph_points sources, sph_real reach)
+static grid grid_of(int dim, sph_points sources, sph_scalars radius)
 {
     grid g;
     g.work = guarded_new(sph_grid_workspace(dim, sources.n));
-    EXPECT(sph_grid_build(dim, sources, reach, guarded_memory(&g.work), g.work.bytes, &g.g) == 0);
+    EXPECT(sph_grid_build(dim, sources, radius, guarded_memory(&g.work), g.work.bytes, &g.g) == 0);
     EXPECT(guarded_intact(&g.work));
     return g;
 }
+static grid grid_new(int dim, sph_points sources, sph_real radius) { return grid_of(dim, sources, sph_scalars_same(&radius)); }
 static void grid_free(grid *g)
 {
     EXPECT(guarded_intact(&g->work));
@@ -221,8 +222,8 @@ static void lists_free(lists *l)
 /* a null index: counts */
 static sph_index call(const problem *p, const grid *g, int criterion, int flags, sph_index *start, sph_index *index, int64_t capacity, int64_t *pairs)
 {
-    if (!index) return sph_grid_count(p->dim, &g->g, (sph_query){p->targets, criterion, p->target_radius, p->source_radius, flags}, start, pairs);
-    return sph_grid_lists(p->dim, &g->g, (sph_query){p->targets, criterion, p->target_radius, p->source_radius, flags}, start, index, capacity, pairs);
+    if (!index) return sph_grid_count(p->dim, &g->g, (sph_query){p->targets, criterion, p->target_radius, flags}, start, pairs);
+    return sph_grid_lists(p->dim, &g->g, (sph_query){p->targets, criterion, p->target_radius, flags}, start, index, capacity, pairs);
 }
 
 static void check_rows(const problem *p, int criterion, int flags, const lists *l)
@@ -308,16 +309,19 @@ static int64_t check_lists(const char *name, const problem *p, const grid *g, in
 
 /* ---- searches in one cloud ---- */
 
-/* between most / 30 and most, of which there is one */
-static sph_real *random_radii(sph_index n, sph_real most, pcg32 *g)
+/* between most / ratio and most, of which there is one */
+static sph_real *random_radii(sph_index n, sph_real most, double ratio, pcg32 *g)
 {
     sph_real *const R = (sph_real *)cloud_memory((size_t)n, sizeof *R);
     sph_index i;
-    for (i = 0; i < n; i++) R[i] = SPH_R((double)most * pow(30.0, -pcg32_uniform(g)));
+    for (i = 0; i < n; i++) R[i] = SPH_R((double)most * pow(ratio, -pcg32_uniform(g)));
     R[n / 2] = most;
-    R[n - 1] = SPH_R((double)most / 30.0);
+    R[n - 1] = SPH_R((double)most / ratio);
     return R;
 }
+/* of radii that the cells serve, and of those that take a tree */
+static const double ratios_of_radii[] = {3.9, 30.0};
+enum { RATIOS = 2 };
 
 static int next_flags(void)
 {
@@ -332,7 +336,7 @@ static int64_t search(const char *name, int dim, sph_points x, double length)
     const sph_real radius = SPH_R(length);
     pcg32 random;
     sph_real *R;
-    int criterion;
+    int criterion, ratio;
     int64_t pairs;
     problem p = problem_new(dim, x, x, sph_scalars_same(&radius), sph_scalars_same(&radius));
     grid g;
@@ -341,10 +345,20 @@ static int64_t search(const char *name, int dim, sph_points x, double length)
     pairs = check_lists(name, &p, &g, SPH_GATHER, 0);
     for (criterion = 0; criterion < CRITERIA; criterion++) check_lists(name, &p, &g, criterion, next_flags());
     pcg32_seed(&random, (uint64_t)x.n, 3);
-    R = random_radii(x.n, radius, &random);
-    p.source_radius = p.target_radius = sph_scalars_array(R);
-    for (criterion = 0; criterion < CRITERIA; criterion++) check_lists(name, &p, &g, criterion, next_flags());
-    free(R);
+    for (ratio = 0; ratio < RATIOS; ratio++) {
+        R = random_radii(x.n, radius, ratios_of_radii[ratio], &random);
+        p.target_radius = sph_scalars_array(R);
+        check_lists(name, &p, &g, ratio ? SPH_GATHER : SPH_LARGER, next_flags()); /* one radius of all sources */
+        p.source_radius = p.target_radius;
+        grid_free(&g);
+        g = grid_of(dim, x, p.source_radius);
+        if (x.n > 2) EXPECT((g.g.levels > 0) == (ratio == 1));
+        for (criterion = 0; criterion < CRITERIA; criterion++) check_lists(name, &p, &g, criterion, next_flags());
+        p.source_radius = sph_scalars_same(&radius);
+        grid_free(&g);
+        g = grid_new(dim, x, radius);
+        free(R);
+    }
     problem_free(&p);
     grid_free(&g);
     return pairs;
@@ -457,11 +471,12 @@ static void test_few(void)
         sph_points none = points(&c);
         sph_grid g;
         unsigned char work[1];
+        const sph_real one = SPH_R(1);
         none.n = 0;
         CHECK(sph_grid_workspace(dim, 0) > 0 && sph_grid_workspace(dim, -1) == 0);
-        CHECK(sph_grid_build(dim, none, SPH_R(1), work, sizeof work, &g) == 0);
+        CHECK(sph_grid_build(dim, none, sph_scalars_same(&one), work, sizeof work, &g) == 0);
         none.n = -1;
-        CHECK(sph_grid_build(dim, none, SPH_R(1), work, sizeof work, &g) == SPH_ERROR_COUNT);
+        CHECK(sph_grid_build(dim, none, sph_scalars_same(&one), work, sizeof work, &g) == SPH_ERROR_COUNT);
         CHECK(search("one", dim, points(&c), 1.0) == 0);
         CHECK(search("one, periodic", dim, sph_points_periodic(points(&c), SPH_R(2), SPH_R(2), SPH_R(2)), 1.0) == 0); /* not its own neighbour */
         cloud_free(&c);
@@ -507,8 +522,9 @@ static void test_empty_domain(void)
             search("far apart in a large box", dim, sph_points_periodic(points(&c), SPH_R(4.0 * distance), SPH_R(4.0 * distance), SPH_R(4.0 * distance)), 0.25);
             if (dim > 1) { /* periodic across: no more than 2^20 lengths from the origin */
                 sph_grid g0;
+                const sph_real radius = SPH_R(0.25);
                 guarded work = guarded_new(sph_grid_workspace(dim, 200));
-                CHECK(sph_grid_build(dim, sph_points_periodic(points(&c), SPH_R(0), SPH_R(3), SPH_R(0)), SPH_R(0.25), guarded_memory(&work), work.bytes, &g0) ==
+                CHECK(sph_grid_build(dim, sph_points_periodic(points(&c), SPH_R(0), SPH_R(3), SPH_R(0)), sph_scalars_same(&radius), guarded_memory(&work), work.bytes, &g0) ==
                       SPH_ERROR_BOX);
                 CHECK(guarded_unwritten(&work));
                 free(work.base);
@@ -574,15 +590,25 @@ static void test_sharp(void)
                     long double scale;
                     const long double r = pair_distance(dim, x, (sph_index)i, x, (sph_index)(i + 1), &scale);
                     const sph_real radius = SPH_R(r + side * 2.0L * EDGE_ULPS * ulp(larger(r, scale)));
+                    sph_real R[N];
                     problem p;
                     grid g1;
+                    int a;
                     if (!(radius > SPH_R(0) && radius < reach)) continue;
                     p = problem_new(dim, x, x, sph_scalars_same(&radius), sph_scalars_same(&radius));
                     now.name = "sharp";
                     EXPECT(belongs(&p, SPH_GATHER, 0, (sph_index)i, (sph_index)(i + 1)) == (side > 0));
-                    g1 = grid_new(dim, x, i % 2 ? reach : radius);
+                    g1 = grid_new(dim, x, radius);
                     check_lists("sharp", &p, &g1, i % CRITERIA, 0);
+                    grid_free(&g1);
+                    g1 = grid_new(dim, x, reach);
                     check_lists("sharp", &p, &g1, SPH_GATHER, SPH_LIST_FOREIGN);
+                    grid_free(&g1);
+                    for (a = 0; a < N; a++) R[a] = a == i ? radius : a % 2 ? reach : SPH_R(0.1) * reach; /* in a tree */
+                    g1 = grid_of(dim, x, sph_scalars_array(R));
+                    p.source_radius = p.target_radius = sph_scalars_array(R);
+                    check_lists("sharp", &p, &g1, SPH_GATHER, 0);
+                    check_lists("sharp", &p, &g1, SPH_SCATTER, 0);
                     problem_free(&p);
                     grid_free(&g1);
                 }
@@ -603,9 +629,10 @@ static void test_flags(void)
             cloud c = make(RANDOM, dim, N, 1, &random);
             const sph_real length = SPH_R(periodic), radius = SPH_R(0.3);
             const sph_points x = sph_points_periodic(points(&c), length, length, length);
-            sph_real *const R = random_radii(N, radius, &random);
-            grid g = grid_new(dim, x, radius);
+            sph_real *const R[RATIOS] = {random_radii(N, radius, ratios_of_radii[0], &random), random_radii(N, radius, ratios_of_radii[1], &random)};
+            grid g = grid_new(dim, x, radius), each[RATIOS] = {grid_of(dim, x, sph_scalars_array(R[0])), grid_of(dim, x, sph_scalars_array(R[1]))};
             problem p = problem_new(dim, x, x, sph_scalars_same(&radius), sph_scalars_same(&radius));
+            int ratio;
             for (criterion = 0; criterion < CRITERIA; criterion++)
                 for (flags = 0; flags < FLAGS; flags++) {
                     const int plain = flags & ~SPH_LIST_SORTED;
@@ -618,12 +645,17 @@ static void test_flags(void)
                     if (plain == SPH_LIST_HALF) CHECK(2 * pairs == full);
                     if (plain == SPH_LIST_SELF) CHECK(pairs == full + N);
                     if (plain == (SPH_LIST_HALF | SPH_LIST_SELF)) CHECK(2 * (pairs - N) == full);
-                    p.source_radius = p.target_radius = sph_scalars_array(R);
-                    check_lists("flags, a radius for each", &p, &g, criterion, flags);
+                    for (ratio = 0; ratio < RATIOS; ratio++) {
+                        p.source_radius = p.target_radius = sph_scalars_array(R[ratio]);
+                        check_lists("flags, a radius for each", &p, &each[ratio], criterion, flags);
+                    }
                 }
             problem_free(&p);
             grid_free(&g);
-            free(R);
+            for (ratio = 0; ratio < RATIOS; ratio++) {
+                grid_free(&each[ratio]);
+                free(R[ratio]);
+            }
             cloud_free(&c);
         }
 }
@@ -650,12 +682,14 @@ static void test_symmetry(void)
                 cloud c = make(kind, dim, n, 1, &random);
                 const sph_real length = SPH_R(periodic), radius = SPH_R(3.0 / c.side < 0.5 ? 3.0 / c.side : 0.5);
                 const sph_points x = sph_points_periodic(points(&c), length, length, length);
-                sph_real *const R = random_radii(n, radius, &random);
-                grid g = grid_new(dim, x, radius);
+                sph_real *const R = random_radii(n, radius, 30.0, &random);
                 problem p = problem_new(dim, x, x, sph_scalars_array(R), sph_scalars_array(R));
                 unsigned char *m[CRITERIA];
                 sph_index i, j;
-                for (i = 0; kind == LATTICE && i < n; i++) R[i] = SPH_R((double)radius / (double)(1 + i % 3)); /* many pairs at just the radius */
+                grid g;
+                for (i = 0; kind == LATTICE && i < n; i++) /* many pairs at just the radius; of cells, and of a tree */
+                    R[i] = SPH_R((double)radius / (double)(1 + i % 3 * (dim % 2 + 1)));
+                g = grid_of(dim, x, p.source_radius);
                 for (criterion = 0; criterion < CRITERIA; criterion++) {
                     lists l = lists_new("symmetry", &p, &g, criterion, 0);
                     m[criterion] = matrix_of(&l, n);
@@ -691,12 +725,13 @@ static void test_targets(void)
             const sph_real radius = SPH_R(0.3);
             const sph_points x = sph_points_periodic(points(&c), SPH_R(periodic > 0), SPH_R(periodic == 1), SPH_R(periodic == 1));
             sph_points targets = x;
-            sph_real *const R = random_radii(N, radius, &random), *const S = random_radii(M, radius, &random);
-            grid g;
+            sph_real *const R = random_radii(N, radius, 30.0, &random), *const S = random_radii(M, radius, 30.0, &random);
+            grid g, one;
             sph_index i;
             int a;
             now.name = "targets";
-            g = grid_new(dim, x, radius);
+            g = grid_of(dim, x, sph_scalars_array(R));
+            one = grid_new(dim, x, radius);
             for (turn = 0; turn < 4; turn++) { /* the first of the sources */
                 problem p;
                 targets.n = firsts[turn];
@@ -724,12 +759,14 @@ static void test_targets(void)
                     check_lists("other targets", &p, &g, criterion, SPH_LIST_FOREIGN);
                     check_lists("other targets", &p, &g, criterion, SPH_LIST_FOREIGN | SPH_LIST_SORTED);
                 }
+                check_lists("other targets of cells", &p, &one, SPH_GATHER, SPH_LIST_FOREIGN);
                 p.targets.n = 3;
                 p.source_radius = sph_scalars_same(&radius);
-                check_lists("three other targets", &p, &g, SPH_LARGER, SPH_LIST_FOREIGN);
+                check_lists("three other targets", &p, &one, SPH_LARGER, SPH_LIST_FOREIGN);
                 problem_free(&p);
             }
             grid_free(&g);
+            grid_free(&one);
             free(R);
             free(S);
             cloud_free(&c);
@@ -741,15 +778,18 @@ static void test_targets(void)
 static void test_moved(void)
 {
     enum { N = 125 };
-    int dim, hashed, periodic, criterion, flags;
+    int dim, way, periodic, criterion, flags;
     pcg32 random;
     pcg32_seed(&random, 4, 77);
     for (dim = 1; dim <= 3; dim++)
-        for (hashed = 0; hashed < 2; hashed++)
+        for (way = 0; way < 3; way++) /* cells, hashed cells, a tree */
             for (periodic = 0; periodic < 2; periodic++) {
+                const int hashed = way == 1;
                 cloud c = make(LATTICE, dim, N, periodic, &random), t = cloud_new(dim, N);
                 const double spacing = 1.0 / c.side, length = periodic ? (hashed && dim > 1 ? 1e4 : 1.0) : 0.0;
                 const sph_real radius = SPH_R(1.7 * spacing), box = SPH_R(length);
+                sph_real *const R = random_radii(N, radius, 30.0, &random);
+                const sph_scalars radii = way == 2 ? sph_scalars_array(R) : sph_scalars_same(&radius);
                 sph_real *const from[3] = {c.x, c.y, c.z}, *const to[3] = {t.x, t.y, t.z};
                 problem p;
                 grid g;
@@ -760,15 +800,17 @@ static void test_moved(void)
                     for (i = 0; i < N; i++) to[a][i] = from[a][i] + SPH_R(3.0 * spacing * (2.0 * pcg32_uniform(&random) - 1.0));
                 }
                 if (periodic && hashed && dim == 1) from[0][N - 1] = SPH_R(0.999);
-                g = grid_new(dim, sph_points_periodic(points(&c), box, box, box), radius);
-                EXPECT(!g.g.scattered);
-                p = problem_new(dim, sph_points_periodic(points(&c), box, box, box), sph_points_periodic(points(&t), box, box, box), sph_scalars_same(&radius),
-                                sph_scalars_same(&radius));
+                g = grid_of(dim, sph_points_periodic(points(&c), box, box, box), radii);
+                if (way < 2) EXPECT(!g.g.scattered);
+                g.g.scattered = 0;
+                p = problem_new(dim, sph_points_periodic(points(&c), box, box, box), sph_points_periodic(points(&t), box, box, box), radii, radii);
                 if (dim > 1) EXPECT(g.g.hashed == hashed);
+                EXPECT((g.g.levels > 0) == (way == 2));
                 for (criterion = 0; criterion < CRITERIA; criterion++)
                     for (flags = 0; flags < 8; flags++) check_lists("moved since the grid was built", &p, &g, criterion, flags);
                 problem_free(&p);
                 grid_free(&g);
+                free(R);
                 cloud_free(&c);
                 cloud_free(&t);
             }
@@ -790,8 +832,8 @@ static void test_capacity(void)
                     cloud c = make(kind, dim, N, 0, &random);
                     const sph_points x = turn == 2 ? sph_points_periodic(points(&c), SPH_R(1.125), SPH_R(0), SPH_R(1.125)) : points(&c);
                     const sph_real radius = SPH_R(0.3);
-                    sph_real *const R = random_radii(N, radius, &random);
-                    grid g = grid_new(dim, x, radius);
+                    sph_real *const R = random_radii(N, radius, ratios_of_radii[kind % RATIOS], &random);
+                    grid g = grid_of(dim, x, sph_scalars_array(R));
                     problem p = problem_new(dim, x, x, sph_scalars_array(R), sph_scalars_array(R));
                     const int64_t needed = check_lists("capacity", &p, &g, criterion, some[turn]);
                     guarded start = guarded_new((N + 1) * sizeof(sph_index)), index = guarded_new((size_t)needed * sizeof(sph_index));
@@ -908,22 +950,25 @@ static void test_workspace(void)
                 const size_t needed = sph_grid_workspace(dim, n);
                 cloud c = make(kind, dim, n, 0, &random);
                 const sph_points x = s % 2 ? sph_points_periodic(points(&c), SPH_R(1.25), SPH_R(1.25), SPH_R(0)) : points(&c);
-                problem p = problem_new(dim, x, x, sph_scalars_same(&radius), sph_scalars_same(&radius));
+                sph_real *const R = random_radii(n, radius, 30.0, &random);
+                const sph_scalars radii = s % 3 ? sph_scalars_same(&radius) : sph_scalars_array(R);
+                problem p = problem_new(dim, x, x, radii, radii);
                 size_t size;
                 grid g;
                 memset(&g.g, PATTERN, sizeof g.g);
                 g.work = work;
                 now.name = "workspace";
-                EXPECT(sph_grid_build(dim, x, radius, guarded_memory(&work), needed - 1, &g.g) == SPH_ERROR_CAPACITY);
+                EXPECT(sph_grid_build(dim, x, p.source_radius, guarded_memory(&work), needed - 1, &g.g) == SPH_ERROR_CAPACITY);
                 if (kind == 0 && s == 0) EXPECT(guarded_unwritten(&work));
                 for (size = needed; size <= needed + 9 && size <= work.bytes; size++) {
                     memset((unsigned char *)guarded_memory(&work) + size, PATTERN, work.bytes - size);
-                    EXPECT(sph_grid_build(dim, x, radius, guarded_memory(&work), size, &g.g) == 0);
+                    EXPECT(sph_grid_build(dim, x, p.source_radius, guarded_memory(&work), size, &g.g) == 0);
                     EXPECT(guarded_unwritten_from(&work, size)); /* what it did not get stays untouched */
                 }
                 check_lists("workspace", &p, &g, (int)s % CRITERIA, next_flags());
                 EXPECT(guarded_unwritten_from(&work, size - 1));
                 problem_free(&p);
+                free(R);
                 cloud_free(&c);
             }
         CHECK(guarded_intact(&work));
@@ -940,7 +985,7 @@ static void test_radii(void)
     enum { N = 20 };
     /* the last two: their squares are no numbers, or 0, in sph_real */
     static const sph_real wrong[] = {SPH_R(0), SPH_R(-1), SPH_R(NAN), SPH_R(INFINITY), SPH_SINGLE ? SPH_R(1e-30) : SPH_R(1e-200), SPH_SINGLE ? SPH_R(1e30) : SPH_R(1e200)};
-    int dim, criterion, foreign, which;
+    int dim, criterion, foreign;
     pcg32 random;
     pcg32_seed(&random, 6, 1);
     for (dim = 1; dim <= 3; dim++)
@@ -950,6 +995,7 @@ static void test_radii(void)
                 const sph_real reach = SPH_R(0.3), half = SPH_R(0.15);
                 const int flags = foreign ? SPH_LIST_FOREIGN : 0;
                 sph_real R[N], S[N];
+                size_t w;
                 guarded start = guarded_new((N + 1) * sizeof(sph_index)), index = guarded_new(N * N * sizeof(sph_index));
                 sph_index *const s = (sph_index *)guarded_memory(&start), *const list = (sph_index *)guarded_memory(&index);
                 grid g;
@@ -959,47 +1005,47 @@ static void test_radii(void)
                 now.name = "radii";
                 now.criterion = criterion;
                 now.flags = flags;
-                g = grid_new(dim, points(&c), reach);
                 for (i = 0; i < N; i++) R[i] = S[i] = half;
+                S[0] = reach;
                 p = problem_new(dim, points(&c), points(&c), sph_scalars_array(S), sph_scalars_array(R));
+                g = grid_of(dim, points(&c), p.source_radius);
+                if (criterion != SPH_SCATTER) {
+                    problem without = p;
+                    without.target_radius.p = 0;
+                    EXPECT(call(&without, &g, criterion, flags, s, list, N * N, &pairs) == SPH_ERROR_NULL);
+                    EXPECT(call(&without, &g, criterion, flags, s, 0, 0, &pairs) == SPH_ERROR_NULL);
+                }
                 for (i = 0; i < N; i += N - 1)
-                    for (which = 0; which < 2; which++) {
-                        sph_real *const radius = which ? &S[i] : &R[i]; /* of a source, of a target */
-                        const int read = criterion > SPH_SCATTER || criterion == (which ? SPH_SCATTER : SPH_GATHER);
-                        problem without = p;
-                        size_t w;
-                        if (!read) continue;
-                        if (which) without.source_radius.p = 0;
-                        else without.target_radius.p = 0;
-                        EXPECT(call(&without, &g, criterion, flags, s, list, N * N, &pairs) == SPH_ERROR_NULL);
-                        EXPECT(call(&without, &g, criterion, flags, s, 0, 0, &pairs) == SPH_ERROR_NULL);
-                        *radius = next_up(SPH_R(32) * reach);
-                        EXPECT(call(&p, &g, criterion, flags, s, list, N * N, &pairs) == SPH_ERROR_RADIUS);
-                        EXPECT(call(&p, &g, criterion, flags, s, 0, 0, &pairs) == SPH_ERROR_RADIUS);
-                        for (w = 0; w < sizeof wrong / sizeof *wrong; w++) {
-                            *radius = wrong[w];
+                    for (w = 0; w < sizeof wrong / sizeof *wrong; w++) { /* of a target, of a source */
+                        guarded work = guarded_new(sph_grid_workspace(dim, N));
+                        sph_grid other;
+                        const sph_real kept = S[i];
+                        R[i] = wrong[w];
+                        if (criterion != SPH_SCATTER) {
                             EXPECT(call(&p, &g, criterion, flags, s, list, N * N, &pairs) == SPH_ERROR_H);
                             EXPECT(call(&p, &g, criterion, flags, s, 0, 0, &pairs) == SPH_ERROR_H);
                         }
-                        *radius = half;
+                        R[i] = half;
+                        S[i] = wrong[w];
+                        EXPECT(sph_grid_build(dim, points(&c), p.source_radius, guarded_memory(&work), work.bytes, &other) == SPH_ERROR_H);
+                        S[i] = kept;
+                        EXPECT(sph_grid_build(dim, points(&c), sph_scalars_same(&wrong[w]), guarded_memory(&work), work.bytes, &other) == SPH_ERROR_H);
+                        EXPECT(sph_grid_build(dim, points(&c), sph_scalars_none(), guarded_memory(&work), work.bytes, &other) == SPH_ERROR_NULL);
+                        EXPECT(guarded_unwritten(&work));
+                        free(work.base);
                     }
                 p.dim = dim % 3 + 1; /* not the grid's */
                 EXPECT(call(&p, &g, criterion, flags, s, list, N * N, &pairs) == SPH_ERROR_DIM);
                 EXPECT(call(&p, &g, criterion, flags, s, 0, 0, &pairs) == SPH_ERROR_DIM);
                 p.dim = dim;
                 EXPECT(pairs == 0 && guarded_unwritten(&start) && guarded_unwritten(&index));
-                for (i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-                    guarded work = guarded_new(sph_grid_workspace(dim, N));
-                    sph_grid other;
-                    EXPECT(sph_grid_build(dim, points(&c), wrong[i], guarded_memory(&work), work.bytes, &other) == SPH_ERROR_H);
-                    EXPECT(guarded_unwritten(&work));
-                    free(work.base);
-                }
-                R[N - 1] = S[0] = reach; /* what the grid was made for, and as much more as it allows */
                 check_lists("radii", &p, &g, criterion, flags);
+                /* far more than the grid was made for, up to all there are */
                 R[N - 1] = SPH_R(32) * reach;
                 check_lists("radii", &p, &g, criterion, flags);
-                S[0] = SPH_R(32) * reach;
+                R[N - 1] = SPH_SINGLE ? SPH_R(1e15) : SPH_R(1e140);
+                check_lists("radii", &p, &g, criterion, flags);
+                R[N - 2] = SPH_SINGLE ? SPH_R(1e-15) : SPH_R(1e-140);
                 check_lists("radii", &p, &g, criterion, flags);
                 free(start.base);
                 free(index.base);
@@ -1020,18 +1066,19 @@ static void test_box_limits(void)
         guarded work = guarded_new(sph_grid_workspace(dim, N));
         for (axis = dim; axis < 3; axis++) { /* an axis that the dimension does not have is not looked at */
             guarded other = guarded_new(work.bytes);
+            const sph_real radius = SPH_R(0.3);
             sph_grid g;
-            CHECK(sph_grid_build(dim, sph_points_periodic(points(&c), SPH_R(0), SPH_R(axis == 1 ? -1 : 0), SPH_R(axis == 2 ? -1 : 0)), SPH_R(0.3),
+            CHECK(sph_grid_build(dim, sph_points_periodic(points(&c), SPH_R(0), SPH_R(axis == 1 ? -1 : 0), SPH_R(axis == 2 ? -1 : 0)), sph_scalars_same(&radius),
                                  guarded_memory(&other), other.bytes, &g) == 0);
             free(other.base);
         }
         for (axis = 0; axis < dim; axis++) { /* half the box, and no more */
-            const sph_real length = SPH_R(0.9), half = SPH_R(0.45);
+            const sph_real length = SPH_R(0.9), half = SPH_R(0.45), more = SPH_R(0.450001);
             const sph_points x =
                 sph_points_periodic(points(&c), axis == 0 ? length : SPH_R(axis == 1 ? 2 : 0), axis == 1 ? length : SPH_R(0), axis == 2 ? length : SPH_R(3));
             sph_grid g;
             sph_index i;
-            CHECK(sph_grid_build(dim, x, SPH_R(0.450001), guarded_memory(&work), work.bytes, &g) == SPH_ERROR_BOX);
+            CHECK(sph_grid_build(dim, x, sph_scalars_same(&more), guarded_memory(&work), work.bytes, &g) == SPH_ERROR_BOX);
             CHECK(guarded_unwritten(&work));
             /* rounding may have made it a little longer: that is half the box, too, and nobody is a neighbour twice */
             for (i = 0; i < N; i++) (axis == 0 ? c.x : axis == 1 ? c.y : c.z)[i] = i % 2 ? half : SPH_R(0);
@@ -1056,7 +1103,8 @@ static void test_order(void)
                 enum { N = 321, STRIDE = 3 };
                 cloud c = make(kind, dim, N, 0, &random);
                 const sph_real length = SPH_R(periodic);
-                grid g = grid_new(dim, sph_points_periodic(points(&c), length, length, length), SPH_R(0.11));
+                sph_real *const R = random_radii(N, SPH_R(0.11), ratios_of_radii[kind % RATIOS], &random);
+                grid g = grid_of(dim, sph_points_periodic(points(&c), length, length, length), sph_scalars_array(R));
                 const sph_index *const order = sph_grid_permutation(&g.g);
                 sph_index inverse[N], seen[N], s;
                 sph_real packed[N], wide_in[STRIDE * N], wide_out[STRIDE * N];
@@ -1089,6 +1137,7 @@ static void test_order(void)
                 CHECK(sph_permute(N, inverse, packed, 1, wide_out) == 0); /* and back */
                 CHECK(memcmp(wide_out, c.x, sizeof packed) == 0);
                 grid_free(&g);
+                free(R);
                 cloud_free(&c);
             }
 }
@@ -1106,7 +1155,7 @@ static void test_renumber(void)
         for (kind = 0; kind < KINDS; kind++)
             for (mask = 0; mask < 1 << dim; mask++) {
                 cloud c = make(kind, dim, N, 1, &random), sorted = cloud_new(dim, N);
-                sph_real *const from[3] = {c.x, c.y, c.z}, *const to[3] = {sorted.x, sorted.y, sorted.z}, *const R = random_radii(N, radius, &random);
+                sph_real *const from[3] = {c.x, c.y, c.z}, *const to[3] = {sorted.x, sorted.y, sorted.z}, *const R = random_radii(N, radius, 30.0, &random), S[N];
                 const sph_real box[3] = {SPH_R(mask & 1), SPH_R(mask >> 1 & 1), SPH_R(mask >> 2)};
                 sph_points x;
                 problem p;
@@ -1125,7 +1174,13 @@ static void test_renumber(void)
                 x = sph_points_periodic(points(&sorted), box[0], box[1], box[2]);
                 p = problem_new(dim, x, x, sph_scalars_same(&radius), sph_scalars_same(&radius));
                 for (criterion = 0; criterion < CRITERIA; criterion++) check_lists("renumbered", &p, &g, criterion, next_flags());
-                p.source_radius = p.target_radius = sph_scalars_array(R);
+                problem_free(&p);
+                grid_free(&g);
+                g = grid_of(dim, sph_points_periodic(points(&c), box[0], box[1], box[2]), sph_scalars_array(R));
+                for (a = 0; a < dim; a++) CHECK(sph_permute(N, sph_grid_permutation(&g.g), from[a], 1, to[a]) == 0);
+                CHECK(sph_permute(N, sph_grid_permutation(&g.g), R, 1, S) == 0);
+                CHECK(sph_grid_renumber(&g.g) == 0);
+                p = problem_new(dim, x, x, sph_scalars_array(S), sph_scalars_array(S));
                 for (criterion = 0; criterion < CRITERIA; criterion++) check_lists("renumbered, a radius for each", &p, &g, criterion, next_flags());
                 problem_free(&p);
                 grid_free(&g);
@@ -1135,16 +1190,19 @@ static void test_renumber(void)
             }
 }
 
-/* the cells do bring neighbours together: in the order of the cells they are nearer, on the whole, than at random */
+/* cells and tree do bring neighbours together: in their order they are nearer, on the whole, than at random */
 static void test_locality(void)
 {
-    int dim;
+    int dim, tree;
     pcg32 random;
     pcg32_seed(&random, 8, 2);
-    for (dim = 1; dim <= 3; dim++) {
+    for (dim = 1; dim <= 3; dim++)
+        for (tree = 0; tree < 2; tree++) {
         enum { N = 4000 };
         cloud c = make(RANDOM, dim, N, 0, &random);
-        grid g = grid_new(dim, points(&c), SPH_R(dim == 1 ? 0.005 : 0.1));
+        sph_real *const R = random_radii(N, SPH_R(dim == 1 ? 0.005 : 0.1), 30.0, &random);
+        const sph_scalars radius = tree ? sph_scalars_array(R) : sph_scalars_same(&R[N / 2]);
+        grid g = grid_of(dim, points(&c), radius);
         const sph_index *const order = sph_grid_permutation(&g.g);
         double before = 0.0, after = 0.0;
         sph_index s;
@@ -1159,6 +1217,7 @@ static void test_locality(void)
         }
         CHECK(after < 0.5 * before);
         grid_free(&g);
+        free(R);
         cloud_free(&c);
     }
 }
@@ -1370,12 +1429,12 @@ static void print_checksum(int dim, int kind, int periodic, sph_index n)
     c = make(kind, dim, n, 1, &random);
     x = periodic ? sph_points_periodic(points(&c), SPH_R(1), SPH_R(1), SPH_R(1)) : points(&c);
     radius = SPH_R(3.0 / c.side);
-    R = random_radii(n, radius, &random);
+    R = random_radii(n, radius, ratios_of_radii[kind % RATIOS], &random);
     if (kind == LATTICE) { /* pairs at just the radius */
         sph_index i;
         for (i = 0; i < n; i++) R[i] = SPH_R((double)(1 + i % 3) / c.side);
     }
-    g = grid_new(dim, x, radius);
+    g = grid_of(dim, x, sph_scalars_array(R));
     for (criterion = 0; criterion < CRITERIA; criterion++) {
         const int flags = (criterion + kind) % 8;
         const sph_scalars radii = sph_scalars_array(R);

@@ -84,14 +84,14 @@ static void sort_row(sph_index *row, sph_index n)
 }
 
 /* The number of pairs; start and index as sph_grid_lists fills them, rows sorted. */
-static int64_t lists_in_parts(int dim, sph_points x, sph_scalars radius, sph_real reach, int criterion,
+static int64_t lists_in_parts(int dim, sph_points x, sph_scalars radius, int criterion,
                               sph_index *start, sph_index **index)
 {
     const size_t size = sph_grid_workspace(dim, x.n);
     void *const work = cloud_memory(size, 1);
     int64_t pairs = -1, filled = -1;
     sph_grid grid;
-    if (sph_grid_build(dim, x, reach, work, size, &grid) != 0) abort();
+    if (sph_grid_build(dim, x, radius, work, size, &grid) != 0) abort();
     CHECK(sph_grid_count(dim, &grid, sph_query_of(x, criterion, radius, 0), start, &pairs) == 0);
     CHECK(start[x.n] == pairs);
     *index = (sph_index *)cloud_memory((size_t)pairs, sizeof **index);
@@ -159,7 +159,7 @@ static void test_loop(void)
                         const sph_scalars radius =
                             way & 2 ? sph_scalars_array(s.radius) : sph_scalars_same(&one);
                         sph_index start[MOST + 1], *index;
-                        const int64_t pairs = lists_in_parts(dim, x, radius, one, criterion, start, &index);
+                        const int64_t pairs = lists_in_parts(dim, x, radius, criterion, start, &index);
                         const int calls = calls_of(dim, x, radius, criterion, &memory, &size, &found);
                         CHECK(calls <= 3);
                         CHECK(found.pairs == pairs);
@@ -173,7 +173,7 @@ static void test_loop(void)
             }
 }
 
-/* One radius that is far larger than the others: the grid must still allow it. */
+/* One radius that is far larger than the others: the grid is a tree. */
 static void test_wide_radii(void)
 {
     int dim, criterion, which;
@@ -189,8 +189,7 @@ static void test_wide_radii(void)
                 for (i = 0; i < MOST; i++)
                     s.radius[i] = which == 0 ? SPH_R(1e-6) : which == 1 ? SPH_R(0.3) / SPH_R(32) : SPH_R(0.3);
                 s.radius[MOST / 2] = SPH_R(0.3);
-                pairs = lists_in_parts(dim, points_of(&s, 0), sph_scalars_array(s.radius), SPH_R(0.3),
-                                       criterion, start, &index);
+                pairs = lists_in_parts(dim, points_of(&s, 0), sph_scalars_array(s.radius), criterion, start, &index);
                 calls_of(dim, points_of(&s, 0), sph_scalars_array(s.radius), criterion, &memory, &size,
                          &found);
                 CHECK(found.pairs == pairs && same_lists(MOST, found.list, start, index));
@@ -210,7 +209,7 @@ static void test_block(void)
         const sph_points x = points_of(&s, 0);
         const sph_scalars radius = sph_scalars_same(&one);
         sph_index start[FEW + 1], *index;
-        const int64_t pairs = lists_in_parts(dim, x, radius, one, SPH_GATHER, start, &index);
+        const int64_t pairs = lists_in_parts(dim, x, radius, SPH_GATHER, start, &index);
         const size_t needed = sph_search_size(dim, FEW, pairs), fixed = sph_search_size(dim, FEW, 0);
         size_t shift, k;
         CHECK(pairs > 0);
@@ -245,9 +244,9 @@ static void test_block(void)
                 sph_index again[FEW + 1];
                 sph_grid grid;
                 int64_t counted = -1;
-                CHECK(sph_grid_build(dim, x, one, b.at, b.size - 1, &grid) == SPH_ERROR_CAPACITY);
+                CHECK(sph_grid_build(dim, x, radius, b.at, b.size - 1, &grid) == SPH_ERROR_CAPACITY);
                 CHECK(block_marked(b.at, b.at + b.size));
-                CHECK(sph_grid_build(dim, x, one, b.at, b.size, &grid) == 0);
+                CHECK(sph_grid_build(dim, x, radius, b.at, b.size, &grid) == 0);
                 CHECK((uintptr_t)grid.x % sizeof *grid.x == 0 && (uintptr_t)grid.y % sizeof *grid.y == 0 &&
                       (uintptr_t)grid.z % sizeof *grid.z == 0);
                 CHECK((uintptr_t)grid.member % sizeof(sph_index) == 0 &&
@@ -364,7 +363,7 @@ static void test_empty_vector(void)
                 int64_t exact = -1, pairs = -1, room = 0;
                 int calls = 0;
                 sph_grid grid;
-                CHECK(sph_grid_build(dim, x, SPH_R(way ? 0.3 : 1e-9), work, size, &grid) == 0);
+                CHECK(sph_grid_build(dim, x, radius, work, size, &grid) == 0);
                 CHECK(sph_grid_count(dim, &grid, sph_query_of(x, criterion, radius, 0), counted, &exact) == 0);
                 CHECK((exact > 0) == way);
                 while ((answer = sph_grid_lists(dim, &grid, sph_query_of(x, criterion, radius, 0), start, index, room, &pairs)) == SPH_ERROR_CAPACITY) {
@@ -422,7 +421,7 @@ static void test_nothing(void)
             /* no sources */
             memset(&grid, MARK, sizeof grid);
             CHECK(sph_grid_workspace(dim, 0) > 0);
-            CHECK(sph_grid_build(dim, none, SPH_R(0), 0, 0, &grid) == 0);
+            CHECK(sph_grid_build(dim, none, sph_scalars_none(), 0, 0, &grid) == 0);
             CHECK(sph_grid_permutation(&grid) == 0 && sph_grid_renumber(&grid) == 0);
             for (flags = 0; flags < 16; flags++) {
                 if (flags & SPH_LIST_FOREIGN && flags & (SPH_LIST_SELF | SPH_LIST_HALF)) continue;
@@ -446,11 +445,11 @@ static void test_nothing(void)
             CHECK(sph_grid_lists(dim, &grid, sph_query_of(x, criterion, radius, 0), start, 0, 0, &pairs) ==
                   SPH_ERROR_RANGE);
             /* no targets among sources */
-            CHECK(sph_grid_build(dim, x, SPH_R(0.3), work, size, &grid) == 0);
+            CHECK(sph_grid_build(dim, x, radius, work, size, &grid) == 0);
             for (flags = 0; flags <= SPH_LIST_FOREIGN; flags += SPH_LIST_FOREIGN) {
                 start[0] = start[1] = -7;
                 pairs = -1;
-                CHECK(sph_grid_lists(dim, &grid, (sph_query){none, criterion, no, radius, flags}, start, 0, 0, &pairs) ==
+                CHECK(sph_grid_lists(dim, &grid, (sph_query){none, criterion, no, flags}, start, 0, 0, &pairs) ==
                       0);
                 CHECK(pairs == 0 && start[0] == 0 && start[1] == -7);
                 start[0] = -7;
@@ -476,7 +475,7 @@ static void test_nothing(void)
                 sph_points less = none;
                 less.n = -1;
                 CHECK(sph_grid_workspace(dim, -1) == 0);
-                CHECK(sph_grid_build(dim, less, SPH_R(1), work, size, &grid) == SPH_ERROR_COUNT);
+                CHECK(sph_grid_build(dim, less, radius, work, size, &grid) == SPH_ERROR_COUNT);
                 pairs = -1;
                 CHECK(sph_grid_lists(dim, &grid, sph_query_of(less, criterion, no, 0), start, 0, 0, &pairs) ==
                           SPH_ERROR_COUNT &&

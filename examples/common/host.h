@@ -21,6 +21,9 @@
  *     cloud = sph_cloud_of(sources, search_list(&lists), h, volume);
  *     search_lists_close(&lists);
  *     search_grid_close(&grid);
+ *
+ * The search takes seconds to compile. Programs of several files, or many programs, share one copy of it:
+ * host_search.c, where all others are compiled with -DHOST_LINKED=1.
  */
 #ifndef HOST_H
 #define HOST_H
@@ -29,6 +32,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "threads.h"
 
 /* The argument that was refused last. */
 typedef struct host_refusal {
@@ -39,9 +44,11 @@ typedef struct host_refusal {
 static host_refusal host_refused;
 static inline void host_refuse(const char *argument, long particle, int error)
 {
+    threads_lock(); /* parts of a sweep may be refused side by side */
     host_refused.argument = argument;
     host_refused.particle = particle;
     host_refused.error = error;
+    threads_unlock();
 }
 #ifndef SPH_REFUSED
 #define SPH_REFUSED(argument, particle, error) host_refuse(argument, (long)(particle), (int)(error))
@@ -116,25 +123,12 @@ static inline sph_vector_out vectors_into(double *const *a, int parts)
 
 /* ---- neighbours ---- */
 
-/* Of all points: see sph_search. All zeros to begin with. SPH_FN: dim and criterion fold. */
+/* Of all points: see sph_search. All zeros to begin with. */
 typedef struct search {
     sph_neighbors found;
     void *memory;
     size_t size;
 } search;
-SPH_FN void search_all(search *s, int dim, sph_points points, sph_scalars radius, int criterion)
-{
-    sph_index answer;
-    while ((answer = sph_search(dim, points, radius, criterion, s->memory, s->size, &s->found)) ==
-           (sph_index)SPH_ERROR_CAPACITY) {
-        /* room to spare: a search that fails costs as much as one that does not */
-        s->size = sph_search_size(dim, points.n, s->found.pairs + s->found.pairs / 8);
-        if (s->size == 0) s->size = sph_search_size(dim, points.n, s->found.pairs);
-        free(s->memory);
-        s->memory = need(NULL, s->size, 1);
-    }
-    expect(answer);
-}
 static inline void search_close(search *s) { free(s->memory); }
 
 /* In parts: a grid, and lists that it finds. All zeros to begin with. */
@@ -147,16 +141,44 @@ typedef struct search_lists {
     sph_index *start, *index;
     int64_t capacity;
 } search_lists;
-static inline void search_grid_build(search_grid *g, int dim, sph_points sources, double radius)
+
+#ifndef HOST_LINKED
+#define HOST_LINKED 0 /* 1: the functions of the search are those of another file, host_search.c */
+#endif
+#if HOST_LINKED
+#define HOST_SEARCH
+#else
+#define HOST_SEARCH static inline
+#endif
+HOST_SEARCH void search_all(search *s, int dim, sph_points points, sph_scalars radius, int criterion);
+HOST_SEARCH void search_grid_build(search_grid *g, int dim, sph_points sources, double radius);
+HOST_SEARCH void search_lists_find(search_lists *l, int dim, const search_grid *g, sph_query query);
+
+#if !HOST_LINKED || defined(HOST_SEARCH_HERE)
+HOST_SEARCH void search_all(search *s, int dim, sph_points points, sph_scalars radius, int criterion)
 {
+    sph_index answer;
+    while ((answer = sph_search(dim, points, radius, criterion, s->memory, s->size, &s->found)) ==
+           (sph_index)SPH_ERROR_CAPACITY) {
+        /* room to spare: a search that fails costs as much as one that does not */
+        s->size = sph_search_size(dim, points.n, s->found.pairs + s->found.pairs / 8);
+        if (s->size == 0) s->size = sph_search_size(dim, points.n, s->found.pairs);
+        free(s->memory);
+        s->memory = need(NULL, s->size, 1);
+    }
+    expect(answer);
+}
+HOST_SEARCH void search_grid_build(search_grid *g, int dim, sph_points sources, double radius)
+{
+    const sph_real support = SPH_R(radius);
     const size_t size = sph_grid_workspace(dim, sources.n);
     if (size > g->size) {
         g->work = need(g->work, size, 1);
         g->size = size;
     }
-    expect(sph_grid_build(dim, sources, radius, g->work, g->size, &g->grid));
+    expect(sph_grid_build(dim, sources, sph_scalars_same(&support), g->work, g->size, &g->grid));
 }
-static inline void search_lists_find(search_lists *l, int dim, const search_grid *g, sph_query query)
+HOST_SEARCH void search_lists_find(search_lists *l, int dim, const search_grid *g, sph_query query)
 {
     int64_t pairs = 0;
     sph_index answer;
@@ -168,6 +190,8 @@ static inline void search_lists_find(search_lists *l, int dim, const search_grid
     }
     expect(answer);
 }
+#endif
+
 static inline sph_list search_list(const search_lists *l)
 {
     sph_list list;

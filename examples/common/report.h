@@ -6,15 +6,30 @@
  * returns `report_close(&r) ? 1 : 0` from main.  Each row is printed as a
  * line of a table and written to <out_dir>/<name>.csv, whose columns are
  *
- *     item,setting,quantity,published,measured,criterion,verdict
+ *     item,setting,quantity,published,reference,source,measured,criterion,verdict
  *
- * quoted as in RFC 4180 with lines ended by "\n".  The verdicts:
+ * quoted as in RFC 4180 with lines ended by "\n".  `published` holds what the
+ * paper prints and nothing else.  Any other value to compare with stands under
+ * `reference`, and `source` says whose it is:
+ *
+ *     theory          it follows from a formula, or from an identity
+ *     other authors   another publication prints it
+ *     regression      this toolkit, or an earlier trial of it, had it before
+ *
+ * A row with neither is judged by a limit that the driver has set itself.  The
+ * verdicts:
  *
  *     match           the measured value meets the criterion
  *     consistent      a published random outcome lies in our own spread
+ *     fitted          as match, with a parameter that was fitted to what is
+ *                     published: the agreement proves less
  *     differs         the criterion fails: the only verdict that is a failure
  *     not-reproduced  known not to agree; the criterion column says why
  *     info            measured only, nothing to compare with
+ *
+ * A range must contain the value that it is said to judge: a row that would
+ * call a measured value a match and the published one not ends the program
+ * with the exit status 2.
  *
  * A run cut short never leaves half a table under the final name (part_file.h).
  *
@@ -35,13 +50,33 @@
 typedef enum report_verdict {
     REPORT_MATCH,
     REPORT_CONSISTENT,
+    REPORT_FITTED,
     REPORT_DIFFERS,
     REPORT_NOT_REPRODUCED,
     REPORT_INFO,
     REPORT_VERDICTS /* their number */
 } report_verdict;
 
-enum { REPORT_COLUMNS = 7, REPORT_CRITERION = 96, REPORT_DIGITS = 9 };
+/* Where the value comes from that a row compares with. */
+typedef enum report_source {
+    REPORT_PAPER, /* what a row has unless report_beside says otherwise */
+    REPORT_THEORY,
+    REPORT_OTHERS,
+    REPORT_REGRESSION,
+    REPORT_SOURCES /* their number */
+} report_source;
+
+enum {
+    REPORT_QUANTITY = 2,
+    REPORT_PUBLISHED,
+    REPORT_REFERENCE,
+    REPORT_SOURCE,
+    REPORT_MEASURED,
+    REPORT_JUDGED_BY,
+    REPORT_VERDICT,
+    REPORT_COLUMNS
+};
+enum { REPORT_CRITERION = 96, REPORT_DIGITS = 9 };
 
 typedef struct report {
     part_file file;
@@ -50,19 +85,29 @@ typedef struct report {
     time_t wall; /* at report_open */
     clock_t cpu; /* at report_open */
     int headed;  /* the column names are on the screen */
+    report_source source; /* of the next row */
+    int fitted;           /* the next row has a fitted parameter */
     int count[REPORT_VERDICTS];
 } report;
 
 static inline const char *report_column_name(int column)
 {
-    static const char *const name[REPORT_COLUMNS] = {"item", "setting", "quantity", "published", "measured", "criterion", "verdict"};
+    static const char *const name[REPORT_COLUMNS] = {"item",   "setting",  "quantity",  "published", "reference",
+                                                     "source", "measured", "criterion", "verdict"};
     return name[column];
 }
 
 static inline const char *report_verdict_name(int verdict)
 {
-    static const char *const name[REPORT_VERDICTS] = {"match", "consistent", "differs", "not-reproduced", "info"};
+    static const char *const name[REPORT_VERDICTS] = {"match", "consistent", "fitted", "differs", "not-reproduced", "info"};
     return name[verdict];
+}
+
+/* As the source column shows it: "" for the paper, whose values have a column of their own. */
+static inline const char *report_source_name(int source)
+{
+    static const char *const name[REPORT_SOURCES] = {"", "theory", "other authors", "regression"};
+    return name[source];
 }
 
 /* ---- writing ----------------------------------------------------------- */
@@ -89,8 +134,9 @@ static inline void report_csv_field(FILE *csv, const char *text, const char *rea
  * it moves what follows to the right. */
 static inline void report_screen_line(FILE *screen, const char *mark, const char *const *field, const char *reason)
 {
-    fprintf(screen, "%-3s%-12s %-32s %-20s %-16s %-16s ", mark, field[0], field[1], field[2], field[3], field[4]);
-    fprintf(screen, "%-24s %s", field[5], field[6]);
+    fprintf(screen, "%-3s%-12s %-32s %-20s %-16s %-12s %-10s ", mark, field[0], field[1], field[REPORT_QUANTITY],
+            field[REPORT_PUBLISHED], field[REPORT_REFERENCE], field[REPORT_SOURCE]);
+    fprintf(screen, "%-16s %-24s %s", field[REPORT_MEASURED], field[REPORT_JUDGED_BY], field[REPORT_VERDICT]);
     if (*reason) fprintf(screen, " (%s)", reason);
     putc('\n', screen);
 }
@@ -103,24 +149,47 @@ static inline void report_screen_heading(report *r)
     r->headed = 1;
 }
 
-/* Every row passes here.  Absent texts may be NULL. */
-static inline void report_row(report *r, const char *item, const char *setting, const char *quantity, const char *published, const char *measured,
+/* Of the next row: its value to compare with is not the paper's, but of this source.
+ *
+ *     report_absolute(report_beside(r, REPORT_THEORY), ..., 0.5, measured, 1e-3);
+ */
+static inline report *report_beside(report *r, report_source source)
+{
+    r->source = source;
+    return r;
+}
+
+/* Of the next row: a parameter of it was fitted to what is published (say which in its
+ * setting).  Where it meets its criterion it is 'fitted' and never a match. */
+static inline report *report_with_fit(report *r)
+{
+    r->fitted = 1;
+    return r;
+}
+
+/* Every row passes here.  Absent texts may be NULL.  against: the value to compare with,
+ * published or (report_beside) another. */
+static inline void report_row(report *r, const char *item, const char *setting, const char *quantity, const char *against, const char *measured,
                               const char *criterion, const char *reason, report_verdict verdict)
 {
-    const char *field[REPORT_COLUMNS];
+    const char *field[REPORT_COLUMNS] = {NULL};
+    if (r->fitted && verdict == REPORT_MATCH) verdict = REPORT_FITTED;
     field[0] = item;
     field[1] = setting;
-    field[2] = quantity;
-    field[3] = published;
-    field[4] = measured;
-    field[5] = criterion;
-    field[6] = report_verdict_name((int)verdict);
+    field[REPORT_QUANTITY] = quantity;
+    field[r->source == REPORT_PAPER ? REPORT_PUBLISHED : REPORT_REFERENCE] = against;
+    field[REPORT_SOURCE] = report_source_name((int)r->source);
+    field[REPORT_MEASURED] = measured;
+    field[REPORT_JUDGED_BY] = criterion;
+    field[REPORT_VERDICT] = report_verdict_name((int)verdict);
+    r->source = REPORT_PAPER;
+    r->fitted = 0;
     for (int k = 0; k < REPORT_COLUMNS; ++k)
         if (!field[k]) field[k] = "";
     if (!reason) reason = "";
 
     for (int k = 0; k < REPORT_COLUMNS; ++k) {
-        report_csv_field(r->file.to, field[k], k == 5 ? reason : "");
+        report_csv_field(r->file.to, field[k], k == REPORT_JUDGED_BY ? reason : "");
         putc(k + 1 < REPORT_COLUMNS ? ',' : '\n', r->file.to);
     }
     if (!r->headed) report_screen_heading(r);
@@ -129,17 +198,17 @@ static inline void report_row(report *r, const char *item, const char *setting, 
     ++r->count[verdict];
 }
 
-/* A number as the CSV shows it; NAN for an absent published value is "". */
-static inline const char *report_published(char text[NUMBER_TEXT], double value)
+/* A number as the CSV shows it; NAN for an absent value to compare with is "". */
+static inline const char *report_against(char text[NUMBER_TEXT], double value)
 {
     return isnan(value) ? "" : number_text(text, REPORT_DIGITS, value);
 }
 
-static inline void report_number_row(report *r, const char *item, const char *setting, const char *quantity, double published, double measured,
+static inline void report_number_row(report *r, const char *item, const char *setting, const char *quantity, double against, double measured,
                                      const char *criterion, const char *reason, report_verdict verdict)
 {
-    char published_text[NUMBER_TEXT], measured_text[NUMBER_TEXT];
-    report_row(r, item, setting, quantity, report_published(published_text, published), number_text(measured_text, REPORT_DIGITS, measured), criterion, reason, verdict);
+    char against_text[NUMBER_TEXT], measured_text[NUMBER_TEXT];
+    report_row(r, item, setting, quantity, report_against(against_text, against), number_text(measured_text, REPORT_DIGITS, measured), criterion, reason, verdict);
 }
 
 static inline void report_fail(const report *r, const char *what, const char *path, const char *advice)
@@ -170,31 +239,47 @@ static inline void report_section(report *r, const char *title)
     report_screen_heading(r);
 }
 
-/* |measured/published - 1| <= tolerance.  For a published 0 use report_absolute. */
-static inline void report_relative(report *r, const char *item, const char *setting, const char *quantity, double published, double measured, double tolerance)
+/* |measured/against - 1| <= tolerance.  For a value of 0 use report_absolute. */
+static inline void report_relative(report *r, const char *item, const char *setting, const char *quantity, double against, double measured, double tolerance)
 {
     char criterion[REPORT_CRITERION], number[NUMBER_TEXT];
     snprintf(criterion, sizeof criterion, "rel <= %s", number_text(number, 6, tolerance));
-    const int holds = fabs(measured / published - 1.0) <= tolerance;
-    report_number_row(r, item, setting, quantity, published, measured, criterion, NULL, holds ? REPORT_MATCH : REPORT_DIFFERS);
+    const int holds = fabs(measured / against - 1.0) <= tolerance;
+    report_number_row(r, item, setting, quantity, against, measured, criterion, NULL, holds ? REPORT_MATCH : REPORT_DIFFERS);
 }
 
-/* |measured - published| <= tolerance. */
-static inline void report_absolute(report *r, const char *item, const char *setting, const char *quantity, double published, double measured, double tolerance)
+/* |measured - against| <= tolerance. */
+static inline void report_absolute(report *r, const char *item, const char *setting, const char *quantity, double against, double measured, double tolerance)
 {
     char criterion[REPORT_CRITERION], number[NUMBER_TEXT];
     snprintf(criterion, sizeof criterion, "abs <= %s", number_text(number, 6, tolerance));
-    const int holds = fabs(measured - published) <= tolerance;
-    report_number_row(r, item, setting, quantity, published, measured, criterion, NULL, holds ? REPORT_MATCH : REPORT_DIFFERS);
+    const int holds = fabs(measured - against) <= tolerance;
+    report_number_row(r, item, setting, quantity, against, measured, criterion, NULL, holds ? REPORT_MATCH : REPORT_DIFFERS);
 }
 
-/* lo <= measured <= hi.  The published value (NAN: none) is shown, not judged. */
-static inline void report_range(report *r, const char *item, const char *setting, const char *quantity, double published, double measured, double lo, double hi)
+/* 1/factor <= measured/against <= factor, for a factor above 1. */
+static inline void report_factor(report *r, const char *item, const char *setting, const char *quantity, double against, double measured, double factor)
 {
-    char criterion[REPORT_CRITERION], from[NUMBER_TEXT], to[NUMBER_TEXT];
+    char criterion[REPORT_CRITERION], number[NUMBER_TEXT];
+    snprintf(criterion, sizeof criterion, "within a factor of %s", number_text(number, 6, factor));
+    const int holds = measured / against <= factor && against / measured <= factor;
+    report_number_row(r, item, setting, quantity, against, measured, criterion, NULL, holds ? REPORT_MATCH : REPORT_DIFFERS);
+}
+
+/* lo <= measured <= hi.  The value that is compared with (NAN: none) must be in there, too:
+ * a range that accepts what is measured and not what is published is a fault of the driver. */
+static inline void report_range(report *r, const char *item, const char *setting, const char *quantity, double against, double measured, double lo, double hi)
+{
+    char criterion[REPORT_CRITERION], from[NUMBER_TEXT], to[NUMBER_TEXT], value[NUMBER_TEXT];
     snprintf(criterion, sizeof criterion, "in [%s, %s]", number_text(from, 6, lo), number_text(to, 6, hi));
+    if (against < lo || against > hi) {
+        fflush(stdout);
+        fprintf(stderr, "%s: %s, %s, %s: the value to compare with is %s, and the criterion '%s' excludes it: a match would say nothing\n", r->name, item,
+                setting, quantity, number_text(value, REPORT_DIGITS, against), criterion);
+        exit(2);
+    }
     const int holds = lo <= measured && measured <= hi;
-    report_number_row(r, item, setting, quantity, published, measured, criterion, NULL, holds ? REPORT_MATCH : REPORT_DIFFERS);
+    report_number_row(r, item, setting, quantity, against, measured, criterion, NULL, holds ? REPORT_MATCH : REPORT_DIFFERS);
 }
 
 /* A published random outcome against our own spread: lo <= published <= hi is
@@ -222,6 +307,17 @@ static inline void report_claim_fails(report *r, const char *item, const char *s
                                       const char *measured_text, const char *reason)
 {
     report_row(r, item, setting, quantity, published_text, measured_text, NULL, reason, REPORT_NOT_REPRODUCED);
+}
+
+/* A published statement of which it is known whether it holds here (expected), and if not,
+ * why: either other outcome differs, so that the row can fail whatever is expected. */
+static inline void report_claim_known(report *r, const char *item, const char *setting, const char *quantity, const char *published_text,
+                                      const char *measured_text, const char *criterion_text, int holds, int expected, const char *reason)
+{
+    if (holds && !expected)
+        report_row(r, item, setting, quantity, published_text, measured_text, "known not to hold, but it does", NULL, REPORT_DIFFERS);
+    else if (expected) report_claim(r, item, setting, quantity, published_text, measured_text, criterion_text, holds);
+    else report_claim_fails(r, item, setting, quantity, published_text, measured_text, reason);
 }
 
 /* A published value that is known not to come out, and why. */

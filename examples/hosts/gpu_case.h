@@ -57,7 +57,7 @@ static inline int case_make(gpu_case *c, const char *known)
     }
     radius = c->h * sph_kernel_support_ratio(CASE_KERNEL);
     query = sph_query_of(x, SPH_GATHER, sph_scalars_same(&radius), 0);
-    error = (int)sph_grid_build(CASE_DIM, x, radius, work, size, &grid);
+    error = (int)sph_grid_build(CASE_DIM, x, query.radius, work, size, &grid);
     if (!error)
         error = (int)sph_grid_lists(CASE_DIM, &grid, query, c->start, c->index, CASE_PER_PARTICLE * CASE_N,
                                     &pairs);

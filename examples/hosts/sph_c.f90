@@ -71,9 +71,8 @@ module sph_c
     integer(c_int), parameter :: SPH_ERROR_CAPACITY = -11
     ! a box length that cannot be; a support beyond half of it; far positions
     integer(c_int), parameter :: SPH_ERROR_BOX = -12
-    integer(c_int), parameter :: SPH_ERROR_RADIUS = -13 ! a radius exceeds what the grid was built for
     ! more pairs than sph_index can count, or memory can hold
-    integer(c_int), parameter :: SPH_ERROR_PAIRS = -14
+    integer(c_int), parameter :: SPH_ERROR_PAIRS = -13
 
     ! sph_status: What they answer for each particle, where an array of such answers is asked for. The outputs
     ! of a particle are 0 if it is SPH_TOO_FEW, SPH_SINGULAR, SPH_NOT_AVAILABLE or SPH_NOT_FINITE.
@@ -502,36 +501,48 @@ module sph_c
         real(sph_real) :: sum_lowest = 0.0_sph_real, sum_highest = 0.0_sph_real
     end type
 
-    ! The sources, sorted into cells. The grid's radius is the width of a cell in y and z, and that of
-    ! SPHI_FINE cells in x. Cells that follow each other in x follow each other in memory, so that the
-    ! neighbours of a particle are a few contiguous runs of slots. If the bounding box has no more than 2 n
-    ! cells, each cell has its own bucket. If it has more (most of them empty), cells are hashed into about n
-    ! buckets; a row along x is still contiguous. The fields are for the functions below.
+    ! The sources, sorted into slots such that those of near slots are near each other, in one of three ways.
+    ! CELLS: the grid's radius is the width of a cell in y and z, and that of SPHI_FINE cells in x. Cells that
+    ! follow each other in x follow each other in memory, so that the neighbours of a particle are a few
+    ! contiguous runs of slots. If the bounding box has no more than 2 n cells, each has its own bucket.
+    ! HASHED CELLS: if it has more (most of them empty), cells are hashed into about n buckets; a row along x
+    ! is still contiguous. A TREE, where radii differ so much that no width of a cell suits all of them: the
+    ! slots are halved at the median of the longer axis, and so are the halves, down to leaves of at most
+    ! SPHI_LEAF slots. Node 1 is the root, and the halves of node k are the nodes 2 k and 2 k + 1. The fields
+    ! are for the functions below.
     type, bind(c) :: sph_grid
         integer(sph_index) :: n = 0
-        ! scattered: many particles that follow each other are not near each other
-        integer(c_int) :: dim = 0, hashed = 0, scattered = 0
+        ! levels: of the tree; 0 if there are cells
+        integer(c_int) :: dim = 0, hashed = 0, levels = 0
+        ! 1 if many particles that follow each other are not near each other
+        integer(c_int) :: scattered = 0
         ! along each axis
         integer(c_int64_t) :: cells(3) = 0
         ! a power of two if hashed
         integer(c_size_t) :: buckets = 0
-        ! the one that will mostly be searched
+        ! of all sources, or their mean
         real(sph_real) :: radius = 0.0_sph_real
+        ! radius of a source
+        real(sph_real) :: largest = 0.0_sph_real
         type(sph_vec) :: low, inverse_width, box
         ! first slot of each bucket; particle of each slot
         type(c_ptr) :: first = c_null_ptr, member = c_null_ptr
         ! coordinates of each slot, inside the box along periodic axes
         type(c_ptr) :: x = c_null_ptr, y = c_null_ptr, z = c_null_ptr
+        ! radius of each slot, or null if all sources have the same
+        type(c_ptr) :: own = c_null_ptr
+        ! of each node of a tree: centre and half lengths of its box, largest radius
+        type(c_ptr) :: node = c_null_ptr
     end type
 
-    ! What is looked for: the neighbours of these targets, by this criterion, within these support radii, in
-    ! lists with these flags. There is one radius for each target and source, or one for all
-    ! (sph_scalars_same). Radii that the criterion does not use are not read.
+    ! What is looked for: the neighbours of these targets, by this criterion, in lists with these flags.
+    ! radius: the support radius R_i of each target, or one for all (sph_scalars_same); SPH_SCATTER does not
+    ! read it. Those of the sources, R_j, are the grid's.
     type, bind(c) :: sph_query
         type(sph_points) :: targets
         ! an sph_criterion
         integer(c_int) :: criterion = 0
-        type(sph_scalars) :: target_radius, source_radius
+        type(sph_scalars) :: radius
         ! of sph_list_flags, added up
         integer(c_int) :: flags = 0
     end type
@@ -1508,7 +1519,7 @@ module sph_c
             import
             integer(c_int), value :: dim
             type(sph_points), intent(in) :: sources
-            real(sph_real), value :: radius
+            type(sph_scalars), intent(in) :: radius
             type(c_ptr), value :: work
             integer(c_size_t), value :: work_size
             type(sph_grid), intent(inout) :: grid

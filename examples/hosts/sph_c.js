@@ -144,14 +144,15 @@ exports.structs = {
         ["interior", "sph_index", 1], ["sum_lowest", "sph_real", 1], ["sum_highest", "sph_real", 1],
     ],
     sph_grid: [
-        ["n", "sph_index", 1], ["dim", "int", 1], ["hashed", "int", 1], ["scattered", "int", 1],
-        ["cells", "int64_t", 3], ["buckets", "size_t", 1], ["radius", "sph_real", 1], ["low", "sph_vec", 1],
-        ["inverse_width", "sph_vec", 1], ["box", "sph_vec", 1], ["first", "pointer", 1],
-        ["member", "pointer", 1], ["x", "pointer", 1], ["y", "pointer", 1], ["z", "pointer", 1],
+        ["n", "sph_index", 1], ["dim", "int", 1], ["hashed", "int", 1], ["levels", "int", 1],
+        ["scattered", "int", 1], ["cells", "int64_t", 3], ["buckets", "size_t", 1], ["radius", "sph_real", 1],
+        ["largest", "sph_real", 1], ["low", "sph_vec", 1], ["inverse_width", "sph_vec", 1],
+        ["box", "sph_vec", 1], ["first", "pointer", 1], ["member", "pointer", 1], ["x", "pointer", 1],
+        ["y", "pointer", 1], ["z", "pointer", 1], ["own", "pointer", 1], ["node", "pointer", 1],
     ],
     sph_query: [
-        ["targets", "sph_points", 1], ["criterion", "int", 1], ["target_radius", "sph_scalars", 1],
-        ["source_radius", "sph_scalars", 1], ["flags", "int", 1],
+        ["targets", "sph_points", 1], ["criterion", "int", 1], ["radius", "sph_scalars", 1],
+        ["flags", "int", 1],
     ],
     sph_neighbors: [
         ["pairs", "int64_t", 1], ["list", "sph_list", 1], ["grid", "sph_grid", 1],
@@ -196,8 +197,7 @@ exports.SPH_ERROR_LIST = -9;
 exports.SPH_ERROR_SELF = -10;
 exports.SPH_ERROR_CAPACITY = -11;
 exports.SPH_ERROR_BOX = -12;
-exports.SPH_ERROR_RADIUS = -13;
-exports.SPH_ERROR_PAIRS = -14;
+exports.SPH_ERROR_PAIRS = -13;
 exports.SPH_OK = 0;
 exports.SPH_TOO_FEW = 1;
 exports.SPH_SINGULAR = 2;

@@ -970,8 +970,8 @@ size_t sph_shim_grid_workspace(int dim, sph_index n)
 }
 
 #define SWEEP(D) \
-    sph_grid_build(D, *sources, radius, work, work_size, grid)
-sph_index sph_shim_grid_build(int dim, const sph_points *sources, sph_real radius, void *work,
+    sph_grid_build(D, *sources, GIVEN(sph_scalars, radius), work, work_size, grid)
+sph_index sph_shim_grid_build(int dim, const sph_points *sources, const sph_scalars *radius, void *work,
                               size_t work_size, sph_grid *grid)
 {
     sph_index answer = SPH_ERROR_DIM;

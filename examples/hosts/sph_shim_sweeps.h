@@ -221,8 +221,8 @@ SPH_SHIM_EXPORT sph_index sph_shim_conserved_sums(int dim, const sph_cloud *clou
                                                   const sph_vectors *v, sph_conserved *out);
 SPH_SHIM_EXPORT sph_index sph_shim_cloud_examine(int kernel, int dim, const sph_cloud *cloud, int both_sides,
                                                  sph_index samples, sph_findings *out);
-SPH_SHIM_EXPORT sph_index sph_shim_grid_build(int dim, const sph_points *sources, sph_real radius, void *work,
-                                              size_t work_size, sph_grid *grid);
+SPH_SHIM_EXPORT sph_index sph_shim_grid_build(int dim, const sph_points *sources, const sph_scalars *radius,
+                                              void *work, size_t work_size, sph_grid *grid);
 SPH_SHIM_EXPORT const sph_index *sph_shim_grid_permutation(const sph_grid *grid);
 SPH_SHIM_EXPORT sph_index sph_shim_grid_renumber(sph_grid *grid);
 SPH_SHIM_EXPORT sph_index sph_shim_grid_lists(int dim, const sph_grid *grid, const sph_query *query,

@@ -59,10 +59,7 @@ static inline int cleaning_ball(int dim, double dx, double *const p[3])
 /* A value of an independent implementation with the same settings (the trial) beside ours, which may differ by a factor: the paper prints none. */
 static inline void cleaning_trial(report *r, const char *item, const char *at, const char *quantity, double trial, double measured, double factor)
 {
-    char criterion[REPORT_CRITERION];
-    snprintf(criterion, sizeof criterion, "independent trial: %g, within a factor of %g", trial, factor);
-    report_number_row(r, item, at, quantity, (double)NAN, measured, criterion, NULL,
-                      measured >= trial / factor && measured <= trial * factor ? REPORT_MATCH : REPORT_DIFFERS);
+    report_factor(report_beside(r, REPORT_REGRESSION), item, at, quantity, trial, measured, factor);
 }
 
 #endif

@@ -401,9 +401,8 @@ static void trial_at(report *r, const char *item, const char *at, int k, double 
                      double factor)
 {
     char criterion[REPORT_CRITERION];
-    snprintf(criterion, sizeof criterion, "independent trial: %g, that of t -+ 0.05 within a factor of %g",
-             trial, factor);
-    report_number_row(r, item, at, max_div(at_time[k]), (double)NAN, o->at[k], criterion, NULL,
+    snprintf(criterion, sizeof criterion, "that of t -+ 0.05 within a factor of %g", factor);
+    report_number_row(report_beside(r, REPORT_REGRESSION), item, at, max_div(at_time[k]), trial, o->at[k], criterion, NULL,
                       trial >= o->low[k] / factor && trial <= o->high[k] * factor ? REPORT_MATCH
                                                                                   : REPORT_DIFFERS);
 }
@@ -461,16 +460,16 @@ static void identities(report *r)
                          hypot(flux[0], flux[1]) / flux_size, 1e-6, 1);
             continue;
         }
-        report_absolute(r, "(22), (23)", form_name[s.form], "sum V psi div B + sum V B . grad psi, relative",
+        report_absolute(report_beside(r, REPORT_THEORY), "(22), (23)", form_name[s.form], "sum V psi div B + sum V B . grad psi, relative",
                         0, (left - right) / size, 1e-13);
-        report_absolute(r, "(21)", form_name[s.form], "rate of the energy / sum of its absolute terms", 0,
+        report_absolute(report_beside(r, REPORT_THEORY), "(21)", form_name[s.form], "rate of the energy / sum of its absolute terms", 0,
                         balance, 1e-13);
         s.sigma = 0.3;
         rates(&s);
-        report_absolute(r, "(24)", form_name[s.form], "rate of the energy less that of damping, relative", 0,
+        report_absolute(report_beside(r, REPORT_THEORY), "(24)", form_name[s.form], "rate of the energy less that of damping, relative", 0,
                         imbalance(&s), 1e-13);
         if (s.form == CONJUGATE)
-            report_absolute(r, "(23)", form_name[s.form], "rate of sum m B / rho, relative", 0,
+            report_absolute(report_beside(r, REPORT_THEORY), "(23)", form_name[s.form], "rate of sum m B / rho, relative", 0,
                             hypot(flux[0], flux[1]) / flux_size, 1e-13);
     }
     /* (25): a cloud that shrinks, v = -(x, y). d/dt sum m (B^2 + psi^2/ch^2) / (2 rho) without what is B's and rho's own: rho changes at -rho div v. */
@@ -495,7 +494,7 @@ static void identities(report *r)
             }
         }
         if (s.moving)
-            report_absolute(r, "(19), (25)", "v = -(x, y)", "rate of the energy of B and psi, relative", 0,
+            report_absolute(report_beside(r, REPORT_THEORY), "(19), (25)", "v = -(x, y)", "rate of the energy of B and psi, relative", 0,
                             rate / size, 1e-13);
         else
             report_range(r, "(18)", "v = -(x, y), without -psi div v / 2",
@@ -583,7 +582,7 @@ static void figure_1(report *r, outcome o[2][2][2], const char *figures, int ful
         snprintf(at, sizeof at, "constrained, undamped, %s", scheme_name[scheme]);
         report_range(r, "IV-A", at, "largest max |div B| / first, t <= 10 (remains stable)", (double)NAN,
                      free_run->largest / free_run->at[0], 0, 1);
-        report_absolute(r, "IV-A", at, "rate of the energy, relative, worst of all steps", 0,
+        report_absolute(report_beside(r, REPORT_THEORY), "IV-A", at, "rate of the energy, relative, worst of all steps", 0,
                         free_run->imbalance, 1e-13);
         if (!wanted(CONJUGATE, 1, scheme, full)) continue;
         snprintf(at, sizeof at, "constrained, damped, %s", scheme_name[scheme]);
@@ -591,7 +590,7 @@ static void figure_1(report *r, outcome o[2][2][2], const char *figures, int ful
                      damped_run->at[0] / damped_run->at[9], 1e3, HUGE_VAL);
         report_range(r, "IV-A", at, "largest rise of the energy in a step", (double)NAN, damped_run->rise,
                      -HUGE_VAL, 1e-12);
-        report_absolute(r, "IV-A", at, "rate of the energy less that of damping, relative, worst", 0,
+        report_absolute(report_beside(r, REPORT_THEORY), "IV-A", at, "rate of the energy less that of damping, relative, worst", 0,
                         damped_run->imbalance, 1e-13);
         report_info(r, "IV-A", at, "energy of B left at t = 10 (what had no divergence)",
                     damped_run->magnetic);
@@ -673,7 +672,7 @@ static void variations(report *r, outcome of_figure[2][2][2], int full, int quie
         if (k == 0) {
             report_range(r, "own h, Omega", "constrained, undamped", "largest max |div B| / first, t <= 10",
                          (double)NAN, o.largest / o.at[0], 0, 1);
-            report_absolute(r, "own h, Omega", "constrained, undamped", "rate of the energy, relative, worst",
+            report_absolute(report_beside(r, REPORT_THEORY), "own h, Omega", "constrained, undamped", "rate of the energy, relative, worst",
                             0, o.imbalance, 1e-13);
         } else if (k == 1) trial_at(r, "own h, Omega", "constrained, damped", 9, 1.75e-4, &o, 1.25);
         else trial_at(r, "own h, Omega", "non-conservative, undamped", 4, 1.7e8, &o, 2);
@@ -737,7 +736,7 @@ static void other_pair(report *r, outcome of_figure[2][2][2], int quiet)
         kept[which] = form == CONJUGATE ? of_figure[CONJUGATE][1][VERLET].magnetic
                                         : disc(form, 0.3, VERLET, 0.3, 10, NULL, quiet).magnetic;
     }
-    report_absolute(r, "II-C", "uniform B, disordered particles, (20)", "energy of B left at t = 5", 1,
+    report_absolute(report_beside(r, REPORT_THEORY), "II-C", "uniform B, disordered particles, (20)", "energy of B left at t = 5", 1,
                     left[0], 1e-12);
     snprintf(text, sizeof text, "%.1f %% of the energy of a uniform field is gone at t = 5",
              100 * (1 - left[1]));
@@ -806,9 +805,9 @@ static void resistivity(report *r)
         }
         for (i = 0; i < s.n; i++) amplitude += 2e4 * B[i] * sin(k * s.a[X][i]) / s.n;
         rate[along] = -log(amplitude) / (dt * STEPS);
-        report_relative(r, "(10)", direction[along], "decay rate (the lattice's sum beside ours)", lattice,
+        report_relative(report_beside(r, REPORT_THEORY), "(10)", direction[along], "decay rate (the lattice's sum beside ours)", lattice,
                         rate[along], 1e-4);
-        report_relative(r, "(11)", direction[along],
+        report_relative(report_beside(r, REPORT_THEORY), "(11)", direction[along],
                         "decay rate (eta k^2 beside ours; eta = 3/4 <r> alpha_B v_sig)", eta * k * k,
                         rate[along], 0.05);
         if (along == 1)
@@ -816,7 +815,7 @@ static void resistivity(report *r)
                         rate[along] / (k * k * s.a[H][0]));
         state_close(&s);
     }
-    report_relative(r, "(11)", "along against across", "ratio of the decay rates (diffuses both parts alike)",
+    report_relative(report_beside(r, REPORT_THEORY), "(11)", "along against across", "ratio of the decay rates (diffuses both parts alike)",
                     1, rate[0] / rate[1], 1e-4);
     snprintf(text, sizeof text, "the rate is eta k^2 with the square; without it %g times that", rho);
     report_claim_fails(r, "(10)", "rho = 2", "rho_ab in the denominator", "not squared", text,
@@ -851,7 +850,7 @@ static void sphere(report *r, int full, int quiet)
                 report_range(r, "sphere", at,
                              text_of("largest max |div B| / first, t <= %g", at_time[last], 0, 0),
                              (double)NAN, o.largest / o.at[0], 0, 1);
-                report_absolute(r, "sphere", at, "rate of the energy (less that of damping), relative, worst",
+                report_absolute(report_beside(r, REPORT_THEORY), "sphere", at, "rate of the energy (less that of damping), relative, worst",
                                 0, o.imbalance, 1e-13);
                 report_info(r, "sphere", at,
                             text_of("first max |div B| / that at t = %g", at_time[last], 0, 0),
@@ -878,7 +877,7 @@ static void sphere(report *r, int full, int quiet)
         report_range(r, "sphere", "constrained, undamped, own h, Omega",
                      text_of("largest max |div B| / first, t <= %g", at_time[last], 0, 0), (double)NAN,
                      o.largest / o.at[0], 0, 1);
-        report_absolute(r, "sphere", "constrained, undamped, own h, Omega",
+        report_absolute(report_beside(r, REPORT_THEORY), "sphere", "constrained, undamped, own h, Omega",
                         "rate of the energy, relative, worst", 0, o.imbalance, 1e-13);
         state_close(&s);
     }

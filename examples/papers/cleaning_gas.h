@@ -97,12 +97,12 @@ static inline sph_points gas_points(const gas *g)
     return sph_points_periodic(sph_points_separate(g->n, g->a[X], g->a[Y], g->a[Z]), g->box[0], g->box[1],
                                g->box[2]);
 }
-/* the targets are the particles before `last` */
-static inline sph_cloud gas_cloud(const gas *g, sph_index last)
+/* the targets: first <= i < last */
+static inline sph_cloud gas_cloud(const gas *g, long first, long last)
 {
     return sph_cloud_range(
-        sph_cloud_of(gas_points(g), g->near.found.list, sph_scalars_array(g->a[H]), sph_scalars_none()), 0,
-        last);
+        sph_cloud_of(gas_points(g), g->near.found.list, sph_scalars_array(g->a[H]), sph_scalars_none()),
+        (sph_index)first, (sph_index)last);
 }
 /* of the vector whose first component is array number `first` */
 static inline double gas_square(const gas *g, int first, sph_index i)
@@ -128,19 +128,23 @@ static inline void gas_lists(gas *g)
         g->a[REACH][i] = 1.04 * sph_kernel_support_ratio(SPH_CUBIC_SPLINE) * g->a[H][i];
     search_all(&g->near, g->dim, gas_points(g), sph_scalars_array(g->a[REACH]), SPH_LARGER);
 }
-/* (4), (5) for the particles before `last` */
-static inline void gas_density(gas *g, sph_index last)
+static inline long gas_density_part(void *data, long first, long last)
 {
+    const gas *const g = (const gas *)data;
     const sph_kernel k = SPH_CUBIC_SPLINE;
+    const sph_cloud cloud = gas_cloud(g, first, last);
     const sph_scalars m = sph_scalars_array(g->a[M]);
     const sph_density_options options = {sph_scalars_array(g->a[REACH]), CLEANING_ETA, 1e-4};
     const sph_density_out out = {.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status};
+    return WITH_DIM_2_3(sph_density_adaptive, k, g->dim, cloud, m, options, out);
+}
+/* (4), (5) for the particles before `last` */
+static inline void gas_density(gas *g, sph_index last)
+{
     sph_index i, failed = 1;
     while (failed > 0) { /* an h outgrew its list */
-        sph_cloud cloud;
         gas_lists(g);
-        cloud = gas_cloud(g, last);
-        failed = WITH_DIM_2_3(sph_density_adaptive, k, g->dim, cloud, m, options, out);
+        failed = (sph_index)threads_each(last, gas_density_part, g);
         expect(failed);
         for (i = 0; i < last && failed > 0; i++)
             if (g->status[i] != SPH_OK && g->status[i] != SPH_LIST_TOO_SHORT) {
@@ -151,11 +155,12 @@ static inline void gas_density(gas *g, sph_index last)
             }
     }
 }
-static inline sph_index gas_rates_of(gas *g)
+static inline long gas_rates_part(void *data, long first, long last)
 {
+    const gas *const g = (const gas *)data;
     const sph_kernel k = SPH_CUBIC_SPLINE;
     const int dim = g->dim;
-    const sph_cloud cloud = gas_cloud(g, g->free);
+    const sph_cloud cloud = gas_cloud(g, first, last);
     const int other = g->cleans && g->form == DIFFERENCES;
     sph_mhd s;
     sph_mhd_out out = {0};
@@ -197,7 +202,7 @@ static inline sph_index gas_rates_of(gas *g)
         int c;
         failed = WITH_DIM_2_3(cleaning_rates_nonconservative, k, dim, cloud, of, to);
         for (c = 0; c < dim; c++)
-            for (i = 0; i < g->free; i++) g->rate[BX + c][i] += g->rate[X + c][i];
+            for (i = (sph_index)first; i < last; i++) g->rate[BX + c][i] += g->rate[X + c][i];
     }
     return failed;
 }
@@ -217,7 +222,7 @@ static inline void gas_rates(gas *g, int renew)
         fastest = fmax(fastest, g->a[CS][i] * g->a[CS][i] + gas_square(g, BX, i) / g->a[RHO][i]);
     }
     if (renew) g->ch = g->overclean * sqrt(fastest);
-    gas_well(g, gas_rates_of(g));
+    gas_well(g, (sph_index)threads_each(g->free, gas_rates_part, g));
     g->left = 0;
     for (i = 0; i < g->free; i++) {
         const sph_switch alpha = {g->a[ALPHA][i], g->alpha[0], g->alpha[1]};

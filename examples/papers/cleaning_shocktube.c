@@ -342,13 +342,13 @@ static void solution(report *r, const volumes *v, const volumes *coarse)
     for (s = 0; s < 4; s++)
         for (k = 0; k < QUANTITIES; k++) {
             q[s][k] = volumes_at(v, middle(s), k);
-            report_absolute(r, "solution", place[s], text_of("%s (Balsara 1998, by ruler)", name_of[k], 0), read_off[k][s], q[s][k], 0.015);
+            report_absolute(report_beside(r, REPORT_OTHERS), "solution", place[s], text_of("%s (Balsara 1998, by ruler)", name_of[k], 0), read_off[k][s], q[s][k], 0.015);
         }
     for (s = 0; s < 2; s++)
-        report_relative(r, "solution", s ? place[3] : place[0], "P / rho^gamma: a rarefaction keeps it", P0[s] / pow(rho0[s], gamma_of_gas),
+        report_relative(report_beside(r, REPORT_THEORY), "solution", s ? place[3] : place[0], "P / rho^gamma: a rarefaction keeps it", P0[s] / pow(rho0[s], gamma_of_gas),
                         q[3 * s][PRESSURE] / pow(q[3 * s][DENSITY], gamma_of_gas), 2e-3);
     for (k = VELOCITY_X; k < QUANTITIES; k++) apart = fmax(apart, fabs(q[1][k] - q[2][k]));
-    report_absolute(r, "solution", "contact", "largest jump of vx, vy, By, P", 0, apart, 1e-3);
+    report_absolute(report_beside(r, REPORT_THEORY), "solution", "contact", "largest jump of vx, vy, By, P", 0, apart, 1e-3);
     /* the slow shock on the right: its speed by mass, momentum across and induction */
     for (k = 0; k < 3; k++) {
         static const int which[3] = {MASS, MOMENTUM_Y, INDUCTION};
@@ -361,7 +361,7 @@ static void solution(report *r, const volumes *v, const volumes *coarse)
     }
     least = fmin(speed[0], fmin(speed[1], speed[2]));
     most = fmax(speed[0], fmax(speed[1], speed[2]));
-    report_range(r, "solution", "slow shock", "its speed by the jumps of mass, momentum, By: largest / least", 1, most / least, 1, 1.005);
+    report_range(report_beside(r, REPORT_THEORY), "solution", "slow shock", "its speed by the jumps of mass, momentum, By: largest / least", 1, most / least, 1, 1.005);
     for (k = 0; k < QUANTITIES; k++) {
         char text[96];
         snprintf(text, sizeof text, "%d and %d cells", coarse->n, v->n);
@@ -421,7 +421,7 @@ static void states(report *r, const outcome *o, int columns, const volumes *v)
             char text[96];
             if (s == 1 && k == DENSITY) continue; /* too narrow: between the compound wave and the contact, both of which are smoothed */
             snprintf(text, sizeof text, "mean %s for x in [%g, %g]", name_of[k], between[s][0], between[s][1]);
-            report_absolute(r, "2D", text_of("%sdx = 1/%.0f, beside the other solution", "", columns), text, volumes_at(v, middle(s), k), o->plateau[k][s],
+            report_absolute(report_beside(r, REPORT_THEORY), "2D", text_of("%sdx = 1/%.0f, beside the other solution", "", columns), text, volumes_at(v, middle(s), k), o->plateau[k][s],
                             0.05 * scale[k]);
         }
 }
@@ -435,6 +435,7 @@ int main(int argc, char **argv)
         {"figures", "folder of the figures' data", OPTION_TEXT, &figures, 0, 0},
         {"full", "finer particles: 1/800 in 2D, 1/96 in 3D; 6400 volumes", OPTION_FLAG, &full, 0, 0},
         {"quiet", "no line of progress", OPTION_FLAG, &quiet, 0, 0},
+        THREADS_OPTION,
     };
     static const int columns[2][MOST] = {{100, 200, 400, 800}, {32, 48, 96, 0}};
     static const setting other[] = {{"without cleaning", 2, 1.0 / 200, 0, 0, 1, 0.3, 1},
@@ -449,7 +450,7 @@ int main(int argc, char **argv)
     static outcome o[2][MOST], p[OTHERS];
     volumes v, coarse;
     FILE *profile;
-    options_parse(argc, argv, "The shock tube of Brio & Wu by all of SPMHD, with and without divergence cleaning.", specs, 4);
+    options_parse(argc, argv, "The shock tube of Brio & Wu by all of SPMHD, with and without divergence cleaning.", specs, 5);
     report_open(&r, "cleaning_shocktube", out);
     figure_folder(figures, "cleaning_shocktube");
     v = volumes_new(full ? 6400 : 3200);
@@ -477,7 +478,7 @@ int main(int argc, char **argv)
     report_range(&r, "cleaning", "no resistivity", "largest h |div B| / |B|, without / with", (double)NAN,
                  p[IDEAL_UNCLEANED].sums.largest / p[IDEAL].sums.largest, 2, HUGE_VAL);
     for (k = 0; k < QUANTITIES; k++)
-        report_range(&r, "cleaning", "alpha_B = 0.3", text_of("L1 of %s, with / without", name_of[k], 0), 1, o[0][1].error[k] / p[UNCLEANED].error[k], 0.9,
+        report_range(&r, "cleaning", "alpha_B = 0.3", text_of("L1 of %s, with / without", name_of[k], 0), (double)NAN, o[0][1].error[k] / p[UNCLEANED].error[k], 0.9,
                      1.1);
     report_info(&r, "(25)", "left out, no resistivity", "energy that this makes and takes, of the total, to t = 0.1", p[IDEAL_STILL].unbalanced);
     report_info(&r, "(25)", "left out, no resistivity", "mean h |div B| / |B|, without / with", p[IDEAL_STILL].sums.error / p[IDEAL].sums.error);

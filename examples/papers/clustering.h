@@ -67,9 +67,9 @@ typedef struct clustering_options {
     {"kernels", "the table of kernels beside the paper's alone", OPTION_FLAG, &(o).kernels, 0, 0}, \
     {"full", "all variants, with the paper's time steps", OPTION_FLAG, &(o).full, 0, 0}, \
     {"vtk", "write 50 pictures of each run for ParaView", OPTION_FLAG, &(o).vtk, 0, 0}, \
-    {"quiet", "no progress on the terminal", OPTION_FLAG, &(o).quiet, 0, 0}
+    {"quiet", "no progress on the terminal", OPTION_FLAG, &(o).quiet, 0, 0}, THREADS_OPTION
 /* clang-format on */
-enum { CLUSTERING_OPTION_COUNT = 12 };
+enum { CLUSTERING_OPTION_COUNT = 13 };
 
 static inline clustering_options clustering_defaults(void)
 {
@@ -331,21 +331,22 @@ static inline void flow_neighbours(flow *f)
     f->rebuilds++;
 }
 
-/* the targets: all particles; the fluid; those that have an acceleration and a rate of density */
+/* the targets: all particles; first <= i < last; the fluid */
 static inline sph_cloud flow_cloud(const flow *f)
 {
     return sph_cloud_of(flow_points(f), search_list(&f->all), sph_scalars_same(&f->h), sph_scalars_none());
 }
-static inline sph_cloud flow_fluid(const flow *f) { return sph_cloud_range(flow_cloud(f), 0, f->n_fluid); }
-static inline sph_cloud flow_moving(const flow *f)
+static inline sph_cloud flow_targets(const flow *f, long first, long last)
 {
-    return sph_cloud_range(flow_cloud(f), 0, flow_moved(f));
+    return sph_cloud_range(flow_cloud(f), (sph_index)first, (sph_index)last);
 }
+static inline sph_cloud flow_fluid(const flow *f) { return flow_targets(f, 0, f->n_fluid); }
 
 /* ---------------------------------------------------------------- accelerations */
 
 /* The paper's three kernels and the Wendland C2 of two dimensions as constants, which fold; one copy for all others, which asks at each pair. SPH_SWITCH_KERNEL would make a copy for every kernel that there is, at the cost of compile time. */
 /* clang-format off */
+#ifndef FLOW_SWITCH_KERNEL /* a driver of fewer kernels compiles those alone */
 #define FLOW_SWITCH_KERNEL(k, CALL) \
     switch (k) { \
     case SPH_WENDLAND_C2_1D: CALL(SPH_WENDLAND_C2_1D); \
@@ -354,40 +355,45 @@ static inline sph_cloud flow_moving(const flow *f)
     case SPH_WENDLAND_C2: CALL(SPH_WENDLAND_C2); \
     default: CALL(k); \
     }
+#endif
 /* clang-format on */
-SPH_FN sph_index flow_density_by(sph_kernel k, const flow *f)
+SPH_FN sph_index flow_density_by(sph_kernel k, const flow *f, sph_cloud targets)
 {
     const sph_scalars m = sph_scalars_array(f->m);
     const sph_scalar_out rho = sph_scalar_out_array(f->rho, 0);
-    return f->form == FLOW_SUMMATION ? sph_density_summation(k, 2, flow_fluid(f), m, rho)
-                                     : sph_density_number(k, 2, flow_fluid(f), m, rho);
+    return f->form == FLOW_SUMMATION ? sph_density_summation(k, 2, targets, m, rho)
+                                     : sph_density_number(k, 2, targets, m, rho);
 }
-SPH_FN sph_index flow_rates_by(sph_kernel k, const flow *f, sph_fluid s)
+SPH_FN sph_index flow_rates_by(sph_kernel k, const flow *f, sph_cloud targets, sph_fluid s)
 {
     sph_fluid_out out = {.acceleration = flow_accelerations(f)};
-    if (f->form == FLOW_SUMMATION) return sph_fluid_rates_monaghan(k, 2, flow_fluid(f), s, out);
-    if (f->form == FLOW_NUMBER) return sph_fluid_rates_hu_adams(k, 2, flow_fluid(f), s, out);
+    if (f->form == FLOW_SUMMATION) return sph_fluid_rates_monaghan(k, 2, targets, s, out);
+    if (f->form == FLOW_NUMBER) return sph_fluid_rates_hu_adams(k, 2, targets, s, out);
     out.rate = f->rate_after_kick ? NULL : f->rate;
-    return sph_fluid_rates_colagrossi(k, 2, flow_moving(f), s, out);
+    return sph_fluid_rates_colagrossi(k, 2, targets, s, out);
 }
-SPH_FN sph_index flow_divergence_by(sph_kernel k, const flow *f)
+SPH_FN sph_index flow_divergence_by(sph_kernel k, const flow *f, sph_cloud targets)
 {
     const double one = 1;
     sph_medium g;
     g.m = sph_scalars_array(f->volume);
     g.rho = g.omega = sph_scalars_same(&one);
-    return sph_divergence_difference(k, 2, flow_moving(f), g, flow_velocities(f),
-                                     sph_scalar_out_array(f->rate, 0));
+    return sph_divergence_difference(k, 2, targets, g, flow_velocities(f), sph_scalar_out_array(f->rate, 0));
 }
 
-static inline sph_index flow_density(flow *f)
+/* Parts of the sweeps, of which each thread takes some: targets first <= i < last */
+static inline long flow_density_part(void *data, long first, long last)
 {
-#define FLOW_DENSITY(K) return flow_density_by(K, f)
+    const flow *const f = (const flow *)data;
+    const sph_cloud targets = flow_targets(f, first, last);
+#define FLOW_DENSITY(K) return flow_density_by(K, f, targets)
     FLOW_SWITCH_KERNEL(f->kernel, FLOW_DENSITY)
 #undef FLOW_DENSITY
 }
-static inline sph_index flow_rates(flow *f)
+static inline long flow_rates_part(void *data, long first, long last)
 {
+    const flow *const f = (const flow *)data;
+    const sph_cloud targets = flow_targets(f, first, last);
     sph_fluid s;
     s.m = sph_scalars_array(f->m);
     s.rho = sph_scalars_array(f->rho);
@@ -398,19 +404,34 @@ static inline sph_index flow_rates(flow *f)
     s.alpha = f->alpha;
     s.beta = 0;
     s.eta = f->eta;
-#define FLOW_RATES(K) return flow_rates_by(K, f, s)
+#define FLOW_RATES(K) return flow_rates_by(K, f, targets, s)
     FLOW_SWITCH_KERNEL(f->kernel, FLOW_RATES)
 #undef FLOW_RATES
 }
+static inline long flow_divergence_part(void *data, long first, long last)
+{
+    const flow *const f = (const flow *)data;
+    const sph_cloud targets = flow_targets(f, first, last);
+#define FLOW_DIVERGENCE(K) return flow_divergence_by(K, f, targets)
+    FLOW_SWITCH_KERNEL(f->kernel, FLOW_DIVERGENCE)
+#undef FLOW_DIVERGENCE
+}
 
+static inline sph_index flow_density(flow *f)
+{
+    return (sph_index)threads_each(f->n_fluid, flow_density_part, f);
+}
+static inline sph_index flow_rates(flow *f)
+{
+    return (sph_index)threads_each(f->form == FLOW_CONTINUITY ? flow_moved(f) : f->n_fluid, flow_rates_part,
+                                   f);
+}
 /* div v with the volumes m / rho of all particles */
 static inline sph_index flow_divergence(flow *f)
 {
     int i;
     for (i = 0; i < f->n; i++) f->volume[i] = f->m[i] / f->rho[i];
-#define FLOW_DIVERGENCE(K) return flow_divergence_by(K, f)
-    FLOW_SWITCH_KERNEL(f->kernel, FLOW_DIVERGENCE)
-#undef FLOW_DIVERGENCE
+    return (sph_index)threads_each(flow_moved(f), flow_divergence_part, f);
 }
 /* (5.23) alone, as -rho div v: half the cost of all rates */
 static inline void flow_continuity(flow *f)

@@ -71,8 +71,8 @@ static inline void column_rows(report *r, const char *run, const front_record *f
     }
     measured = statistics_slope(t + 5, martin_Z + 5, MARTIN - 5);
     speed = statistics_slope(t + 5, z + 5, MARTIN - 5);
-    if (judged) report_relative(r, "column", run, quantity, measured, speed, 0.15);
-    else report_number_row(r, "column", run, quantity, measured, speed, NULL, NULL, REPORT_INFO);
+    if (judged) report_relative(report_beside(r, REPORT_OTHERS), "column", run, quantity, measured, speed, 0.15);
+    else report_number_row(report_beside(r, REPORT_OTHERS), "column", run, quantity, measured, speed, NULL, NULL, REPORT_INFO);
     column_compare(f, martin_T, martin_Z, MARTIN, &worst, &mean);
     report_info(r, "column", run, "mean of Z / Z of Martin & Moyce - 1", mean);
     report_info(r, "column", run, "largest of these", worst);

@@ -108,50 +108,73 @@ SPH_FN void find_neighbours(int dim, dam *d)
     search_grid_build(&d->grid, dim, now, reach);
     query.targets.n = d->n_fluid;
     search_lists_find(&d->all, dim, &d->grid, query);
-    query.target_radius = sph_scalars_same(&touching);
+    query.radius = sph_scalars_same(&touching);
     query.flags = SPH_LIST_SORTED;
     search_lists_find(&d->colliding, dim, &d->grid, query);
     neighbours_mixed(&d->colliding, d->n_fluid, d->ghost);
     for (k = 0; k < dim; k++) memcpy(d->old[k], d->x[k], (size_t)d->n * sizeof(double));
 }
 
-SPH_FN void step(int dim, dam *d, double dt)
+static sph_cloud targets(const dam *d, long first, long last)
 {
-    static const double one = 1;
-    const sph_fluid_out rates = {.acceleration = vectors_into(d->a, dim)};
-    const sph_vectors v = vectors_of(d->v, dim);
-    const sph_collision collision = {distance * d->dref, restitution, sph_scalars_array(d->inverse_mass)};
-    const sph_tait state = water_of(d);
-    sph_cloud fluid, colliding;
+    return sph_cloud_range(
+        sph_cloud_of(points(d, d->x), search_list(&d->all), sph_scalars_same(&d->h), sph_scalars_none()),
+        (sph_index)first, (sph_index)last);
+}
+SPH_FN long rates(int dim, const dam *d, long first, long last)
+{
+    const sph_fluid_out out = {.acceleration = vectors_into(d->a, dim)};
     sph_fluid s;
-    sph_medium g;
-    int i, k;
-    find_neighbours(dim, d);
-    fluid = sph_cloud_range(
-        sph_cloud_of(points(d, d->x), search_list(&d->all), sph_scalars_same(&d->h), sph_scalars_none()), 0,
-        d->n_fluid);
-    colliding = fluid;
-    colliding.list = search_list(&d->colliding);
-    for (i = 0; i < d->n_fluid; i++) d->p[i] = sph_pressure_tait(d->rho[i], state);
     s.m = sph_scalars_array(d->m);
     s.rho = sph_scalars_array(d->rho);
     s.p = sph_scalars_array(d->p);
     s.c = sph_scalars_array(d->sound);
-    s.v = v;
+    s.v = vectors_of(d->v, dim);
     s.viscosity = SPH_VISCOSITY_MONAGHAN;
     s.alpha = 0.01;
     s.beta = 0;
     s.eta = 0.1;
-    expect(sph_fluid_rates_colagrossi(wendland, dim, fluid, s, rates));
+    return sph_fluid_rates_colagrossi(wendland, dim, targets(d, first, last), s, out);
+}
+SPH_FN long divergence(int dim, const dam *d, long first, long last)
+{
+    static const double one = 1;
+    sph_medium g;
+    g.m = sph_scalars_array(d->volume);
+    g.rho = g.omega = sph_scalars_same(&one);
+    return sph_divergence_difference(wendland, dim, targets(d, first, last), g, vectors_of(d->v, dim),
+                                     sph_scalar_out_array(d->divergence, 0));
+}
+/* what each thread does of them */
+static long rates_part(void *data, long first, long last)
+{
+    const dam *const d = (const dam *)data;
+    return d->dim > 2 ? rates(3, d, first, last) : rates(2, d, first, last);
+}
+static long divergence_part(void *data, long first, long last)
+{
+    const dam *const d = (const dam *)data;
+    return d->dim > 2 ? divergence(3, d, first, last) : divergence(2, d, first, last);
+}
+
+SPH_FN void step(int dim, dam *d, double dt)
+{
+    const sph_collision collision = {distance * d->dref, restitution, sph_scalars_array(d->inverse_mass)};
+    const sph_tait state = water_of(d);
+    sph_cloud colliding;
+    int i, k;
+    find_neighbours(dim, d);
+    colliding = targets(d, 0, d->n_fluid);
+    colliding.list = search_list(&d->colliding);
+    for (i = 0; i < d->n_fluid; i++) d->p[i] = sph_pressure_tait(d->rho[i], state);
+    expect((sph_index)threads_each(d->n_fluid, rates_part, d));
     for (i = 0; i < d->n_fluid; i++) {
         d->a[1][i] -= column_gravity;
         for (k = 0; k < dim; k++) d->v[k][i] += dt * d->a[k][i];
     }
     expect(sph_collision_sequential(dim, colliding, collision, vectors_into(d->v, dim), NULL));
     for (i = 0; i < d->n; i++) d->volume[i] = d->m[i] / d->rho[i];
-    g.m = sph_scalars_array(d->volume);
-    g.rho = g.omega = sph_scalars_same(&one);
-    expect(sph_divergence_difference(wendland, dim, fluid, g, v, sph_scalar_out_array(d->divergence, 0)));
+    expect((sph_index)threads_each(d->n_fluid, divergence_part, d));
     for (i = 0; i < d->n_fluid; i++) {
         d->rho[i] -= dt * d->rho[i] * d->divergence[i];
         for (k = 0; k < dim; k++) d->x[k][i] += dt * d->v[k][i];
@@ -277,7 +300,8 @@ int main(int argc, char **argv)
         {"figures", "folder of the figures' data", OPTION_TEXT, &c.figures, 0, 0},
         {"full", "dref = a/20", OPTION_FLAG, &c.full, 0, 0},
         {"vtk", "write 40 pictures of each run for ParaView", OPTION_FLAG, &c.vtk, 0, 0},
-        {"quiet", "no progress on the terminal", OPTION_FLAG, &c.quiet, 0, 0}};
+        {"quiet", "no progress on the terminal", OPTION_FLAG, &c.quiet, 0, 0},
+        THREADS_OPTION};
     static const char *const name[] = {"two dimensions, square lattice", "three dimensions"},
                              *const file[] = {"plane", "space"};
     static report r;
@@ -288,7 +312,7 @@ int main(int argc, char **argv)
     options_parse(argc, argv,
                   "A column of water of a x 2a x a collapses in a channel: three dimensions beside two and "
                   "beside Martin & Moyce 1952.",
-                  specs, 6);
+                  specs, (int)(sizeof specs / sizeof *specs));
     report_open(&r, "clustering_dam3d", c.out);
     if (resolution == 0) resolution = c.full ? 20 : 10;
     snprintf(text, sizeof text, "A column of a x 2a x a, dref = a/%d", resolution);

@@ -12,6 +12,13 @@
  *     velocity cleaning (Tricco & Price 2012).
  */
 #include "../common/statistics.h"
+#define FLOW_SWITCH_KERNEL(k, CALL) \
+    switch (k) { /* of the methods below */ \
+    case SPH_WENDLAND_C2_1D: CALL(SPH_WENDLAND_C2_1D); \
+    case SPH_CONVEX: CALL(SPH_CONVEX); \
+    case SPH_WENDLAND_C2: CALL(SPH_WENDLAND_C2); \
+    default: return SPH_ERROR_KERNEL; \
+    }
 #include "clustering_viscous.h"
 
 typedef struct method {
@@ -257,10 +264,10 @@ static void background_pressure(report *r, const vortices *convex, const vortice
 {
     double S, G;
     clustering_lattice(SPH_CONVEX, 1.5, &S, &G);
-    report_absolute(r, "Taylor-Green", "(3.9), h = 1.5 dref",
-                    "c^2 (S - 1) on the lattice (published: the p0 of the next row)", methods[BACKGROUND].p0,
+    report_absolute(report_beside(r, REPORT_THEORY), "Taylor-Green", "(3.9), h = 1.5 dref",
+                    "c^2 (S - 1) on the lattice, and the p0 of the next row", methods[BACKGROUND].p0,
                     100 * (S - 1), 0.05);
-    report_absolute(r, "Taylor-Green", "(3.9) beside (1.1) with this pressure",
+    report_absolute(report_beside(r, REPORT_REGRESSION), "Taylor-Green", "(3.9) beside (1.1) with this pressure",
                     "viscosity / nu, t = 0 to 0.05", conventional->early / nu, convex->early / nu, 0.05);
 }
 
@@ -290,8 +297,8 @@ static void decay(report *r, const clustering_options *c)
                 snprintf(setting, sizeof setting, "%s, h = %g dref, %d columns", methods[m].name,
                          smoothing[s], columns[g]);
                 if (plain)
-                    report_absolute(r, "Taylor-Green", setting,
-                                    "viscosity / nu, t = 0 to 0.05 (published: of the lattice)",
+                    report_absolute(report_beside(r, REPORT_THEORY), "Taylor-Green", setting,
+                                    "viscosity / nu, t = 0 to 0.05, and that of the lattice",
                                     v->lattice / nu, v->early / nu, 0.05);
                 else report_info(r, "Taylor-Green", setting, "viscosity / nu, t = 0 to 0.05", v->early / nu);
                 report_info(r, "Taylor-Green", setting, "viscosity / nu, t = 0.25 to 0.5", v->late / nu);
@@ -347,11 +354,12 @@ int main(int argc, char **argv)
     const option_spec specs[] = {{"out", "folder of the result table", OPTION_TEXT, &c.out, 0, 0},
                                  {"figures", "folder of the figures' data", OPTION_TEXT, &c.figures, 0, 0},
                                  {"full", "finer lattices, too", OPTION_FLAG, &c.full, 0, 0},
-                                 {"quiet", "no progress on the terminal", OPTION_FLAG, &c.quiet, 0, 0}};
+                                 {"quiet", "no progress on the terminal", OPTION_FLAG, &c.quiet, 0, 0},
+                                 THREADS_OPTION};
     static report r;
     options_parse(argc, argv,
                   "Viscous flows with a known solution, by the methods of the paper on particle clustering.",
-                  specs, 4);
+                  specs, (int)(sizeof specs / sizeof *specs));
     report_open(&r, "clustering_flows", c.out);
     between_plates(&r, &c);
     decay(&r, &c);

@@ -287,7 +287,7 @@ static void judge(report *r, const outcome *o)
                  o[HERMITE].d.void_share > o[WENDLAND].d.void_share && o[HERMITE].d.below_50 > o[WENDLAND].d.below_50);
     snprintf(text, sizeof text, "nu = %.2g (1.1), %.2g (3.9), %.2g with collisions; air: 1.5e-5", o[WENDLAND].viscosity, o[CONVEX].viscosity,
              o[COLLISIONS].viscosity);
-    report_row(r, "Section V.III", "velocities", "'they may cause our flow to be less realistic'", "nothing known", text, NULL,
+    report_row(r, "Section V.III", "velocities", "'they may cause our flow to be less realistic'", NULL, text, NULL,
                "collisions act as viscosity; but clustered particles transport least, and none of these flows is that of air", REPORT_INFO);
 }
 

@@ -202,7 +202,7 @@ static void kernels(report *r, const clustering_options *o, double dt)
                      x.answer == FLOW_DONE ? "ran to" : "blew up at", x.t, x.fastest, x.nearest);
             report_row(r, "kernel", at, "outcome", NULL, text, NULL, NULL, REPORT_INFO);
             if (x.answer == FLOW_DONE)
-                report_number_row(r, "kernel", at, "mean error [%] (published: lattice formula)",
+                report_number_row(report_beside(r, REPORT_THEORY), "kernel", at, "mean error [%], and by the lattice formula",
                                   p ? (double)NAN : expected, x.mean, NULL, NULL, REPORT_INFO);
             if (x.answer == FLOW_DONE) spread(r, at, &x);
         }
@@ -265,7 +265,7 @@ int main(int argc, char **argv)
             x[a] = simulate(entry[a].k, entry[a].h, 0, entry[a].remedy, 0, 0.01, dt, 1, &o, entry[a].name,
                             curve.to, label);
         report_absolute(&r, "Table 1", at, "mean error [%]", entry[a].published, x[a].mean, 0.1);
-        report_absolute(&r, "Table 1", at, "mean error [%] (published: lattice formula)",
+        report_absolute(report_beside(&r, REPORT_THEORY), "Table 1", at, "mean error [%], and by the lattice formula",
                         formula(entry[a].k, entry[a].h), x[a].mean, 0.05);
         spread(&r, at, &x[a]);
         cost += x[a].microseconds / ENTRIES;

@@ -23,15 +23,24 @@ typedef struct viscous {
 
 /* ---------------------------------------------------------------- before the accelerations: psi and walls */
 
-SPH_FN sph_index viscous_walls_by(sph_kernel k, flow *f, viscous *w)
+SPH_FN sph_index viscous_walls_by(sph_kernel k, const flow *f, sph_cloud targets)
 {
+    const viscous *const w = (const viscous *)f->data;
     const sph_wall wall = {.share = sph_scalars_array(w->share),
                            .rho = sph_scalars_array(f->rho),
                            .p = sph_scalars_array(f->p),
                            .v = flow_velocities(f),
                            .velocity = flow_velocities(f)};
     const sph_wall_out out = {.p = w->wall_p, .v = sph_vector_out_separate(w->wall_vx, w->wall_vy, NULL)};
-    return sph_wall_adami(k, 2, sph_cloud_range(flow_cloud(f), f->n_fluid, f->n), wall, out);
+    return sph_wall_adami(k, 2, targets, wall, out);
+}
+static inline long viscous_walls_part(void *data, long first, long last) /* of the ghosts */
+{
+    const flow *const f = (const flow *)data;
+    const sph_cloud targets = flow_targets(f, f->n_fluid + first, f->n_fluid + last);
+#define VISCOUS_WALLS(K) return viscous_walls_by(K, f, targets)
+    FLOW_SWITCH_KERNEL(f->kernel, VISCOUS_WALLS)
+#undef VISCOUS_WALLS
 }
 /* psi joins the pressure. Then pressure, and the density that belongs to it, of ghosts, and the velocity that makes the fluid stick to them; their own stays that of the wall. */
 static inline void viscous_pressures(flow *f)
@@ -40,11 +49,7 @@ static inline void viscous_pressures(flow *f)
     int i;
     for (i = 0; i < f->n_fluid && w->ch > 0; i++) f->p[i] += w->psi[i];
     if (f->n == f->n_fluid) return;
-#define VISCOUS_WALLS(K) \
-    expect(viscous_walls_by(K, f, w)); \
-    break
-    FLOW_SWITCH_KERNEL(f->kernel, VISCOUS_WALLS)
-#undef VISCOUS_WALLS
+    expect((sph_index)threads_each(f->n - f->n_fluid, viscous_walls_part, f));
     for (i = f->n_fluid; i < f->n; i++) {
         f->p[i] = w->wall_p[i];
         f->rho[i] = sph_density_tait(f->p[i], f->state[f->phase[i]]);
@@ -53,14 +58,23 @@ static inline void viscous_pressures(flow *f)
 
 /* ---------------------------------------------------------------- after them: viscosity */
 
-SPH_FN sph_index viscous_accelerations_by(sph_kernel k, const flow *f, const viscous *w)
+SPH_FN sph_index viscous_accelerations_by(sph_kernel k, const flow *f, sph_cloud targets)
 {
+    const viscous *const w = (const viscous *)f->data;
     const sph_fluid fluid = {.m = sph_scalars_array(f->m),
                              .rho = sph_scalars_array(f->rho),
                              .v = sph_vectors_separate(w->vx, w->vy, NULL),
                              .eta = 0.1};
-    return sph_viscosity_mu_morris(k, 2, flow_fluid(f), fluid, sph_scalars_same(&w->mu),
+    return sph_viscosity_mu_morris(k, 2, targets, fluid, sph_scalars_same(&w->mu),
                                    sph_vector_out_separate(w->ax, w->ay, NULL));
+}
+static inline long viscous_accelerations_part(void *data, long first, long last)
+{
+    const flow *const f = (const flow *)data;
+    const sph_cloud targets = flow_targets(f, first, last);
+#define VISCOUS_ACCELERATIONS(K) return viscous_accelerations_by(K, f, targets)
+    FLOW_SWITCH_KERNEL(f->kernel, VISCOUS_ACCELERATIONS)
+#undef VISCOUS_ACCELERATIONS
 }
 static inline void viscous_forces(flow *f)
 {
@@ -70,11 +84,7 @@ static inline void viscous_forces(flow *f)
         w->vx[i] = f->ghost[i] ? w->wall_vx[i] : f->vx[i];
         w->vy[i] = f->ghost[i] ? w->wall_vy[i] : f->vy[i];
     }
-#define VISCOUS_FORCES(K) \
-    expect(viscous_accelerations_by(K, f, w)); \
-    break
-    FLOW_SWITCH_KERNEL(f->kernel, VISCOUS_FORCES)
-#undef VISCOUS_FORCES
+    expect((sph_index)threads_each(f->n_fluid, viscous_accelerations_part, f));
     for (i = 0; i < f->n_fluid; i++) {
         f->ax[i] += w->ax[i] + w->body_force;
         f->ay[i] += w->ay[i];

@@ -185,21 +185,23 @@ static inline double collapse_length_of(double *const *a, int which, sph_index i
     return collapse_length(v);
 }
 
-/* Sweeps over ranges of the gas, by the threads of the driver where it is compiled with them */
+/* Sweeps over ranges of the gas, which threads share */
 typedef sph_index (*collapse_sweep)(collapse *g, sph_index first, sph_index last);
+typedef struct collapse_job {
+    collapse_sweep work;
+    collapse *g;
+} collapse_job;
+static inline long collapse_part(void *data, long first, long last)
+{
+    const collapse_job *const job = (const collapse_job *)data;
+    return job->work(job->g, (sph_index)first, (sph_index)last);
+}
 static inline sph_index collapse_everywhere(collapse_sweep work, collapse *g, sph_index n)
 {
-    sph_index failed = 0;
-#ifdef _OPENMP
-    enum { PIECES = 64 };
-    sph_index k;
-#pragma omp parallel for schedule(dynamic) reduction(+ : failed)
-    for (k = 0; k < PIECES; k++)
-        failed += work(g, (sph_index)((int64_t)n * k / PIECES), (sph_index)((int64_t)n * (k + 1) / PIECES));
-#else
-    failed = work(g, 0, n);
-#endif
-    return failed;
+    collapse_job job;
+    job.work = work;
+    job.g = g;
+    return (sph_index)threads_each(n, collapse_part, &job);
 }
 static inline int collapse_expect(collapse *g, sph_index answer, const char *operation)
 {

@@ -246,8 +246,7 @@ static inline void tree_neighbours(const tree *t, const double *x, const double 
             sph_index *const row = rows->index + rows->pairs;
             const double xi = x[i], yi = y[i], zi = z[i], own = radius[i] * radius[i];
             sph_index count = 0;
-            SPH_EACH
-            for (j = 0; j < found; j++) {
+            SPH_EACH(j, 0, found) {
                 double dx = xi - cx[j], dy = yi - cy[j], dz = zi - cz[j];
                 dx -= box * (double)(int)(dx * inverse + copysign(0.5, dx));
                 dy -= box * (double)(int)(dy * inverse + copysign(0.5, dy));
@@ -328,8 +327,7 @@ static inline void tree_gravity(sph_kernel kernel, const tree *t, int first, int
         for (i = group->first; i < group->last; i++) {
             const double xi = x[i], yi = y[i], zi = z[i], own = support * support * h[i] * h[i];
             double sx = 0, sy = 0, sz = 0;
-            SPH_SUM(sx, sy, sz)
-            for (j = 0; j < s.nodes; j++) {
+            SPH_SUM(j, 0, s.nodes, sx, sy, sz) {
                 const double dx = xi - s.node[1][j], dy = yi - s.node[2][j], dz = zi - s.node[3][j];
                 const double per_r2 = 1 / (dx * dx + dy * dy + dz * dz), per_r = sqrt(per_r2), per_r5 = per_r2 * per_r2 * per_r;
                 const double qx = s.node[4][j] * dx + s.node[5][j] * dy + s.node[7][j] * dz, qy = s.node[5][j] * dx + s.node[6][j] * dy + s.node[8][j] * dz,
@@ -340,8 +338,7 @@ static inline void tree_gravity(sph_kernel kernel, const tree *t, int first, int
                 sy += qy * per_r5 - along * dy;
                 sz += qz * per_r5 - along * dz;
             }
-            SPH_SUM(sx, sy, sz)
-            for (j = 0; j < s.points; j++) { /* Newton, where no softening reaches */
+            SPH_SUM(j, 0, s.points, sx, sy, sz) { /* Newton, where no softening reaches */
                 const double dx = xi - s.point[1][j], dy = yi - s.point[2][j], dz = zi - s.point[3][j];
                 const double r2 = dx * dx + dy * dy + dz * dz, limit = tree_larger(own, s.point[4][j]);
                 const double outside = 0.5 + copysign(0.5, r2 - limit), safe = r2 + (1 - outside) * limit,

@@ -13,6 +13,7 @@
 #include "../common/statistics.h"
 #include "elliptic.h"
 #include "elliptic_msph_diagonal.h"
+#include "elliptic_schwaiger.h"
 
 /* Beside the four schemes of elliptic.h: M-SPH with Gamma* (71) as printed, wherever it can be inverted at all, which is what (70) asks for; and the library's, which takes Gamma where Gamma*
    is not definite. */
@@ -239,7 +240,7 @@ static void definition1(report *r)
     int i;
     for (i = -200; i <= 200; i++) sum += sph_kernel_w(ELLIPTIC_KERNEL, 1, 0.01 * fabs((double)i), 1.0) * 0.01;
     report_section(r, "Section 2.1: the kernel");
-    report_absolute(r, "(12)", "1D, factor 2/3", "integral of W", 1, sum, 1e-8);
+    report_absolute(report_beside(r, REPORT_THEORY), "(12)", "1D, factor 2/3", "integral of W", 1, sum, 1e-8);
     snprintf(text, sizeof text, "integral of W = %.4f", sum * 1.5 / (2.0 / 3.0));
     report_claim_fails(r, "(12)", "1D", "factor of the cubic spline", "3/2", text,
                        "1D needs 2/3; 10/(7 pi) and 1/pi are right");
@@ -322,7 +323,7 @@ static void figures12(report *r, cloud *c, const char *figures)
         if (a == F12_B)
             elliptic_regression(r, item, f12_name[a], "value inside (exact 4): Gamma is not 1", 4.05239782,
                                 value[a][60]);
-        else report_absolute(r, item, f12_name[a], "max error, interior", 0, off, 1e-10);
+        else report_absolute(report_beside(r, REPORT_THEORY), item, f12_name[a], "max error, interior", 0, off, 1e-10);
         if (a <= F12_CB)
             elliptic_regression(r, item, f12_name[a], "value at the corner", known_corner[a], value[a][0]);
     }
@@ -335,7 +336,7 @@ static void figures12(report *r, cloud *c, const char *figures)
 
     /* (70) asks whether Gamma* is 0 */
     fell = apply(c, SCHEME_M_STAR_SAFE, SPH_GRADIENT_DIFFUSE);
-    report_absolute(r, "(70)", "f = 1, M Gamma* or Gamma", "value at x = -0.5 is that with Gamma",
+    report_absolute(report_beside(r, REPORT_THEORY), "(70)", "f = 1, M Gamma* or Gamma", "value at x = -0.5 is that with Gamma",
                     value[F12_S][55], c->value[55], 1e-10);
     report_info(r, "(70)", "f = 1, M Gamma* or Gamma", "particles of 121 that fell back to Gamma", fell);
     cloud_rows(c, SCHEME_M, (sph_elliptic_options){0});
@@ -344,7 +345,7 @@ static void figures12(report *r, cloud *c, const char *figures)
         if (s.xx + s.yy > 0.1 && sph_sym_eigenvalues(2, s).x < 1e-10) singular++;
     }
     snprintf(text, sizeof text, "singular, but not 0, at %d of 121 particles", singular);
-    report_claim_fails(r, "(70)", "f = 1", "when to use Gamma*", "where it is not 0", text,
+    report_claim_known(r, "(70)", "f = 1", "when to use Gamma*", "where it is not 0", text, "none is singular", singular == 0, 0,
                        "all x-neighbours of a side have one offset: Gamma*_xx = 0, its inverse is not there");
 }
 
@@ -435,7 +436,7 @@ static void figure34(report *r, cloud *c, const char *figures, int field, int s,
 
     for (scheme = SCHEME_CB; scheme < ALL_SCHEMES; scheme++)
         for (gradient = 0; gradient < GRADIENTS; gradient++) {
-            report_absolute(r, item, named(scheme, gradient), "max error, interior", 0,
+            report_absolute(report_beside(r, REPORT_THEORY), item, named(scheme, gradient), "max error, interior", 0,
                             e[scheme][gradient].inside, 1e-10);
             for (k = 0; k < count; k++)
                 if (known[k].scheme == scheme && known[k].gradient == gradient) break;
@@ -475,8 +476,9 @@ static void figure34(report *r, cloud *c, const char *figures, int field, int s,
                  "identical for radial gradients", same[0] < 1e-8 && same[2] < 1e-8 && same[3] < 1e-8);
     snprintf(text, sizeof text, "L2 error with (15): Gamma %.4g, Gamma* %.4g; with (16): %.4g, %.4g",
              e[SCHEME_M][0].l2, e[SCHEME_M_STAR][0].l2, e[SCHEME_M][1].l2, e[SCHEME_M_STAR][1].l2);
-    report_claim_fails(
-        r, item, "M", "Gamma* against Gamma", "higher accuracy with Gamma*", text,
+    report_claim_known(
+        r, item, "M", "Gamma* against Gamma", "higher accuracy with Gamma*", text, "smaller error",
+        e[SCHEME_M_STAR][0].l2 < e[SCHEME_M][0].l2 || e[SCHEME_M_STAR][1].l2 < e[SCHEME_M][1].l2, 0,
         "better one layer inside, far worse on the boundary, where Gamma* is indefinite or nearly singular");
 }
 
@@ -500,44 +502,13 @@ static void gamma_star_deviation(report *r, cloud *c)
         char text[96];
         snprintf(setting, sizeof setting, "f = 1.2, layer %d of a side, (15)", layer);
         snprintf(text, sizeof text, "|Gamma* - 1| = %.4f, |Gamma - 1| = %.4f", star, gamma);
-        if (star <= gamma + 1e-12)
-            report_claim(r, "Section 3.1", setting, "deviation from 1", "Gamma* below Gamma", text,
-                         "not larger", 1);
-        else
-            report_claim_fails(r, "Section 3.1", setting, "deviation from 1", "Gamma* below Gamma", text,
-                               "one-sided neighbours: Gamma* loses what 1 - xi . e takes away");
+        report_claim_known(r, "Section 3.1", setting, "deviation from 1", "Gamma* below Gamma", text, "not larger",
+                           star <= gamma + 1e-12, layer >= 2,
+                           "one-sided neighbours: Gamma* loses what 1 - xi . e takes away");
     }
 }
 
 /* ---------------------------------------------------------------- 'cannot be written in the form (66)' */
-
-/* (52) as it is printed, with its three gradients kept apart, from the rows of B: they are V (m_i + m_j) t */
-static double schwaiger_as_printed(const cloud *c, int i)
-{
-    const sph_sym C = inverse_2d(row_moment(c, i));
-    const double m_i = c->m[i], u_i = c->u[i];
-    double first = 0, nx = 0, ny = 0, grad_mu_x = 0, grad_mu_y = 0, grad_m_x = 0, grad_m_y = 0, grad_u_x = 0,
-           grad_u_y = 0;
-    sph_index p;
-    for (p = c->lists.start[i]; p < c->lists.start[i + 1]; p++) {
-        const sph_index j = c->lists.index[p];
-        const double m_j = c->m[j], u_j = c->u[j], w = c->row[p] / (m_i + m_j), x = c->x[j] - c->x[i],
-                     y = c->y[j] - c->y[i];
-        const double gx = w * (C.xx * x + C.xy * y), gy = w * (C.xy * x + C.yy * y);
-        first += c->row[p] * (u_j - u_i);
-        nx += w * x;
-        ny += w * y;
-        grad_mu_x += gx * (m_j * u_j - m_i * u_i);
-        grad_mu_y += gy * (m_j * u_j - m_i * u_i);
-        grad_m_x += gx * (m_j - m_i);
-        grad_m_y += gy * (m_j - m_i);
-        grad_u_x += gx * (u_j - u_i);
-        grad_u_y += gy * (u_j - u_i);
-    }
-    first -= (grad_mu_x - u_i * grad_m_x + m_i * grad_u_x) * nx +
-             (grad_mu_y - u_i * grad_m_y + m_i * grad_u_y) * ny;
-    return 0.5 * (C.xx + C.yy) * first;
-}
 
 /* max |value - other| / max |value| */
 static double difference(const cloud *c, const double *other)
@@ -554,7 +525,7 @@ static double difference(const cloud *c, const double *other)
 static void two_point_form(report *r, cloud *c)
 {
     sph_elliptic_report diagnosis = {0};
-    double other[225], off, largest_n[2] = {0, 0};
+    double other[225], off, apart, largest_n[2] = {0, 0};
     char text[160];
     pcg32 g;
     int gradient, i;
@@ -568,26 +539,32 @@ static void two_point_form(report *r, cloud *c)
         c->u[i] = pcg32_uniform(&g);
     }
     report_section(r, "Section 3: Schwaiger's scheme and the two-point form; random cloud, V, m, u");
-    cloud_rows(c, SCHEME_B, (sph_elliptic_options){0});
-    for (i = 0; i < c->n; i++) other[i] = schwaiger_as_printed(c, i);
-    cloud_apply(c, SCHEME_S, (sph_elliptic_options){0});
-    off = difference(c, other);
-    snprintf(text, sizeof text, "three gradients apart and two-point sum differ by %.1g of the largest", off);
-    report_claim_fails(r, "Section 3", "S (15)", "(52) in the two-point form (66)", "cannot be written so",
-                       text,
-                       "m_j u_j - m_i u_i - u_i (m_j - m_i) + m_i (u_j - u_i) = (m_i + m_j) (u_j - u_i)");
-    report_range(r, "Section 3", "S (15)", "two-point sum against (52) as printed", (double)NAN, off, 0,
-                 1e-12);
     for (gradient = 0; gradient < GRADIENTS; gradient++) {
-        cloud_apply(c, SCHEME_S, elliptic_with_gradient(gradient));
-        for (i = 0; i < c->n; i++) other[i] = c->value[i];
-        cloud_apply(c, SCHEME_M, elliptic_with_gradient(gradient));
         snprintf(setting, sizeof setting, "S against M, %s", elliptic_gradient_name[gradient]);
-        if (gradient == SPH_GRADIENT_FULL)
+        cloud_rows(c, SCHEME_M, elliptic_with_gradient(gradient));
+        if (gradient == SPH_GRADIENT_FULL) {
+            cloud_apply(c, SCHEME_S, elliptic_with_gradient(gradient));
+            for (i = 0; i < c->n; i++) other[i] = c->value[i];
+            cloud_apply(c, SCHEME_M, elliptic_with_gradient(gradient));
             report_info(r, "Section 3", setting, "max |S - M| / max |M| (N is not N~)", difference(c, other));
-        else
-            report_range(r, "Section 3", setting, "max |S - M| / max |M| (identical)", (double)NAN,
-                         difference(c, other), 0, 1e-12);
+            continue;
+        }
+        apart = schwaiger_rows(c, c->n, gradient);
+        report_range(report_beside(r, REPORT_THEORY), "Section 3", setting,
+                     "(52) as printed against two-point rows, of the largest entry", 0, apart, 0, 1e-12);
+        if (gradient != SPH_GRADIENT_DIFFUSE) continue;
+        snprintf(text, sizeof text, "three gradients apart and two-point sum differ by %.1g of the largest", apart);
+        report_claim_known(r, "Section 3", "S (15)", "(52) in the two-point form (66)", "cannot be written so", text,
+                           "they differ by more than 1e-12", !(apart <= 1e-12), 0,
+                           "m_j u_j - m_i u_i - u_i (m_j - m_i) + m_i (u_j - u_i) = (m_i + m_j) (u_j - u_i)");
+        cloud_apply(c, SCHEME_S, elliptic_with_gradient(gradient));
+        for (i = 0; i < c->n; i++) {
+            sph_index p;
+            other[i] = c->diagonal[i] * c->u[i];
+            for (p = c->lists.start[i]; p < c->lists.start[i + 1]; p++) other[i] += c->row[p] * c->u[c->lists.index[p]];
+        }
+        off = difference(c, other);
+        report_range(report_beside(r, REPORT_THEORY), "Section 3", "S (15)", "two-point sum against (52) as printed", 0, off, 0, 1e-12);
     }
     diagnosis.n = c->value;
     for (gradient = 0; gradient < 2; gradient++) {
@@ -741,8 +718,8 @@ static void uniform_1d(report *r, cloud *c)
                                "the third derivative of W jumps at z = 1, too: order 3 unless that is on a "
                                "particle or between two; (37) wants a smooth kernel");
     }
-    report_absolute(r, "(38)", "uniform, h = 1", "max |N| (by symmetry)", 0, most_n, 1e-12);
-    report_absolute(r, "(40)", "uniform, h = 1", "max |U| (by symmetry)", 0, most_u, 1e-12);
+    report_absolute(report_beside(r, REPORT_THEORY), "(38)", "uniform, h = 1", "max |N| (by symmetry)", 0, most_n, 1e-12);
+    report_absolute(report_beside(r, REPORT_THEORY), "(40)", "uniform, h = 1", "max |U| (by symmetry)", 0, most_u, 1e-12);
 }
 
 static void disordered_1d(report *r, cloud *c, int draws)
@@ -750,7 +727,7 @@ static void disordered_1d(report *r, cloud *c, int draws)
     static const char *const name[3] = {"N", "Gamma - 1", "U"};
     static const char *const item[3] = {"(42)", "(43)", "(44)"};
     static const double power_of_h[3] = {-1, 0, 1};
-    double x[6], y[3][6], slope;
+    double x[6], y[3][6], slope, n_in_h = 0;
     char text[96], quantity[64];
     int a, k;
     report_section(r, "Section 2.3: N, Gamma - 1, U in 1D, particles moved by up to delta dx (rms)");
@@ -776,8 +753,9 @@ static void disordered_1d(report *r, cloud *c, int draws)
     }
     for (a = 0; a < 3; a++) {
         snprintf(quantity, sizeof quantity, "exponent of %s in h (dx / h fixed)", name[a]);
-        report_absolute(r, item[a], "h / dx = 4, delta = 0.1, h = 1 to 1/16", quantity, power_of_h[a],
-                        statistics_slope(x, y[a], 5), 1e-6);
+        slope = statistics_slope(x, y[a], 5);
+        if (a == 0) n_in_h = slope;
+        report_absolute(r, item[a], "h / dx = 4, delta = 0.1, h = 1 to 1/16", quantity, power_of_h[a], slope, 1e-6);
     }
     for (k = 0; k < 6; k++) {
         const double q = 4 * (1 << k);
@@ -791,15 +769,13 @@ static void disordered_1d(report *r, cloud *c, int draws)
         slope = statistics_slope(x, y[a], 6);
         snprintf(quantity, sizeof quantity, "exponent of %s in dx / h", name[a]);
         snprintf(text, sizeof text, "%.3f", slope);
-        if (fabs(slope - 1.5) < 0.1)
-            report_claim_fails(r, item[a], "h = 1, delta = 0.1, h / dx = 4 to 128", quantity, "2", text,
-                               "each term is of order 2; a sum of 4 h / dx independent ones of order 3/2");
-        else
-            report_claim(r, item[a], "h = 1, delta = 0.1, h / dx = 4 to 128", quantity, "2", text, "2 +- 0.1",
-                         fabs(slope - 2) < 0.1);
+        report_claim_known(r, item[a], "h = 1, delta = 0.1, h / dx = 4 to 128", quantity, "2", text, "2 +- 0.1",
+                           fabs(slope - 2) < 0.1, 0,
+                           "each term is of order 2; a sum of 4 h / dx independent ones of order 3/2");
+        report_absolute(report_beside(r, REPORT_THEORY), item[a], "h = 1, delta = 0.1, h / dx = 4 to 128", quantity, 1.5, slope, 0.1);
     }
     report_claim(r, "(42)", "h / dx = 4, delta = 0.1", "N as h goes to 0, dx / h fixed", "error increases",
-                 "grows like 1 / h", "exponent -1, above", 1);
+                 "grows like 1 / h", "exponent -1, above", n_in_h < -0.999);
 }
 
 /* The leading term of (41) for F = 1, (1 / h) sum W''(z_J) dz_J^2 delta_J, with the width dz_J of a particle; printed is its position z_J. */
@@ -890,12 +866,10 @@ static void polynomial(report *r, cloud *c, FILE *out, int dim, int rotated, int
     snprintf(text, sizeof text, "M (16) %.4g; next %s %.4g; M (15) %.4g; CB (15) %.4g; best with Gamma* %.4g",
              best, named(winner[0], winner[1]), others[0], radial_m, radial_cb, others[1]);
     snprintf(setting, sizeof setting, "%dD%s, boundary rms", dim, rotated ? ", rotated by 45 degrees" : "");
-    if (best <= others[0])
-        report_claim(r, field >= EQUAL_SUMS ? "Section 4.2" : "Section 4.1", setting, quantity,
-                     "M-SPH (16) most accurate", text, "least of CB, S, M", 1);
-    else
-        report_claim_fails(r, field >= EQUAL_SUMS ? "Section 4.2" : "Section 4.1", setting, quantity,
-                           "M-SPH (16) most accurate", text, "another one of CB, S, M has the smaller error");
+    report_claim_known(r, field >= EQUAL_SUMS ? "Section 4.2" : "Section 4.1", setting, quantity,
+                       "M-SPH (16) most accurate", text, "least of CB, S, M", best <= others[0],
+                       !rotated && !(field == POWER_OF_PRODUCT && s == 1),
+                       "another one of CB, S, M has the smaller error");
     snprintf(setting, sizeof setting, "%dD%s, interior", dim, rotated ? ", rotated by 45 degrees" : "");
     snprintf(text, sizeof text, "max error / largest |L u| of CB, S, M with (15), (16), (17): %.4g to %.4g",
              inside[0] / scale, inside[1] / scale);
@@ -959,7 +933,7 @@ static void fixed_f(report *r, cloud *c, int full)
                      jittered ? "10 % perturbed" : "uniform");
             if (!jittered) {
                 if (a)
-                    report_range(r, "fixed f", setting, "order of the rms error inside", 2, slope, 1.9, 2.1);
+                    report_range(report_beside(r, REPORT_THEORY), "fixed f", setting, "order of the rms error inside", 2, slope, 1.9, 2.1);
                 else
                     report_range(r, "fixed f", setting, "order of the rms error inside (0: Gamma is not 1)",
                                  (double)NAN, slope, -0.1, 0.1);
@@ -1001,7 +975,7 @@ static void fixed_dx(report *r, cloud *c)
         x[k] = log(f[k]);
         y[k] = log(e[1].inside);
     }
-    report_range(r, "fixed dx", "f = 1.2 to 4", "exponent of M's error inside in h (smoothing)", 2,
+    report_range(report_beside(r, REPORT_THEORY), "fixed dx", "f = 1.2 to 4", "exponent of M's error inside in h (smoothing)", 2,
                  statistics_slope(x + 3, y + 3, COUNT - 3), 1.8, 2.2);
 }
 
@@ -1041,17 +1015,14 @@ static void anisotropic(report *r, cloud *c)
         }
         snprintf(setting, sizeof setting, "f = %g", f[k]);
         snprintf(text, sizeof text, "%.6g and %.6g", value[0][0], value[0][1]);
-        if (fabs(value[0][0] - 2) < 1e-10)
-            report_claim(r, "(69)", setting, "L x^2, L y^2, as published", "2 and 0", text,
-                         "neighbours on the axes only", 1);
-        else
-            report_claim_fails(
-                r, "(69)", setting, "L x^2, L y^2, as published", "2 and 0", text,
-                "sum V G e_a e_b M_c e_c^2 / |e|^2 is not M_a delta_ab; 3/2 and 1/2 in the limit");
+        report_claim_known(r, "(69)", setting, "L x^2, L y^2, as published", "2 and 0", text,
+                           "neighbours on the axes only: to 1e-10",
+                           fabs(value[0][0] - 2) < 1e-10 && fabs(value[0][1]) < 1e-10, f[k] < sqrt(0.5),
+                           "sum V G e_a e_b M_c e_c^2 / |e|^2 is not M_a delta_ab; 3/2 and 1/2 in the limit");
         elliptic_regression(r, "(69)", setting, "L x^2, as published", known[k][0], value[0][0]);
         elliptic_regression(r, "(69)", setting, "L y^2, as published", known[k][1], value[0][1]);
-        report_absolute(r, "anisotropic", setting, "L x^2, consistent form", 2, value[1][0], 1e-10);
-        report_absolute(r, "anisotropic", setting, "L y^2, consistent form", 0, value[1][1], 1e-10);
+        report_absolute(report_beside(r, REPORT_THEORY), "anisotropic", setting, "L x^2, consistent form", 2, value[1][0], 1e-10);
+        report_absolute(report_beside(r, REPORT_THEORY), "anisotropic", setting, "L y^2, consistent form", 0, value[1][1], 1e-10);
     }
 }
 

@@ -7,6 +7,7 @@
  *
  * The paper's figures are images: what is compared is what it says about them.
  */
+#define ELLIPTIC_DIM(c) 2 /* of all clouds here */
 #include "../common/options.h"
 #include "../common/report.h"
 #include "../common/statistics.h"
@@ -107,16 +108,15 @@ static void figure5(report *r, cloud *c, const char *figures)
                 report_claim(r, "Section 4.3", setting, "lambda with full support",
                              "real, |lambda| <= 1 for all schemes", text, "to 1e-12",
                              worst <= 1 + 1e-12 && worst_im < 1e-12);
-                report_claim_fails(r, "Section 4.3", setting, "lambda of all particles",
-                                   "|lambda| <= 1 for all schemes", text,
+                report_claim_known(r, "Section 4.3", setting, "lambda of all particles",
+                                   "|lambda| <= 1 for all schemes", text, "to 1e-12",
+                                   fmax(worst, unstable) <= 1 + 1e-12, 0,
                                    "it holds where the support is full; boundary particles are excepted for "
                                    "perturbed particles only");
-            } else if (k == 0)
-                report_claim(r, "Section 4.3", setting, "|lambda| <= 1",
-                             "almost everywhere, perhaps not at the boundary", text,
-                             "in the interior, to 1e-6", worst <= 1 + 1e-6);
-            else
-                report_claim_fails(r, "Section 4.3", setting, "|lambda| <= 1", "almost everywhere", text,
+            } else
+                report_claim_known(r, "Section 4.3", setting, "|lambda| <= 1",
+                                   "almost everywhere, perhaps not at the boundary", text,
+                                   "in the interior, to 1e-6", worst <= 1 + 1e-6, k == 0,
                                    "with four or so neighbours disorder makes rows of larger diagonal: a "
                                    "smaller tau is needed");
         }
@@ -126,12 +126,13 @@ static void figure5(report *r, cloud *c, const char *figures)
 /* tau = 0.25, as printed, on the unit square of section 4.1 */
 static void printed_tau(report *r, cloud *c)
 {
+    double inside;
     char text[64];
     cloud_lattice(c, 2, 21, 2, 0.05);
     cloud_neighbours(c, 1.2 * c->dx);
-    snprintf(text, sizeof text, "max |lambda| = %.4g, interior",
-             growth_of(c, SCHEME_M, 0, 0.25, NULL, "").inside);
-    report_claim_fails(r, "Section 4.3", "f = 1.2, uniform, M (15)", "tau", "0.25", text,
+    inside = growth_of(c, SCHEME_M, 0, 0.25, NULL, "").inside;
+    snprintf(text, sizeof text, "max |lambda| = %.4g, interior", inside);
+    report_claim_known(r, "Section 4.3", "f = 1.2, uniform, M (15)", "tau", "0.25", text, "|lambda| <= 1", inside <= 1, 0,
                        "0.25 dx^2 is meant, or dx = 1");
 }
 

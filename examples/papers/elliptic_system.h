@@ -4,7 +4,8 @@
  *
  *     cloud_rows(&c, SCHEME_M, (sph_elliptic_options){0});
  *     cloud_box_conditions(&c, first, dirichlet);       rows of the particles from `first` on, which lie on the faces of the box c.low ... c.high
- *     cloud_matrix(&c, &A, b);                          rows scaled to a diagonal of 1, b with them
+ *     cloud_matrix(&c, &A, b);                          rows scaled to a diagonal of 1, b with them;
+ *                                                       cloud_matrix_unscaled(&c, &A): not
  *     elliptic_solve(&A, b, u);
  */
 #ifndef ELLIPTIC_SYSTEM_H
@@ -33,7 +34,7 @@ SPH_FN void cloud_conditions(cloud *c, sph_cloud all, int first, double *const n
     const sph_elliptic_options o = {0};
     const sph_boundary on = {vectors_of(normal, 3), sph_scalars_array(alpha), sph_scalars_array(beta)};
     const sph_rows_out out = {.row = c->row, .diagonal = c->diagonal};
-    expect(WITH_DIM_2_3(sph_elliptic_rows_boundary, ELLIPTIC_KERNEL, c->dim, those, m, o, on, out));
+    expect(WITH_DIM_2_3(sph_elliptic_rows_boundary, ELLIPTIC_KERNEL, ELLIPTIC_DIM(c), those, m, o, on, out));
 }
 /* dirichlet[i] for i >= first: 1 for u, 0 for the flux m du/dn through the face that particle i lies on (100) */
 static inline void cloud_box_conditions(cloud *c, int first, const unsigned char *dirichlet)
@@ -53,8 +54,8 @@ static inline void cloud_box_conditions(cloud *c, int first, const unsigned char
     free(beta);
 }
 
-/* The matrix of c->row and c->diagonal, without what is 0 */
-static inline void cloud_matrix(const cloud *c, sparse *A, double *b)
+/* The matrix of c->row and c->diagonal, without what is 0, as it is */
+static inline void cloud_matrix_unscaled(const cloud *c, sparse *A)
 {
     const int64_t room = sph_csr_size(cloud_all(c));
     sph_index *const start = (sph_index *)need(NULL, (size_t)c->n + 1, sizeof *start);
@@ -67,6 +68,10 @@ static inline void cloud_matrix(const cloud *c, sparse *A, double *b)
                             (sph_csr){start, A->index, A->value, room}, NULL));
     for (i = 0; i <= c->n; i++) A->start[i] = start[i];
     free(start);
+}
+static inline void cloud_matrix(const cloud *c, sparse *A, double *b)
+{
+    cloud_matrix_unscaled(c, A);
     if (sparse_scale_rows(A, b) != 0) {
         fprintf(stderr, "elliptic: a row of the matrix has no diagonal: a particle without neighbours?\n");
         exit(1);

@@ -218,7 +218,7 @@ static void projections(report *r, const char *folder, scatter *s, int levels)
                 left[k] = distance(s, v[5], NULL, NULL, NULL) / before;
                 velocity[k] = distance(s, v[2], v[3], v[0], v[1]) / norm;
                 if (state == LATTICE)
-                    report_relative(r, "projection", setting, "divergence after / before",
+                    report_relative(report_beside(r, REPORT_THEORY), "projection", setting, "divergence after / before",
                                     fabs(projection_symbol(s)), left[k], 1e-6);
                 else report_info(r, "projection", setting, "divergence after / before", left[k]);
                 report_info(r, "projection", setting, "|u - v| / |v|", velocity[k]);
@@ -229,7 +229,7 @@ static void projections(report *r, const char *folder, scatter *s, int levels)
                 divergence_of(&q, v[2], v[3], v[5]);
                 twice = distance(s, v[5], NULL, NULL, NULL) / before;
                 if (state == LATTICE)
-                    report_relative(r, "projection", setting, "projected twice", pow(projection_symbol(s), 2),
+                    report_relative(report_beside(r, REPORT_THEORY), "projection", setting, "projected twice", pow(projection_symbol(s), 2),
                                     twice, 1e-4);
                 else report_info(r, "projection", setting, "projected twice", twice);
                 for (i = 0; i < s->c.n; i++) {
@@ -581,7 +581,7 @@ static void slab_limits(report *r, scatter *s)
             report_info(r, "limit", setting, "sph_rows_time_step / (dx^2 / 4 k)",
                         bound * 4 * ratios[k] / (s->c.dx * s->c.dx));
             if (stencil == AXES)
-                report_relative(r, "limit", setting, "worst wave's step / sph_rows_time_step", 1,
+                report_relative(report_beside(r, REPORT_THEORY), "limit", setting, "worst wave's step / sph_rows_time_step", 1,
                                 sharp / bound, 1e-9);
             else
                 report_range(r, "limit", setting, "worst wave's step / sph_rows_time_step", (double)NAN,

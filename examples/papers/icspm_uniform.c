@@ -337,9 +337,9 @@ static void second_order_reason(report *r, line *s)
     }
     report_range(r, "ICSPM order", "direct, all particles", "p, N = 161 to 321 (derived in the paper: 1)", 1,
                  icspm_order(direct[0], direct[1]), 0.9, 1.1);
-    report_range(r, "ICSPM order", "direct, interior", "p, N = 161 to 321", 2,
+    report_range(report_beside(r, REPORT_THEORY), "ICSPM order", "direct, interior", "p, N = 161 to 321", 2,
                  icspm_order(inside[0], inside[1]), 1.9, 2.1);
-    report_range(r, "ICSPM order", "boundary value problem", "p, N = 161 to 321", 2,
+    report_range(report_beside(r, REPORT_THEORY), "ICSPM order", "boundary value problem", "p, N = 161 to 321", 2,
                  icspm_order(bvp[0], bvp[1]), 1.9, 2.1);
     snprintf(text, sizeof text, "p = %.3f for another f on the same particles",
              icspm_order(direct[0], direct[1]));

@@ -169,7 +169,7 @@ int main(int argc, char **argv)
     }
     const sph_scalars R = sph_scalars_same(&radius);
     const sph_points x = sph_points_separate(n, host.a[X], host.a[Y], host.a[Z]);
-    if (sph_grid_build(DIM, x, radius, work.data(), work.size(), &grid) != 0 ||
+    if (sph_grid_build(DIM, x, R, work.data(), work.size(), &grid) != 0 ||
         sph_grid_lists(DIM, &grid, sph_query_of(x, SPH_GATHER, R, 0), host.start, host.index, (int64_t)index.size(), &pairs) != 0)
         return std::puts("no lists"), 1;
     device = host;

@@ -151,7 +151,7 @@ static int search(sph_points points)
     const sph_scalars R = sph_scalars_same(&radius);
     sph_grid grid;
     int64_t pairs = 0;
-    return sph_grid_workspace(2, n) <= sizeof work && sph_grid_build(2, points, radius, work, sizeof work, &grid) == 0 &&
+    return sph_grid_workspace(2, n) <= sizeof work && sph_grid_build(2, points, R, work, sizeof work, &grid) == 0 &&
            sph_grid_lists(2, &grid, sph_query_of(points, SPH_GATHER, R, SPH_LIST_SORTED), start, list_index, ENTRIES, &pairs) == 0;
 }
 

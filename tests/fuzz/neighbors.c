@@ -96,7 +96,7 @@ static void threads(int count)
 static sph_index lists(const problem *p, const sph_grid *g, sph_index *start, sph_index *index, int64_t room,
                        int64_t *pairs)
 {
-    return sph_grid_lists(p->dim, g, (sph_query){p->targets, p->criterion, p->target_radius, p->source_radius, p->flags}, start, index, room, pairs);
+    return sph_grid_lists(p->dim, g, (sph_query){p->targets, p->criterion, p->target_radius, p->flags}, start, index, room, pairs);
 }
 
 /* with just this room and so many threads */
@@ -125,7 +125,7 @@ static void check_lists(const problem *p, const sph_grid *g, int count, int64_t 
     int64_t pairs = -1, again = -1;
     sph_index answer;
     threads(1);
-    answer = sph_grid_count(p->dim, g, (sph_query){p->targets, p->criterion, p->target_radius, p->source_radius, p->flags}, start, &pairs);
+    answer = sph_grid_count(p->dim, g, (sph_query){p->targets, p->criterion, p->target_radius, p->flags}, start, &pairs);
     if (answer < 0) FUZZ_REQUIRE(pairs == 0);
     else {
         FUZZ_REQUIRE(answer == 0 && pairs >= 0 && pairs <= (int64_t)p->targets.n * p->sources.n);
@@ -235,21 +235,20 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (foreign) p.targets = cloud_new(&b, &in, p.dim, m, tame, blocks, scale);
     else if (m < n) p.targets.n = m; /* the first of them */
     p.target_radius = each ? sph_scalars_array(R) : sph_scalars_same(R);
-    p.source_radius = each ? sph_scalars_array(S) : sph_scalars_same(R);
-    if (p.criterion == SPH_GATHER) p.source_radius = sph_scalars_array(0); /* not read */
+    p.source_radius = each ? sph_scalars_array(S) : sph_scalars_same(&reach); /* reach is R, too */
     if (p.criterion == SPH_SCATTER) p.target_radius = sph_scalars_array(0);
 
     bytes = sph_grid_workspace(p.dim, n);
     FUZZ_REQUIRE(bytes > 0);
     work = fuzz_memory(bytes, 1);
     threads(1);
-    answer = (int)sph_grid_build(p.dim, p.sources, reach, work, bytes, &g);
-    FUZZ_REQUIRE(answer <= 0 && answer >= SPH_ERROR_RADIUS);
+    answer = (int)sph_grid_build(p.dim, p.sources, p.source_radius, work, bytes, &g);
+    FUZZ_REQUIRE(answer <= 0 && answer >= SPH_ERROR_BOX);
     if (answer == 0) {
         void *const other = fuzz_memory(bytes, 1); /* built by other threads: the same order */
         sph_grid h;
         threads(count);
-        FUZZ_REQUIRE(sph_grid_build(p.dim, p.sources, reach, other, bytes, &h) == 0);
+        FUZZ_REQUIRE(sph_grid_build(p.dim, p.sources, p.source_radius, other, bytes, &h) == 0);
         for (i = 0; i < n; i++) FUZZ_REQUIRE(sph_grid_permutation(&g)[i] == sph_grid_permutation(&h)[i]);
         check_lists(&p, &h, count, few, share);
         check_order(&p, &g);
@@ -257,7 +256,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     skin = SPH_R(tame ? fuzz_unit(&in) : fuzz_number(&in));
     answer = sph_rebuild_due(p.dim, p.sources, p.targets, skin);
-    FUZZ_REQUIRE(answer <= 1 && answer >= SPH_ERROR_RADIUS);
+    FUZZ_REQUIRE(answer <= 1 && answer >= SPH_ERROR_BOX);
     free(work);
     free(R);
     cloud_free(&a);

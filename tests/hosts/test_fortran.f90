@@ -316,12 +316,11 @@ contains
             reach = 3 * h
             bytes = sph_grid_workspace(2, int(n, sph_index))
             allocate (work(bytes / 8 + 1))
-            not_ok = sph_grid_build(2, points, reach, c_loc(work), bytes, grid)
+            not_ok = sph_grid_build(2, points, sph_scalars(reach), c_loc(work), bytes, grid)
             call expect('a grid', not_ok == 0 .and. grid%n == n)
             query%targets = points
             query%criterion = SPH_GATHER
-            query%target_radius = sph_scalars(reach)
-            query%source_radius = sph_scalars(reach)
+            query%radius = sph_scalars(reach)
             not_ok = sph_grid_count(2, grid, query, rows, counted)
             allocate (index(counted))
             not_ok = not_ok + sph_grid_lists(2, grid, query, start, index, size(index, kind=c_int64_t), pairs)

@@ -47,8 +47,7 @@ ERROR_LIST = -9  # list rows do not ascend, or an entry is not a particle
 ERROR_SELF = -10  # a row holds its own particle
 ERROR_CAPACITY = -11  # the caller's memory is too small: see the function for what is needed
 ERROR_BOX = -12  # a box length that cannot be; a support beyond half of it; far positions
-ERROR_RADIUS = -13  # a radius exceeds what the grid was built for
-ERROR_PAIRS = -14  # more pairs than sph_index can count, or memory can hold
+ERROR_PAIRS = -13  # more pairs than sph_index can count, or memory can hold
 
 # sph_status
 OK = 0
@@ -467,10 +466,12 @@ class sph_grid(Structure):
         ("n", c_int32),
         ("dim", c_int),
         ("hashed", c_int),
+        ("levels", c_int),
         ("scattered", c_int),
         ("cells", c_int64 * 3),
         ("buckets", c_size_t),
         ("radius", c_double),
+        ("largest", c_double),
         ("low", sph_vec),
         ("inverse_width", sph_vec),
         ("box", sph_vec),
@@ -479,6 +480,8 @@ class sph_grid(Structure):
         ("x", c_void_p),
         ("y", c_void_p),
         ("z", c_void_p),
+        ("own", c_void_p),
+        ("node", c_void_p),
     ]
 
 
@@ -486,8 +489,7 @@ class sph_query(Structure):
     _fields_ = [
         ("targets", sph_points),
         ("criterion", c_int),
-        ("target_radius", sph_scalars),
-        ("source_radius", sph_scalars),
+        ("radius", sph_scalars),
         ("flags", c_int),
     ]
 
@@ -1045,7 +1047,7 @@ FUNCTIONS = {
     "grid_build": (c_int32, [
         ("dim", c_int),
         ("sources", sph_points),
-        ("radius", c_double),
+        ("radius", sph_scalars),
         ("work", c_void_p),
         ("work_size", c_size_t),
         ("grid", sph_grid),
@@ -1132,7 +1134,6 @@ __all__ = [
     "ERROR_SELF",
     "ERROR_CAPACITY",
     "ERROR_BOX",
-    "ERROR_RADIUS",
     "ERROR_PAIRS",
     "OK",
     "TOO_FEW",

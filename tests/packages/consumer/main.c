@@ -20,7 +20,7 @@ int main(void)
         const sph_scalars R = sph_scalars_same(&radius);
         const sph_list list = {start, index};
         const sph_cloud all = sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_none());
-        if (sizeof work < sph_grid_workspace(1, N) || sph_grid_build(1, points, radius, work, sizeof work, &grid) ||
+        if (sizeof work < sph_grid_workspace(1, N) || sph_grid_build(1, points, R, work, sizeof work, &grid) ||
             sph_grid_lists(1, &grid, sph_query_of(points, SPH_GATHER, R, 0), start, index, 8 * N, &pairs))
             return 1;
         if (sph_density_summation(SPH_WENDLAND_C4_1D, 1, all, sph_scalars_same(&m), sph_scalar_out_array(rho, 0))) return 1;
