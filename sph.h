@@ -563,7 +563,7 @@ SPHI_LARGE void sphi_tree_fill(int dim, sph_points s, sph_scalars radius, sph_gr
     const int parts = sphi_parts();
     sph_vec low, high;
     sph_index jumps = 0;
-    int level, top, part;
+    int top, part;
     int64_t i;
     sphi_bounds(dim, s, &low, &high);
     sphi_axes(dim, g, low, high, g->largest, 1); /* sets low, for periodic axes */
@@ -598,14 +598,16 @@ SPHI_LARGE void sphi_tree_fill(int dim, sph_points s, sph_scalars radius, sph_gr
         for (i = 0; i < nodes; i++) sphi_node_make(g, arrays, dim + 1, top, i);
     }
 #if SPH_OPENMP
-#pragma omp parallel for schedule(dynamic, 1) private(level)
+#pragma omp parallel for schedule(dynamic, 1)
 #endif
-    for (i = 0; i < (int64_t)1 << top; i++)
+    for (i = 0; i < (int64_t)1 << top; i++) {
+        int level;
         for (level = top; level < g->levels; level++) {
             int64_t k;
             for (k = i << (level - top); k < (i + 1) << (level - top); k++)
                 sphi_node_make(g, arrays, dim + 1, level, k);
         }
+    }
 }
 
 /* A grid of no sources. */
@@ -819,7 +821,7 @@ SPH_FN void sphi_limits_by(int criterion, const sphi_search *s, const sph_real *
 {
     const sph_real own = s->own, widest = s->widest;
     int l;
-    SPH_ASSERT(n >= SPHI_LANES);
+    SPH_ASSERT(n >= SPHI_BLOCK);
     for (l = 0; l < n; l++) {
         const sph_real pair = sphi_lesser(sphi_pair_radius(criterion, own, radius[l]), widest);
         limit[l] = pair * pair;
@@ -828,7 +830,7 @@ SPH_FN void sphi_limits_by(int criterion, const sphi_search *s, const sph_real *
 SPH_FN void sphi_limits(const sphi_search *s, const sph_real *radius, int n, sph_real *limit)
 {
     int l;
-    SPH_ASSERT(n >= SPHI_LANES); /* whole lanes */
+    SPH_ASSERT(n >= SPHI_BLOCK); /* whole lanes */
     if (s->criterion == SPH_SCATTER) sphi_limits_by(SPH_SCATTER, s, radius, n, limit);
     else if (s->criterion == SPH_LARGER) sphi_limits_by(SPH_LARGER, s, radius, n, limit);
     else if (s->criterion == SPH_MEAN) sphi_limits_by(SPH_MEAN, s, radius, n, limit);
@@ -874,9 +876,9 @@ SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const 
         sph_real limits[SPHI_TILE], excess[SPHI_TILE];
         int c, l;
         if (kind <= SPHI_RADII)
-            sphi_limits(s, g->own + a, (n + SPHI_LANES - 1) / SPHI_LANES * SPHI_LANES, limits);
-        for (c = 0; c < n; c += SPHI_LANES)
-            for (l = c; l < c + SPHI_LANES; l++) {
+            sphi_limits(s, g->own + a, (n + SPHI_BLOCK - 1) / SPHI_BLOCK * SPHI_BLOCK, limits);
+        for (c = 0; c < n; c += SPHI_BLOCK)
+            for (l = c; l < c + SPHI_BLOCK; l++) {
                 const sph_real dx = (p.x - g->x[a + l]) - shift.x;
                 const sph_real dy = dim > 1 ? (p.y - g->y[a + l]) - shift.y : SPH_R(0);
                 const sph_real dz = dim > 2 ? (p.z - g->z[a + l]) - shift.z : SPH_R(0);
@@ -1482,7 +1484,7 @@ SPHI_LARGE void sphi_view_fill(const sph_grid *g, const sphi_search *s, sphi_vie
         } while (v->next != 1);
         v->next = 0;
     }
-    for (l = v->count; l % SPHI_LANES != 0; l++) /* whole lanes are read, but not used */
+    for (l = v->count; l % SPHI_BLOCK != 0; l++) /* whole lanes are read, but not used */
         v->x[l] = v->y[l] = v->z[l] = v->dx[l] = v->dy[l] = v->dz[l] = v->largest[l] = SPH_R(0);
 }
 /* The neighbours of a target in the leaves of a view. */
@@ -1494,9 +1496,9 @@ SPH_FN int64_t sphi_view_row(int dim, const sph_grid *g, const sphi_search *s, s
     sph_real limit[SPHI_VIEW], excess[SPHI_VIEW];
     int hit[SPHI_VIEW], hits = 0, c, l;
     if (v->count == 0) return count;
-    sphi_limits(s, v->largest, (v->count + SPHI_LANES - 1) / SPHI_LANES * SPHI_LANES, limit);
-    for (c = 0; c < v->count; c += SPHI_LANES)
-        for (l = c; l < c + SPHI_LANES; l++) {
+    sphi_limits(s, v->largest, (v->count + SPHI_BLOCK - 1) / SPHI_BLOCK * SPHI_BLOCK, limit);
+    for (c = 0; c < v->count; c += SPHI_BLOCK)
+        for (l = c; l < c + SPHI_BLOCK; l++) {
             const sph_real dx = sphi_outside(s->p.x - v->x[l], v->dx[l]);
             const sph_real dy = dim > 1 ? sphi_outside(s->p.y - v->y[l], v->dy[l]) : SPH_R(0);
             const sph_real dz = dim > 2 ? sphi_outside(s->p.z - v->z[l], v->dz[l]) : SPH_R(0);

@@ -904,7 +904,8 @@ SPH_FN int sphi_check_not_negative(SPHI_TEXT *name, sph_scalars a, sph_index n)
 
 enum { SPHI_MAX = 6 };
 typedef struct sphi_lu {
-    sph_real a[SPHI_MAX][SPHI_MAX];
+    sph_real a[SPHI_MAX][SPHI_MAX]; /* before: the matrix. After: U, above the diagonal */
+    sph_real lower[SPHI_MAX][SPHI_MAX], inverse[SPHI_MAX]; /* L below its diagonal of ones; 1 / pivots */
     int row[SPHI_MAX];
     /* The smallest |pivot| measures the singularity, because the matrices come scaled to a unit diagonal. */
     sph_real pivot_min;
@@ -914,8 +915,19 @@ typedef struct sphi_lu {
 /* A pivot below this is rounding error, because the entries of the matrix are of order one. */
 #define SPHI_PIVOT_MIN (SPH_R(64) * SPH_EPSILON)
 
+/* Exchanges two rows of n numbers. */
+SPH_FN void sphi_exchange(int n, sph_real *a, sph_real *b)
+{
+    int j;
+    for (j = 0; j < n; j++) {
+        const sph_real t = a[j];
+        a[j] = b[j];
+        b[j] = t;
+    }
+}
 /* Factors s->a in place. A pivot below SPHI_PIVOT_MIN is replaced by it, so that solutions stay finite and
-   show the null direction. */
+   show the null direction. Rows are subtracted whole, also where they are 0 by then, and a copy is
+   subtracted: so the loops over a row vectorise. */
 SPH_FN void sphi_lu_factor(int n, sphi_lu *s)
 {
     int i, j, c;
@@ -923,46 +935,50 @@ SPH_FN void sphi_lu_factor(int n, sphi_lu *s)
     s->sign = SPH_R(1);
     for (c = 0; c < n; c++) {
         int best = c;
-        sph_real p;
-        for (i = c + 1; i < n; i++)
-            if (SPHI_ABS(s->a[i][c]) > SPHI_ABS(s->a[best][c])) best = i;
+        sph_real p = SPHI_ABS(s->a[c][c]), pivot_row[SPHI_MAX];
+        for (i = c + 1; i < n; i++) {
+            const sph_real size = SPHI_ABS(s->a[i][c]);
+            best = size > p ? i : best;
+            p = size > p ? size : p;
+        }
         s->row[c] = best;
         if (best != c) {
             s->sign = -s->sign;
-            for (j = 0; j < n; j++) {
-                const sph_real t = s->a[c][j];
-                s->a[c][j] = s->a[best][j];
-                s->a[best][j] = t;
-            }
+            sphi_exchange(n, s->a[c], s->a[best]);
+            sphi_exchange(c, s->lower[c], s->lower[best]);
         }
-        p = SPHI_ABS(s->a[c][c]);
         if (!(p >= s->pivot_min)) s->pivot_min = p;
         if (s->a[c][c] < SPH_R(0)) s->sign = -s->sign;
         if (!(p >= SPHI_PIVOT_MIN)) s->a[c][c] = s->a[c][c] < SPH_R(0) ? -SPHI_PIVOT_MIN : SPHI_PIVOT_MIN;
-        p = SPH_R(1) / s->a[c][c];
+        p = s->inverse[c] = SPH_R(1) / s->a[c][c];
+        for (j = 0; j < n; j++) pivot_row[j] = s->a[c][j];
         for (i = c + 1; i < n; i++) {
-            const sph_real m = s->a[i][c] *= p;
-            for (j = c + 1; j < n; j++) s->a[i][j] -= m * s->a[c][j];
+            const sph_real m = s->lower[i][c] = s->a[i][c] * p;
+            for (j = 0; j < n; j++) s->a[i][j] -= m * pivot_row[j];
         }
     }
 }
-/* Solves a x = b; x replaces b. */
-SPH_FN void sphi_lu_solve(int n, const sphi_lu *s, sph_real *b)
+/* Solves a x = b for `columns` right-hand sides (1 to SPHI_MAX), which are stored side by side; x replaces
+   b. */
+SPH_FN void sphi_lu_solve_columns(int n, const sphi_lu *s, int columns, sph_real *b)
 {
-    int i, j;
-    for (i = 0; i < n; i++) {
-        const int p = s->row[i];
-        const sph_real t = b[p];
-        b[p] = b[i];
-        b[i] = t;
+    sph_real x[SPHI_MAX];
+    int i, j, l;
+    for (i = 0; i < n; i++)
+        if (s->row[i] != i) sphi_exchange(columns, b + i * columns, b + s->row[i] * columns);
+    for (j = 0; j < n - 1; j++) {
+        for (l = 0; l < columns; l++) x[l] = b[j * columns + l];
+        for (i = j + 1; i < n; i++)
+            for (l = 0; l < columns; l++) b[i * columns + l] -= s->lower[i][j] * x[l];
     }
-    for (i = 1; i < n; i++)
-        for (j = 0; j < i; j++) b[i] -= s->a[i][j] * b[j];
-    for (i = n - 1; i >= 0; i--) {
-        for (j = i + 1; j < n; j++) b[i] -= s->a[i][j] * b[j];
-        b[i] /= s->a[i][i];
+    for (j = n - 1; j >= 0; j--) {
+        for (l = 0; l < columns; l++) x[l] = b[j * columns + l] *= s->inverse[j];
+        for (i = 0; i < j; i++)
+            for (l = 0; l < columns; l++) b[i * columns + l] -= s->a[i][j] * x[l];
     }
 }
+/* Solves a x = b; x replaces b. */
+SPH_FN void sphi_lu_solve(int n, const sphi_lu *s, sph_real *b) { sphi_lu_solve_columns(n, s, 1, b); }
 /* y = m x, and y = m^T x, where m has the shape rows x cols. */
 SPH_FN void sphi_multiply(int rows, int cols, sph_real (*m)[SPHI_MAX], const sph_real *x, sph_real *y)
 {
@@ -1683,73 +1699,72 @@ SPH_FN sph_test_weights sph_test_weights_wls(sph_kernel k, int dim, sph_real q, 
     return t;
 }
 
-/* The sums: their names, and what a neighbour at e = (x, y, z) adds. Y holds what 2D has beyond 1D, and Z
-   what 3D has beyond 2D. */
+/* The sums: the dimension from which on they are needed, their names, and what a neighbour at e = (x, y, z)
+   adds. The nine sums at most of a list stay in registers, and no two lists share a product. */
 /* clang-format off */
-#define SPHI_MATRIX_X(X) X(gxx, g * x * x) X(gxxx, g * x * x * x) X(wxxx, w * x * x * x) \
-    X(wxxxx, w * x * x * x * x)
-#define SPHI_MATRIX_Y(X) \
-    X(gxy, g * x * y) X(gyy, g * y * y) X(gxxy, g * x * x * y) X(gxyy, g * x * y * y) X(gyyy, g * y * y * y) \
-    X(wxxy, w * x * x * y) X(wxyy, w * x * y * y) X(wyyy, w * y * y * y) \
-    X(wxxxy, w * x * x * x * y) X(wxxyy, w * x * x * y * y) X(wxyyy, w * x * y * y * y) \
-    X(wyyyy, w * y * y * y * y)
-#define SPHI_MATRIX_Z(X) \
-    X(gxz, g * x * z) X(gyz, g * y * z) X(gzz, g * z * z) X(gxxz, g * x * x * z) X(gxyz, g * x * y * z) \
-    X(gyyz, g * y * y * z) \
-    X(gxzz, g * x * z * z) X(gyzz, g * y * z * z) X(gzzz, g * z * z * z) X(wxxz, w * x * x * z) \
-    X(wxyz, w * x * y * z) X(wyyz, w * y * y * z) \
-    X(wxzz, w * x * z * z) X(wyzz, w * y * z * z) X(wzzz, w * z * z * z) X(wxxxz, w * x * x * x * z) \
-    X(wxxyz, w * x * x * y * z) \
-    X(wxyyz, w * x * y * y * z) X(wyyyz, w * y * y * y * z) X(wxxzz, w * x * x * z * z) \
-    X(wxyzz, w * x * y * z * z) X(wyyzz, w * y * y * z * z) \
-    X(wxzzz, w * x * z * z * z) X(wyzzz, w * y * z * z * z) X(wzzzz, w * z * z * z * z)
-#define SPHI_VALUE_X(X) X(gfx, g * df * x) X(wfxx, w * df * x * x)
-#define SPHI_VALUE_Y(X) X(gfy, g * df * y) X(wfxy, w * df * x * y) X(wfyy, w * df * y * y)
-#define SPHI_VALUE_Z(X) X(gfz, g * df * z) X(wfxz, w * df * x * z) X(wfyz, w * df * y * z) \
-    X(wfzz, w * df * z * z)
-#define SPHI_MATRIX(dim, X) \
-    SPHI_MATRIX_X(X) if (dim > 1) { SPHI_MATRIX_Y(X) } if (dim > 2) { SPHI_MATRIX_Z(X) }
-#define SPHI_VALUE(dim, X) SPHI_VALUE_X(X) if (dim > 1) { SPHI_VALUE_Y(X) } if (dim > 2) { SPHI_VALUE_Z(X) }
+#define SPHI_SUMS_GX(X) \
+    X(1, gxx, g * x * x) X(1, gxxx, g * x * x * x) \
+    X(2, gxy, g * x * y) X(2, gxxy, g * x * x * y) X(2, gxyy, g * x * y * y) \
+    X(3, gxz, g * x * z) X(3, gxxz, g * x * x * z) X(3, gxyz, g * x * y * z) X(3, gxzz, g * x * z * z)
+#define SPHI_SUMS_GYZ(X) \
+    X(2, gyy, g * y * y) X(2, gyyy, g * y * y * y) \
+    X(3, gyz, g * y * z) X(3, gzz, g * z * z) \
+    X(3, gyyz, g * y * y * z) X(3, gyzz, g * y * z * z) X(3, gzzz, g * z * z * z)
+#define SPHI_SUMS_WXX(X) \
+    X(1, wxxx, w * x * x * x) X(1, wxxxx, w * x * x * x * x) \
+    X(2, wxxy, w * x * x * y) X(2, wxxxy, w * x * x * x * y) X(2, wxxyy, w * x * x * y * y) \
+    X(3, wxxz, w * x * x * z) X(3, wxxxz, w * x * x * x * z) X(3, wxxyz, w * x * x * y * z) \
+    X(3, wxxzz, w * x * x * z * z)
+#define SPHI_SUMS_WXYZ(X) \
+    X(2, wxyy, w * x * y * y) X(2, wxyyy, w * x * y * y * y) \
+    X(3, wxyz, w * x * y * z) X(3, wxzz, w * x * z * z) X(3, wxyyz, w * x * y * y * z) \
+    X(3, wxyzz, w * x * y * z * z) X(3, wxzzz, w * x * z * z * z)
+#define SPHI_SUMS_WYZ(X) \
+    X(2, wyyy, w * y * y * y) X(2, wyyyy, w * y * y * y * y) \
+    X(3, wyyz, w * y * y * z) X(3, wyzz, w * y * z * z) X(3, wzzz, w * z * z * z) \
+    X(3, wyyyz, w * y * y * y * z) X(3, wyyzz, w * y * y * z * z) X(3, wyzzz, w * y * z * z * z) \
+    X(3, wzzzz, w * z * z * z * z)
+#define SPHI_SUMS_VALUE(X) \
+    X(1, gfx, g * df * x) X(1, wfxx, w * df * x * x) \
+    X(2, gfy, g * df * y) X(2, wfxy, w * df * x * y) X(2, wfyy, w * df * y * y) \
+    X(3, gfz, g * df * z) X(3, wfxz, w * df * x * z) X(3, wfyz, w * df * y * z) X(3, wfzz, w * df * z * z)
+#define SPHI_SUMS_MATRIX(X) \
+    SPHI_SUMS_GX(X) SPHI_SUMS_GYZ(X) SPHI_SUMS_WXX(X) SPHI_SUMS_WXYZ(X) SPHI_SUMS_WYZ(X)
 /* clang-format on */
 
 /* The sums of one particle: gxy is sum g e_x e_y, and so on. gfx, wfxx, ... are the right-hand side. */
-#define SPHI_FIELD(name, formula) sph_real name;
-/* clang-format off */
+#define SPHI_FIELD(from, name, formula) sph_real name;
 typedef struct sph_moments {
-    SPHI_MATRIX_X(SPHI_FIELD) SPHI_MATRIX_Y(SPHI_FIELD) SPHI_MATRIX_Z(SPHI_FIELD)
-    SPHI_VALUE_X(SPHI_FIELD) SPHI_VALUE_Y(SPHI_FIELD) SPHI_VALUE_Z(SPHI_FIELD)
+    SPHI_SUMS_MATRIX(SPHI_FIELD)
+    SPHI_SUMS_VALUE(SPHI_FIELD)
 } sph_moments;
-/* clang-format on */
 
-#define SPHI_ZERO(name, formula) s.name = SPH_R(0);
+#define SPHI_ZERO(from, name, formula) s.name = SPH_R(0);
 /* All sums are 0. */
 SPH_FN sph_moments sph_moments_zero(void)
 {
     sph_moments s;
-    SPHI_MATRIX(3, SPHI_ZERO)
-    SPHI_VALUE(3, SPHI_ZERO)
+    SPHI_SUMS_MATRIX(SPHI_ZERO)
+    SPHI_SUMS_VALUE(SPHI_ZERO)
     return s;
 }
 
-#define SPHI_ADD(name, formula) s->name += formula;
+#define SPHI_ADD(from, name, formula) \
+    if (dim >= from) s->name += formula;
 /* Adds what a neighbour contributes to the matrix: g e e, g e ee, w ee e and w ee ee. e is (x_j - x_i) / h_i;
    t comes from sph_test_weights_cspm (for CSPM and ICSPM) or sph_test_weights_wls. */
 SPH_FN void sph_moments_add(int dim, sph_moments *s, sph_vec e, sph_test_weights t)
 {
     const sph_real x = e.x, y = e.y, z = e.z, g = t.g, w = t.w;
     SPH_ASSERT(SPHI_IS_DIM(dim));
-    (void)y;
-    (void)z;
-    SPHI_MATRIX(dim, SPHI_ADD)
+    SPHI_SUMS_MATRIX(SPHI_ADD)
 }
 /* Adds what a neighbour contributes to the right-hand side: g e df and w ee df with df = f_j - f_i. */
 SPH_FN void sph_moments_add_value(int dim, sph_moments *s, sph_vec e, sph_test_weights t, sph_real df)
 {
     const sph_real x = e.x, y = e.y, z = e.z, g = t.g, w = t.w;
     SPH_ASSERT(SPHI_IS_DIM(dim));
-    (void)y;
-    (void)z;
-    SPHI_VALUE(dim, SPHI_ADD)
+    SPHI_SUMS_VALUE(SPHI_ADD)
 }
 
 /* First and second derivatives. As a result, these are the derivatives of f. As an operator, they are the
@@ -1963,16 +1978,17 @@ SPH_FN int sphi_blocks_factor(int dim, const sph_moments *m, sphi_blocks *b, sph
 SPH_FN void sphi_schur(int dim, const sphi_blocks *b, const sphi_lu *kk, int transposed, sphi_lu *schur)
 {
     const int nd = sphi_dimensions(dim), nh = sphi_unknowns(dim);
+    sph_real x[SPHI_MAX * SPHI_MAX];
     int i, j, c;
-    for (j = 0; j < nh; j++) {
-        sph_real x[SPHI_MAX];
-        for (i = 0; i < nd; i++) x[i] = b->bb[i][j];
-        sphi_lu_solve(nd, kk, x);
-        for (i = 0; i < nh; i++) {
-            sph_real y = b->mm[i][j];
-            for (c = 0; c < nd; c++) y -= b->aa[i][c] * x[c];
-            schur->a[transposed ? j : i][transposed ? i : j] = y;
-        }
+    for (c = 0; c < nd; c++)
+        for (j = 0; j < nh; j++) x[c * nh + j] = b->bb[c][j];
+    sphi_lu_solve_columns(nd, kk, nh, x);
+    for (i = 0; i < nh; i++) {
+        sph_real y[SPHI_MAX];
+        for (j = 0; j < nh; j++) y[j] = b->mm[i][j];
+        for (c = 0; c < nd; c++)
+            for (j = 0; j < nh; j++) y[j] -= b->aa[i][c] * x[c * nh + j];
+        for (j = 0; j < nh; j++) schur->a[transposed ? j : i][transposed ? i : j] = y[j];
     }
     sphi_lu_factor(nh, schur);
 }
@@ -1982,17 +1998,16 @@ SPH_FN void sphi_schur(int dim, const sphi_blocks *b, const sphi_lu *kk, int tra
 SPH_FN sph_real sphi_conditioning(int dim, const sphi_blocks *b, const sphi_lu *schur)
 {
     const int nh = sphi_unknowns(dim);
-    sph_real sum[SPHI_MAX], largest = SPH_R(0);
+    sph_real x[SPHI_MAX * SPHI_MAX], largest = SPH_R(0);
     int i, j;
-    for (i = 0; i < nh; i++) sum[i] = SPH_R(0);
-    for (j = 0; j < nh; j++) {
-        sph_real x[SPHI_MAX];
-        for (i = 0; i < nh; i++) x[i] = b->mm[i][j];
-        sphi_lu_solve(nh, schur, x);
-        for (i = 0; i < nh; i++) sum[i] += SPHI_ABS(x[i]);
-    }
     for (i = 0; i < nh; i++)
-        if (!(sum[i] <= largest)) largest = sum[i];
+        for (j = 0; j < nh; j++) x[i * nh + j] = b->mm[i][j];
+    sphi_lu_solve_columns(nh, schur, nh, x);
+    for (i = 0; i < nh; i++) {
+        sph_real sum = SPH_R(0);
+        for (j = 0; j < nh; j++) sum += SPHI_ABS(x[i * nh + j]);
+        if (!(sum <= largest)) largest = sum;
+    }
     return schur->sign / largest;
 }
 
@@ -2185,60 +2200,95 @@ SPH_FN sph_test_weights sphi_test_weights(int method, sph_kernel k, int dim, sph
     return method == SPHI_WLS ? sph_test_weights_wls(k, dim, q, V_j) : sph_test_weights_cspm(k, dim, q, V_j);
 }
 
-/* One pair at a time, fifty sums do not stay in registers. So neighbours are gathered into tiles and summed
-   in lanes, which vectorises without a flag. Lanes without a neighbour get one out of reach, whose weights
-   are 0. */
-enum { SPHI_TILE = 64, SPHI_LANES = 8 };
+/* Several neighbours at a time, where the processor has vectors and the compiler has types for them. */
+/* clang-format off */
+#if (defined(__GNUC__) || defined(__clang__)) && !SPH_OPENCL && !defined(__CUDACC__) && \
+    (defined(__SSE2__) || defined(__aarch64__) || defined(__VSX__))
+#  if defined(__AVX__)
+#    define SPHI_VECTOR_SIZE 32
+#  else
+#    define SPHI_VECTOR_SIZE 16
+#  endif
+typedef sph_real sphi_lanes
+    __attribute__((vector_size(SPHI_VECTOR_SIZE), aligned(sizeof(sph_real)), may_alias));
+enum { SPHI_LANES = SPHI_VECTOR_SIZE / sizeof(sph_real) };
+#  define SPHI_LANE(v, l) (v)[l]
+#else
+typedef sph_real sphi_lanes;
+enum { SPHI_LANES = 1 };
+#  define SPHI_LANE(v, l) (v)
+#endif
+/* clang-format on */
+
+/* One pair at a time, fifty sums do not stay in registers. So neighbours are gathered into tiles, and a few
+   sums at a time run over a tile. Loops of SPHI_BLOCK passes vectorise without a flag; a tile is filled up to
+   a multiple of them with the target itself, without volume. */
+enum { SPHI_TILE = 64, SPHI_BLOCK = 8 };
 typedef struct sphi_tile {
-    sph_real x[SPHI_TILE], y[SPHI_TILE], z[SPHI_TILE], q[SPHI_TILE], volume[SPHI_TILE], df[SPHI_TILE];
+    sph_real x[SPHI_TILE], y[SPHI_TILE], z[SPHI_TILE], g[SPHI_TILE], w[SPHI_TILE], df[SPHI_TILE];
 } sphi_tile;
 
-/* Gathers e = (x_j - x_i) / h_i, q = |e|, V_j and f_j - f_i of up to SPHI_TILE neighbours. Returns their
-   number, rounded up to a multiple of SPHI_LANES. */
-SPH_FN int sphi_tile_gather(int dim, int with_f, sphi_tile *t, sph_vec x_i, sph_real h_i, sph_real f_i,
-                            sph_points x, sph_scalars volume, sph_scalars f,
-                            const SPH_GLOBAL sph_index *index, int n)
+/* Gathers e = (x_j - x_i) / h_i, the test weights g and w, and f_j - f_i of up to SPHI_TILE neighbours. */
+SPH_FN void sphi_tile_gather(int method, sph_kernel k, int dim, int with_f, sphi_tile *t, sph_vec x_i,
+                             sph_real h_i, sph_real f_i, sph_points x, sph_scalars volume, sph_scalars f,
+                             const SPH_GLOBAL sph_index *index, int n)
 {
-    const int full = (n + SPHI_LANES - 1) / SPHI_LANES * SPHI_LANES;
     const sph_real u = SPH_R(1) / h_i;
     int c, l;
     for (c = 0; c < n; c++) {
         const sph_index j = index[c];
-        const sph_vec e = sph_scale(u, sphi_separation(dim, x, sphi_point(dim, x, j), x_i));
-        t->x[c] = e.x;
-        if (dim > 1) t->y[c] = e.y;
-        if (dim > 2) t->z[c] = e.z;
-        t->volume[c] = sphi_at(volume, j);
-        if (with_f) t->df[c] = sphi_at(f, j) - f_i;
+        const sph_vec x_j = sphi_point(dim, x, j);
+        t->x[c] = x_j.x;
+        if (dim > 1) t->y[c] = x_j.y;
+        if (dim > 2) t->z[c] = x_j.z;
+        t->w[c] = sphi_at(volume, j);
+        if (with_f) t->df[c] = sphi_at(f, j);
     }
-    for (c = n; c < full; c++) {
-        t->x[c] = SPH_R(64);
-        if (dim > 1) t->y[c] = SPH_R(0);
-        if (dim > 2) t->z[c] = SPH_R(0);
-        t->volume[c] = t->df[c] = SPH_R(0);
+    for (c = n; c % SPHI_BLOCK; c++) {
+        t->x[c] = x_i.x;
+        if (dim > 1) t->y[c] = x_i.y;
+        if (dim > 2) t->z[c] = x_i.z;
+        t->w[c] = SPH_R(0);
+        if (with_f) t->df[c] = f_i;
     }
-    for (c = 0; c < full; c += SPHI_LANES)
-        for (l = 0; l < SPHI_LANES; l++) {
-            sph_real s = t->x[c + l] * t->x[c + l];
-            if (dim > 1) s += t->y[c + l] * t->y[c + l];
-            if (dim > 2) s += t->z[c + l] * t->z[c + l];
-            t->q[c + l] = SPHI_SQRT(s);
+    for (c = 0; c < n; c += SPHI_BLOCK)
+        for (l = c; l < c + SPHI_BLOCK; l++) {
+            sph_vec e;
+            sph_test_weights tw;
+            e.x = t->x[l];
+            e.y = dim > 1 ? t->y[l] : SPH_R(0);
+            e.z = dim > 2 ? t->z[l] : SPH_R(0);
+            e = sph_scale(u, sphi_separation(dim, x, e, x_i));
+            tw = sphi_test_weights(method, k, dim, sph_length(dim, e), t->w[l]);
+            t->x[l] = e.x;
+            if (dim > 1) t->y[l] = e.y;
+            if (dim > 2) t->z[l] = e.z;
+            t->g[l] = tw.g;
+            t->w[l] = tw.w;
+            if (with_f) t->df[l] -= f_i;
         }
-    return full;
 }
 
-#define SPHI_LANE_FIELD(name, formula) sph_real name[SPHI_LANES];
-/* clang-format off */
-typedef struct sphi_lanes {
-    SPHI_MATRIX_X(SPHI_LANE_FIELD) SPHI_MATRIX_Y(SPHI_LANE_FIELD) SPHI_MATRIX_Z(SPHI_LANE_FIELD)
-    SPHI_VALUE_X(SPHI_LANE_FIELD) SPHI_VALUE_Y(SPHI_LANE_FIELD) SPHI_VALUE_Z(SPHI_LANE_FIELD)
-} sphi_lanes;
-/* clang-format on */
-#define SPHI_LANE_ZERO(name, formula) s.name[l] = SPH_R(0);
-#define SPHI_LANE_ADD(name, formula) s.name[l] += formula;
-#define SPHI_LANE_SUM(name, formula) \
-    for (l = 1; l < SPHI_LANES; l++) s.name[0] += s.name[l]; \
-    m->name = s.name[0];
+#define SPHI_LANES_ZERO(from, name, formula) sphi_lanes name = zero;
+#define SPHI_LANES_ADD(from, name, formula) \
+    if (dim >= from) name += formula;
+#define SPHI_LANES_TOTAL(from, name, formula) \
+    if (dim >= from) \
+        for (l = 0; l < SPHI_LANES; l++) m->name += SPHI_LANE(name, l);
+#define SPHI_AT(array) (*(const sphi_lanes *)(array + c))
+/* Adds a list of sums over a tile of n neighbours. */
+#define SPHI_TILE_SUM(list) \
+    { \
+        list(SPHI_LANES_ZERO) for (c = 0; c < n; c += SPHI_LANES) \
+        { \
+            const sphi_lanes x = SPHI_AT(t.x), y = dim > 1 ? SPHI_AT(t.y) : zero, \
+                             z = dim > 2 ? SPHI_AT(t.z) : zero, g = SPHI_AT(t.g), w = SPHI_AT(t.w), \
+                             df = with_f ? SPHI_AT(t.df) : zero; \
+            (void)x, (void)y, (void)z, (void)g, (void)w, (void)df; \
+            list(SPHI_LANES_ADD) \
+        } \
+        list(SPHI_LANES_TOTAL) \
+    }
 
 /* The moments of target i, as sph_moments_add and sph_moments_add_value make them. */
 SPH_FN void sphi_moments(int method, sph_kernel k, int dim, int with_f, sph_index i, sph_points pos,
@@ -2247,35 +2297,26 @@ SPH_FN void sphi_moments(int method, sph_kernel k, int dim, int with_f, sph_inde
     const sph_vec x_i = sphi_point(dim, pos, i);
     const sph_real f_i = with_f ? sphi_at(f, i) : SPH_R(0);
     const sph_index end = list.start[i + 1];
+#if SPHI_VECTOR_SIZE
+    const sphi_lanes zero = {0};
+#else
+    const sphi_lanes zero = 0;
+#endif
     sphi_tile t;
-    sphi_lanes s;
     sph_index left; /* It counts down, because an index beyond the last entry may not exist. */
     int l, c;
-    for (l = 0; l < SPHI_LANES; l++) {
-        SPHI_MATRIX(dim, SPHI_LANE_ZERO)
-        if (with_f) { SPHI_VALUE(dim, SPHI_LANE_ZERO) }
-    }
+    *m = sph_moments_zero();
     for (left = end - list.start[i]; left > 0; left -= SPHI_TILE) {
-        const int full =
-            sphi_tile_gather(dim, with_f, &t, x_i, h_i, f_i, pos, volume, f, list.index + (end - left),
-                             left < SPHI_TILE ? (int)left : (int)SPHI_TILE);
-        for (c = 0; c < full; c += SPHI_LANES)
-            for (l = 0; l < SPHI_LANES; l++) {
-                const sph_test_weights tw = sphi_test_weights(method, k, dim, t.q[c + l], t.volume[c + l]);
-                const sph_real x = t.x[c + l], y = dim > 1 ? t.y[c + l] : SPH_R(0),
-                               z = dim > 2 ? t.z[c + l] : SPH_R(0), g = tw.g, w = tw.w;
-                (void)y;
-                (void)z;
-                SPHI_MATRIX(dim, SPHI_LANE_ADD)
-                if (with_f) {
-                    const sph_real df = t.df[c + l];
-                    SPHI_VALUE(dim, SPHI_LANE_ADD)
-                }
-            }
+        const int n = left < SPHI_TILE ? (int)left : (int)SPHI_TILE;
+        sphi_tile_gather(method, k, dim, with_f, &t, x_i, h_i, f_i, pos, volume, f, list.index + (end - left),
+                         n);
+        SPHI_TILE_SUM(SPHI_SUMS_GX)
+        if (dim > 1) SPHI_TILE_SUM(SPHI_SUMS_GYZ)
+        SPHI_TILE_SUM(SPHI_SUMS_WXX)
+        if (dim > 1) SPHI_TILE_SUM(SPHI_SUMS_WXYZ)
+        if (dim > 1) SPHI_TILE_SUM(SPHI_SUMS_WYZ)
+        if (with_f) SPHI_TILE_SUM(SPHI_SUMS_VALUE)
     }
-    *m = sph_moments_zero(); /* A compiler that does not know dim would warn of what dim leaves out. */
-    SPHI_MATRIX(dim, SPHI_LANE_SUM)
-    if (with_f) { SPHI_VALUE(dim, SPHI_LANE_SUM) }
 }
 
 /* The number of unknowns that the neighbours must determine at once. CSPM solves for the gradient and then

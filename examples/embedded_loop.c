@@ -27,7 +27,7 @@ static const sph_tait water = {.rho0 = 1.0f, .c = 30.0f, .gamma = 1.0f};
 static float x[N], y[N], vx[N], vy[N], ax[N], ay[N];
 static float rho[N], p[N], p_wall[N], wall_vx[N], wall_vy[N], is_water[N];
 /* of the search and its lists: sph_search_size(2, N, N * NEIGHBOURS), which setup() compares */
-static unsigned char memory[(N + 18) * 20 + 8 + (N + 1 + N * NEIGHBOURS) * 4];
+static unsigned char memory[(N + 18) * 24 + 8 + (N + 1 + N * NEIGHBOURS) * 4];
 static uint16_t light[SIDE]; /* a row of lights each, bit 0 left */
 
 /* 0, or a negative sph_error */

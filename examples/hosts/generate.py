@@ -168,7 +168,7 @@ def read(headers=HEADERS, root=ROOT):
             comment = plain(above.group(1)) if above else ""
             if kind == "enum":
                 enums.append(enum_of(name, body, comment, text))
-            elif "SPHI_MATRIX" not in body:
+            elif "SPHI_SUMS" not in body:
                 structs.append(Struct(name, fields_of(body), comment))
         doc = first = ""
         for match in re.finditer(

@@ -131,7 +131,7 @@ enum {
     HEIGHT = 2 * COLUMN + 1,
     MOST = WATER + WALL * (TANK + 2 * WALL) + 2 * WALL * HEIGHT,
     ENTRIES = 17 * MOST,
-    WORK = (MOST + 18) * (2 * (int)sizeof(sph_real) + 3 * (int)sizeof(sph_index)) /* sph_grid_workspace, as a constant */
+    WORK = (MOST + 18) * (3 * (int)sizeof(sph_real) + 3 * (int)sizeof(sph_index)) /* sph_grid_workspace, as a constant */
 };
 #define KERNEL SPH_WENDLAND_C2
 #define SPACING (SPH_R(1) / SPH_R(COLUMN))
