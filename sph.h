@@ -35,7 +35,7 @@
  * call sph_grid_lists alone. If the room is too small, it answers SPH_ERROR_CAPACITY, and pairs is the number
  * that is needed.
  *
- * If the particles are stored in an order close to that of the cells, every sweep is faster, and lists take
+ * If the particles are stored in an order close to that of the grid, every sweep is faster, and lists take
  * half of the time. So sort your arrays once in a while. The order is sph_grid_permutation(&grid), or after
  * sph_search sph_grid_permutation(&found.grid):
  *
@@ -61,14 +61,14 @@
  *   sph_neighbors                                         what is found: number of pairs, list, grid
  *   size_t    sph_grid_workspace(dim, n)                  bytes of workspace for n sources, or 0
  *   sph_index sph_grid_build(dim, sources, radius, work, work_size, grid)
- *                                                         sorts the sources into cells
+ *                                                         sorts the sources
  *   sph_query sph_query_of(points, criterion, radius, flags)
  *                                                         the neighbours of points among themselves
  *   sph_index sph_grid_count(dim, grid, query, start, pairs)
  *                                                         only the lengths of the lists
  *   sph_index sph_grid_lists(dim, grid, query, start, index, capacity, pairs)
  *                                                         the neighbour lists
- *   const sph_index *sph_grid_permutation(grid)           order[slot] = particle: into cell order
+ *   const sph_index *sph_grid_permutation(grid)           order[slot] = particle: into the grid's order
  *   sph_index sph_grid_renumber(grid)                     tells the grid that the arrays have been permuted
  *   sph_index sph_permute(n, order, in, stride, out)      out[slot] = in[order[slot]], for each array
  *   sph_index sph_permute_inverse(n, order, inverse)      inverse[order[slot]] = slot
@@ -700,10 +700,10 @@ SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_scalars radius,
     return 0;
 }
 
-/* The permutation into cell order: order[slot] = particle. It is null if grid is null, or empty. */
+/* The permutation into the grid's order: order[slot] = particle. It is null if grid is null, or empty. */
 SPH_FN const sph_index *sph_grid_permutation(const sph_grid *grid) { return grid ? grid->member : 0; }
 
-/* For a host that has put all its arrays into cell order (sph_permute with sph_grid_permutation).
+/* For a host that has put all its arrays into this order (sph_permute with sph_grid_permutation).
    The grid then uses the new numbers of the particles, as if it had been built from the new arrays,
    and sph_grid_permutation is the identity. The old order is lost, so permute first. Returns 0, or
    SPH_ERROR_NULL. */
@@ -1620,9 +1620,9 @@ struct sphi_job {
 /* SPHI_APPEND stores the rows one after the other in index[0 ... room - 1], and their lengths in
    start[i + 1]. The other way takes two passes: SPHI_LENGTHS stores the lengths in start[i + 1]; once
    these have become starts, SPHI_PLACE stores each row where it belongs. This is for targets that are
-   stored in an order far from that of the cells. They are visited in the order of the slots, where
+   stored in an order far from that of the grid. They are visited in the order of the slots, where
    near targets follow each other. */
-enum { SPHI_APPEND, SPHI_LENGTHS, SPHI_PLACE, SPHI_BUFFER = 768 };
+enum { SPHI_APPEND, SPHI_LENGTHS, SPHI_PLACE, SPHI_BUFFER = 512 };
 
 /* The target at place k of a pass. Returns its number. */
 SPH_FN sph_index sphi_target(int dim, int kind, const sphi_job *job, sph_index k, sphi_search *s)
@@ -1678,25 +1678,27 @@ SPHI_LARGE void sphi_view_begin(int dim, const sphi_job *job, sph_index k, sph_i
 /* One compiled copy serves all three modes, so that a row is placed with the same rounding with which it was
    counted: PLACE reads start, which holds what LENGTHS or APPEND counted. Returns the sum of the lengths,
    none of them estimated. Adds the number of candidates, which is never less, to *candidates. Once the sum is
-   more than sph_index can count there will be no list, and only candidates are counted from then on. */
-SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_index first, sph_index last,
-                         sph_index *index, int64_t room, int64_t *candidates)
+   more than sph_index can count there will be no list, and only candidates are counted from then on. view is
+   for a tree. */
+SPH_FN int64_t sphi_pass(int dim, int kind, sphi_view *view, int mode, const sphi_job *job, sph_index first,
+                         sph_index last, sph_index *index, int64_t room, int64_t *candidates)
 {
     const sph_grid *const g = job->g;
     int64_t total = 0;
     sph_index buffer[SPHI_BUFFER], k;
     sphi_crowds crowds;
     sphi_rows rows;
-    sphi_view view;
     sphi_search s;
     crowds.count = crowds.next = 0;
     s.crowds = &crowds;
     rows.y0 = rows.z0 = 0;
     rows.y1 = rows.z1 = -1; /* none yet */
     s.rows = &rows;
-    view.until = first;
-    view.slack = job->slack;
-    s.view = &view;
+    if (kind == SPHI_TREE) {
+        view->until = first;
+        view->slack = job->slack;
+    }
+    s.view = view;
     s.widest = job->widest;
     s.criterion = job->plain ? (int)SPH_GATHER : job->criterion;
     for (k = first; k < last; k++) {
@@ -1707,7 +1709,7 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
         int buffered;
         i = sphi_target(dim, kind, job, k, &s);
         if (i >= job->targets.n) continue;
-        if (kind == SPHI_TREE && k >= view.until && total <= SPHI_INDEX_MAX)
+        if (kind == SPHI_TREE && k >= view->until && total <= SPHI_INDEX_MAX)
             sphi_view_begin(dim, job, k, last, &s);
         if (left > 0) row = index + total;
         if (mode == SPHI_PLACE) { /* by way of the buffer, which has room for whole lanes */
@@ -1733,11 +1735,18 @@ SPH_FN int64_t sphi_pass(int dim, int kind, int mode, const sphi_job *job, sph_i
     SPHI_LARGE int64_t name(int mode, const sphi_job *job, sph_index first, sph_index last, \
                             sph_index *index, int64_t room, int64_t *candidates) \
     { \
-        return sphi_pass(dim, kind, mode, job, first, last, index, room, candidates); \
+        return sphi_pass(dim, kind, 0, mode, job, first, last, index, room, candidates); \
     }
-SPHI_PASS(sphi_pass_tree_1, 1, SPHI_TREE)
-SPHI_PASS(sphi_pass_tree_2, 2, SPHI_TREE)
-SPHI_PASS(sphi_pass_tree_3, 3, SPHI_TREE)
+#define SPHI_TREE_PASS(name, dim) \
+    SPHI_LARGE int64_t name(int mode, const sphi_job *job, sph_index first, sph_index last, \
+                            sph_index *index, int64_t room, int64_t *candidates) \
+    { \
+        sphi_view view; \
+        return sphi_pass(dim, SPHI_TREE, &view, mode, job, first, last, index, room, candidates); \
+    }
+SPHI_TREE_PASS(sphi_pass_tree_1, 1)
+SPHI_TREE_PASS(sphi_pass_tree_2, 2)
+SPHI_TREE_PASS(sphi_pass_tree_3, 3)
 SPHI_PASS(sphi_pass_hashed_1, 1, SPHI_HASHED)
 SPHI_PASS(sphi_pass_hashed_2, 2, SPHI_HASHED)
 SPHI_PASS(sphi_pass_hashed_3, 3, SPHI_HASHED)
@@ -1751,6 +1760,7 @@ SPHI_PASS(sphi_pass_open_1, 1, SPHI_OPEN)
 SPHI_PASS(sphi_pass_open_2, 2, SPHI_OPEN)
 SPHI_PASS(sphi_pass_open_3, 3, SPHI_OPEN)
 #undef SPHI_PASS
+#undef SPHI_TREE_PASS
 /* The passes of one dimension: a caller for whom it is a constant gets no other ones into the program. */
 SPH_FN sphi_pass_function sphi_pass_of(int dim, int kind)
 {
@@ -2076,7 +2086,7 @@ SPH_FN sph_index sph_search(int dim, sph_points points, sph_scalars radius, int 
 /* ================================================================ order, and lists kept for several steps */
 
 /* out[s * stride] = in[permutation[s] * stride] for s = 0 ... n - 1. in and out must not overlap. With
-   sph_grid_permutation this puts an array of the caller into cell order. */
+   sph_grid_permutation this puts an array of the caller into the grid's order. */
 SPH_FN sph_index sph_permute(sph_index n, const sph_index *permutation, const sph_real *in, size_t stride,
                              sph_real *out)
 {

@@ -691,28 +691,48 @@ SPHI_LARGE int sphi_scan_images(sph_real length, const SPH_GLOBAL sph_real *x, s
     for (i = 0; SPHI_ABS(x[(size_t)i * stride]) <= furthest;) i++;
     return sphi_refuse("points", i, SPH_ERROR_BOX);
 }
+/* gcc -O2 vectorises loops of constant length only, and no loop that it has unrolled. So it scans entries
+   SPHI_SCAN abreast. Others do better with a plain loop. */
+#if defined(__GNUC__) && __GNUC__ >= 8 && !defined(__clang__) && \
+    !(defined(__CUDACC__) || defined(__INTEL_COMPILER) || defined(__NVCOMPILER))
+#  define SPHI_SCAN 8
+#  define SPHI_SCAN_LANES SPHI_PRAGMA(GCC unroll 1)
+#else
+#  define SPHI_SCAN 1
+#  define SPHI_SCAN_LANES
+#endif
 /* The lists of the targets first ... last - 1 must be in order, with entries 0 ... n - 1. If foreign is 0,
    the targets are themselves among these n sources, and none may be in its own list. */
 SPHI_LARGE int sphi_scan_entries(sph_index first, sph_index last, sph_list list, sph_index n, int foreign)
 {
-    sph_index i, p;
-    int outside = 0, self = 0;
+    sph_index i, p, bad[SPHI_SCAN];
+    int c, outside, any = 0;
     for (i = first; i < last; i++)
         if (list.start[i + 1] < list.start[i]) return sphi_refuse("list", i, SPH_ERROR_LIST);
-    for (i = first; i < last; i++)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
-            const sph_index j = list.index[p];
-            outside |= (j < 0) | (j >= n);
-            self |= j == i;
+    for (c = 0; c < SPHI_SCAN; c++) bad[c] = 0;
+    for (i = first; i < last; i++) {
+        const sph_index end = list.start[i + 1], self = foreign ? (sph_index)-1 : i;
+        for (p = list.start[i]; end - p >= SPHI_SCAN; p = (sph_index)(p + SPHI_SCAN)) {
+            SPHI_SCAN_LANES
+            for (c = 0; c < SPHI_SCAN; c++) {
+                const sph_index j = list.index[p + c];
+                bad[c] = (sph_index)(bad[c] | ((j < 0) | (j >= n) | (j == self)));
+            }
         }
-    if (!outside && (!self || foreign)) return 0;
-    for (i = first; i < last; i++)
-        for (p = list.start[i]; p < list.start[i + 1]; p++) {
+        for (; p < end; p++) {
             const sph_index j = list.index[p];
-            if (outside ? j < 0 || j >= n : j == i)
-                return sphi_refuse("list", i, outside ? (int)SPH_ERROR_LIST : (int)SPH_ERROR_SELF);
+            bad[0] = (sph_index)(bad[0] | ((j < 0) | (j >= n) | (j == self)));
         }
-    return SPH_ERROR_LIST;
+    }
+    for (c = 0; c < SPHI_SCAN; c++) any |= (int)bad[c];
+    for (outside = 1; any && outside >= 0; outside--)
+        for (i = first; i < last; i++)
+            for (p = list.start[i]; p < list.start[i + 1]; p++) {
+                const sph_index j = list.index[p];
+                if (outside ? j < 0 || j >= n : j == i)
+                    return sphi_refuse("list", i, outside ? (int)SPH_ERROR_LIST : (int)SPH_ERROR_SELF);
+            }
+    return 0;
 }
 
 /* Checks an axis of the box. Its length must not be negative, the largest support must not reach beyond half
@@ -2214,6 +2234,7 @@ typedef sph_real sphi_lanes
 enum { SPHI_LANES = SPHI_VECTOR_SIZE / sizeof(sph_real) };
 #  define SPHI_LANE(v, l) (v)[l]
 #else
+#  define SPHI_VECTOR_SIZE 0
 typedef sph_real sphi_lanes;
 enum { SPHI_LANES = 1 };
 #  define SPHI_LANE(v, l) (v)

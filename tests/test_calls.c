@@ -226,6 +226,28 @@ static void test_marks_and_ranges(setup *s)
     CHECK(shepard(s, sph_cloud_range(c, 3, 4)) == SPH_ERROR_LIST);
     s->c.index[s->c.start[3]] = s->c.index[s->c.start[3] + 1];
 }
+/* A scan sees every entry of a row. What is outside is told before what is in its own list. */
+static void test_entries(setup *s)
+{
+    const sph_index n = s->c.n, rows[3] = {0, ODD, n - 1};
+    sph_index *const first = &s->c.index[s->c.start[0]], first_entry = *first, p;
+    int r, f;
+    for (r = 0; r < 3; r++)
+        for (p = s->c.start[rows[r]]; p < s->c.start[rows[r] + 1]; p++) {
+            const sph_index i = rows[r], entry = s->c.index[p], fault[3] = {-1, n, i};
+            for (f = 0; f < 3; f++) {
+                const int error = f < 2 ? SPH_ERROR_LIST : SPH_ERROR_SELF;
+                s->c.index[p] = fault[f];
+                CHECK_AT("fault of an entry", p,
+                         shepard(s, cloud_of(s)) == error && refusal.count == 1 && refusal.particle == i);
+                if (f == 2 || &s->c.index[p] == first) continue;
+                *first = 0;
+                CHECK_AT("two faults", p, shepard(s, cloud_of(s)) == error && refusal.particle == i);
+                *first = first_entry;
+            }
+            s->c.index[p] = entry;
+        }
+}
 /* What is marked is not looked at again (with what is wrong, but does no harm), and what comes with it is. */
 static void test_marks_save_scans(setup *s)
 {
@@ -574,6 +596,7 @@ int main(void)
         test_marks_of_faults(&s);
         test_marks_and_ranges(&s);
         test_marks_save_scans(&s);
+        test_entries(&s);
         test_refusals(&s);
         test_default_softening(&s, copy);
         test_default_density(&s, copy);

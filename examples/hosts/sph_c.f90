@@ -1513,7 +1513,7 @@ module sph_c
             integer(sph_index), value :: n
             integer(c_size_t) :: answer
         end function
-        ! sorts the sources into cells
+        ! sorts the sources
         function sph_grid_build(dim, sources, radius, work, work_size, grid) &
             bind(c, name='sph_shim_grid_build') result(answer)
             import
@@ -1525,7 +1525,7 @@ module sph_c
             type(sph_grid), intent(inout) :: grid
             integer(sph_index) :: answer
         end function
-        ! order[slot] = particle: into cell order
+        ! order[slot] = particle: into the grid's order
         function sph_grid_permutation(grid) bind(c, name='sph_shim_grid_permutation') result(answer)
             import
             type(sph_grid), intent(in) :: grid

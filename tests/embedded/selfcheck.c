@@ -130,7 +130,7 @@ enum {
     WALL = 2,
     HEIGHT = 2 * COLUMN + 1,
     MOST = WATER + WALL * (TANK + 2 * WALL) + 2 * WALL * HEIGHT,
-    ENTRIES = 17 * MOST,
+    ENTRIES = 33 * MOST / 2,
     WORK = (MOST + 18) * (3 * (int)sizeof(sph_real) + 3 * (int)sizeof(sph_index)) /* sph_grid_workspace, as a constant */
 };
 #define KERNEL SPH_WENDLAND_C2

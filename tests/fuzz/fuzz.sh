@@ -29,8 +29,8 @@ path() {
     case $1 in
     *-avx2) macros="__AVX2__" flags="-mavx2" ;;
     *-avx512) macros="__AVX512F__ __AVX512VL__" flags=-march=native ;;
-    *-crowded) macros='' flags=-DSPHI_CROWDED=4 ;;
-    *-openmp) macros='' flags="-fopenmp -DSPH_OPENMP=1 -DSPHI_CROWDED=4" ;;
+    *-crowded) macros='' flags="-DSPHI_CROWDED=4 -DSPHI_LEAF=1" ;;
+    *-openmp) macros='' flags="-fopenmp -DSPH_OPENMP=1 -DSPHI_CROWDED=4 -DSPHI_LEAF=2" ;;
     *) macros='' flags='' ;;
     esac
     for macro in $macros; do

@@ -6,7 +6,7 @@
  * that are no numbers or near the end of the range. A pair whose distance is within 8 ulp of the radius (in
  * a box, of the largest of radius, box length and coordinates) may be in or out; all others must be as they
  * are. Whatever the room and, with -fopenmp -DSPH_OPENMP=1, the number of threads, the lists are the same.
- * -DSPHI_CROWDED=4 makes cells of so few particles crowded ones.
+ * -DSPHI_CROWDED=4 makes cells of so few particles crowded ones, -DSPHI_LEAF=1 a tree that is as deep as can be.
  */
 #include "fuzz.h"
 
