@@ -198,7 +198,8 @@ enum {
     SPHI_FARTHEST = 32, /* with a radius of more than so many cells a target looks at all slots */
     SPHI_ALIKE = 4,     /* radii that differ by no more than this factor take cells of one width */
     SPHI_VIEW = 64,     /* leaves that are kept for a group of targets; whole lanes */
-    SPHI_IMAGES = 27,   /* of a periodic box and around it */
+    SPHI_IMAGES = 27,   /* of a periodic box and around it, */
+    SPHI_INSIDE = 13,   /* and the number of the box itself */
     SPHI_ALIGN = 8,     /* bytes to which memory is aligned, inside the caller's */
     SPHI_CROWDS = 8,    /* crowded cells whose bounds are kept from one target to the next */
     SPHI_ROWS = 16      /* rows of a hashed grid whose places are kept, likewise */
@@ -1393,7 +1394,6 @@ SPHI_LARGE int64_t sphi_rows_overlapping(const sph_grid *g, const sphi_search *s
 
 /* -------- lists: images of a periodic box, by their numbers */
 
-enum { SPHI_INSIDE = 13 }; /* the image that is no image */
 SPH_FN sph_vec sphi_image_shift(sph_vec box, int image)
 {
     sph_vec shift;
