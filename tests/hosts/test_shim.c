@@ -115,7 +115,7 @@ static void test_memory(int dim)
     sph_index i;
     cloud_set(&x, field_smooth);
     CHECK(sph_shim_grid_workspace(dim, x.n) == sph_grid_workspace(dim, x.n) && sizeof work >= sph_grid_workspace(dim, x.n));
-    CHECK(sph_shim_grid_build(dim, &points, support, work, sizeof work, &grid) == 0);
+    CHECK(sph_shim_grid_build(dim, &points, sph_scalars_same(&support), work, sizeof work, &grid) == 0);
     CHECK(sph_shim_grid_count(dim, &grid, &query, start, &pairs) == 0 && sph_grid_count(dim, &grid, query, start_inline, &pairs_inline) == 0);
     CHECK(pairs == pairs_inline && pairs > x.n && pairs <= MAX_PAIRS && memcmp(start, start_inline, ((size_t)x.n + 1) * sizeof *start) == 0);
     CHECK(sph_shim_grid_lists(dim, &grid, &query, start, index, 1, &pairs) == SPH_ERROR_CAPACITY && pairs == pairs_inline);
