@@ -98,6 +98,7 @@ static void test_memory(int dim)
     cloud x = cloud_lattice(dim, sides[dim - 1], 1.3, 0.2, 7);
     const sph_points points = cloud_points(&x);
     const sph_real support = SPH_R(2) * x.h;
+    const sph_scalars radius_of_all = sph_scalars_same(&support);
     const sph_scalars radius = sph_scalars_same(&support), V = cloud_V(&x);
     const sph_query query = sph_query_of(points, SPH_GATHER, radius, 0);
     static sph_index start[MAX_N + 1], start_inline[MAX_N + 1], index[MAX_PAIRS], index_inline[MAX_PAIRS],
@@ -115,7 +116,7 @@ static void test_memory(int dim)
     sph_index i;
     cloud_set(&x, field_smooth);
     CHECK(sph_shim_grid_workspace(dim, x.n) == sph_grid_workspace(dim, x.n) && sizeof work >= sph_grid_workspace(dim, x.n));
-    CHECK(sph_shim_grid_build(dim, &points, sph_scalars_same(&support), work, sizeof work, &grid) == 0);
+    CHECK(sph_shim_grid_build(dim, &points, &radius_of_all, work, sizeof work, &grid) == 0);
     CHECK(sph_shim_grid_count(dim, &grid, &query, start, &pairs) == 0 && sph_grid_count(dim, &grid, query, start_inline, &pairs_inline) == 0);
     CHECK(pairs == pairs_inline && pairs > x.n && pairs <= MAX_PAIRS && memcmp(start, start_inline, ((size_t)x.n + 1) * sizeof *start) == 0);
     CHECK(sph_shim_grid_lists(dim, &grid, &query, start, index, 1, &pairs) == SPH_ERROR_CAPACITY && pairs == pairs_inline);
@@ -186,7 +187,7 @@ static void test_refusals(void)
     CHECK(sph_shim_density_summation(-1, 1, &c, &same_one, &out) == SPH_ERROR_KERNEL && sph_shim_shepard_sum(99, 1, &c, &out) == SPH_ERROR_KERNEL);
     CHECK(sph_shim_density_summation(0, 4, &c, &same_one, &out) == SPH_ERROR_DIM && sph_shim_shepard_sum(0, 0, &c, &out) == SPH_ERROR_DIM);
     CHECK(strcmp(sph_shim_refused(SPH_ERROR_DIM, &particle), "dim") == 0 && particle == -1);
-    CHECK(sph_shim_grid_build(7, &points, one, 0, 0, 0) == SPH_ERROR_DIM);
+    CHECK(sph_shim_grid_build(7, &points, &same_one, 0, 0, 0) == SPH_ERROR_DIM);
 
     /* structs that are not there: of those that count particles an error, of all others zeros */
     CHECK(sph_shim_density_summation(0, 1, 0, &same_one, &out) == SPH_ERROR_NULL && sph_shim_cloud_checked(1, 0) == SPH_ERROR_NULL);
