@@ -98,7 +98,6 @@ static void test_memory(int dim)
     cloud x = cloud_lattice(dim, sides[dim - 1], 1.3, 0.2, 7);
     const sph_points points = cloud_points(&x);
     const sph_real support = SPH_R(2) * x.h;
-    const sph_scalars radius_of_all = sph_scalars_same(&support);
     const sph_scalars radius = sph_scalars_same(&support), V = cloud_V(&x);
     const sph_query query = sph_query_of(points, SPH_GATHER, radius, 0);
     static sph_index start[MAX_N + 1], start_inline[MAX_N + 1], index[MAX_PAIRS], index_inline[MAX_PAIRS],
@@ -116,7 +115,7 @@ static void test_memory(int dim)
     sph_index i;
     cloud_set(&x, field_smooth);
     CHECK(sph_shim_grid_workspace(dim, x.n) == sph_grid_workspace(dim, x.n) && sizeof work >= sph_grid_workspace(dim, x.n));
-    CHECK(sph_shim_grid_build(dim, &points, &radius_of_all, work, sizeof work, &grid) == 0);
+    CHECK(sph_shim_grid_build(dim, &points, &radius, work, sizeof work, &grid) == 0);
     CHECK(sph_shim_grid_count(dim, &grid, &query, start, &pairs) == 0 && sph_grid_count(dim, &grid, query, start_inline, &pairs_inline) == 0);
     CHECK(pairs == pairs_inline && pairs > x.n && pairs <= MAX_PAIRS && memcmp(start, start_inline, ((size_t)x.n + 1) * sizeof *start) == 0);
     CHECK(sph_shim_grid_lists(dim, &grid, &query, start, index, 1, &pairs) == SPH_ERROR_CAPACITY && pairs == pairs_inline);
