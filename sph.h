@@ -877,7 +877,7 @@ SPH_FN int64_t sphi_filter_portable(int dim, int kind, const sph_grid *g, const 
         sph_real limits[SPHI_TILE], excess[SPHI_TILE];
         int c, l;
         if (kind <= SPHI_RADII)
-            sphi_limits(s, g->own + a, (n + SPHI_BLOCK - 1) / SPHI_BLOCK * SPHI_BLOCK, limits);
+            sphi_limits(s, g->own ? g->own + a : 0, (n + SPHI_BLOCK - 1) / SPHI_BLOCK * SPHI_BLOCK, limits);
         for (c = 0; c < n; c += SPHI_BLOCK)
             for (l = c; l < c + SPHI_BLOCK; l++) {
                 const sph_real dx = (p.x - g->x[a + l]) - shift.x;
