@@ -2290,30 +2290,32 @@ SPH_FN void sphi_tile_gather(int method, sph_kernel k, int dim, int with_f, sphi
         }
 }
 
+/* clang-format off */
 #define SPHI_LANES_ZERO(from, name, formula) sphi_lanes name = zero;
-#define SPHI_LANES_ADD(from, name, formula) \
-    if (dim >= from) name += formula;
+#define SPHI_LANES_ADD(from, name, formula) if (dim >= from) name += formula;
 #define SPHI_LANES_TOTAL(from, name, formula) \
-    if (dim >= from) \
-        for (l = 0; l < SPHI_LANES; l++) m->name += SPHI_LANE(name, l);
+    if (dim >= from) for (l = 0; l < SPHI_LANES; l++) m->name += SPHI_LANE(name, l);
 #define SPHI_AT(array) (*(const sphi_lanes *)(array + c))
 /* Adds a list of sums over a tile of n neighbours. */
 #define SPHI_TILE_SUM(list) \
     { \
-        list(SPHI_LANES_ZERO) for (c = 0; c < n; c += SPHI_LANES) \
-        { \
-            const sphi_lanes x = SPHI_AT(t.x), y = dim > 1 ? SPHI_AT(t.y) : zero, \
-                             z = dim > 2 ? SPHI_AT(t.z) : zero, g = SPHI_AT(t.g), w = SPHI_AT(t.w), \
-                             df = with_f ? SPHI_AT(t.df) : zero; \
+        list(SPHI_LANES_ZERO) \
+        for (c = 0; c < n; c += SPHI_LANES) { \
+            const sphi_lanes x = SPHI_AT(t->x), y = dim > 1 ? SPHI_AT(t->y) : zero, \
+                             z = dim > 2 ? SPHI_AT(t->z) : zero, g = SPHI_AT(t->g), w = SPHI_AT(t->w), \
+                             df = with_f ? SPHI_AT(t->df) : zero; \
             (void)x, (void)y, (void)z, (void)g, (void)w, (void)df; \
             list(SPHI_LANES_ADD) \
         } \
         list(SPHI_LANES_TOTAL) \
     }
+/* clang-format on */
 
-/* The moments of target i, as sph_moments_add and sph_moments_add_value make them. */
+/* The moments of target i, as sph_moments_add and sph_moments_add_value make them. The last tile of its row
+   stays in t. */
 SPH_FN void sphi_moments(int method, sph_kernel k, int dim, int with_f, sph_index i, sph_points pos,
-                         sph_list list, sph_real h_i, sph_scalars volume, sph_scalars f, sph_moments *m)
+                         sph_list list, sph_real h_i, sph_scalars volume, sph_scalars f, sphi_tile *t,
+                         sph_moments *m)
 {
     const sph_vec x_i = sphi_point(dim, pos, i);
     const sph_real f_i = with_f ? sphi_at(f, i) : SPH_R(0);
@@ -2323,13 +2325,12 @@ SPH_FN void sphi_moments(int method, sph_kernel k, int dim, int with_f, sph_inde
 #else
     const sphi_lanes zero = 0;
 #endif
-    sphi_tile t;
     sph_index left; /* It counts down, because an index beyond the last entry may not exist. */
     int l, c;
     *m = sph_moments_zero();
     for (left = end - list.start[i]; left > 0; left -= SPHI_TILE) {
         const int n = left < SPHI_TILE ? (int)left : (int)SPHI_TILE;
-        sphi_tile_gather(method, k, dim, with_f, &t, x_i, h_i, f_i, pos, volume, f, list.index + (end - left),
+        sphi_tile_gather(method, k, dim, with_f, t, x_i, h_i, f_i, pos, volume, f, list.index + (end - left),
                          n);
         SPHI_TILE_SUM(SPHI_SUMS_GX)
         if (dim > 1) SPHI_TILE_SUM(SPHI_SUMS_GYZ)
@@ -2377,11 +2378,12 @@ SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_cloud c
     if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_real h_i = sphi_at(cloud.h, i);
+        sphi_tile t;
         sph_moments m;
         sph_jet j;
         sph_real conditioning = SPH_R(0);
         int state, solved;
-        sphi_moments(method, k, dim, 1, i, cloud.points, cloud.list, h_i, cloud.volume, f, &m);
+        sphi_moments(method, k, dim, 1, i, cloud.points, cloud.list, h_i, cloud.volume, f, &t, &m);
         state = sphi_solve(method, dim, &m, h_i, &j, want_conditioning ? &conditioning : 0);
         solved = state == SPH_OK;
         if (!sphi_finite(conditioning)) conditioning = SPH_R(0); /* the moments overflowed */
@@ -2390,7 +2392,7 @@ SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_cloud c
                                          sphi_neighbours_needed(method, dim));
         else if (want_conditioning && SPHI_ABS(conditioning) < conditioning_min) state = SPH_ILL_CONDITIONED;
         if (fallback_wls && (state == SPH_SINGULAR || state == SPH_ILL_CONDITIONED)) {
-            sphi_moments(SPHI_WLS, k, dim, 1, i, cloud.points, cloud.list, h_i, cloud.volume, f, &m);
+            sphi_moments(SPHI_WLS, k, dim, 1, i, cloud.points, cloud.list, h_i, cloud.volume, f, &t, &m);
             if (sph_solve_block(dim, &m, h_i, &j, 0) == SPH_OK) {
                 state = SPH_FELL_BACK;
                 solved = 1;
@@ -2472,14 +2474,18 @@ SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_clo
     if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
-        const sph_real h_i = sphi_at(cloud.h, i), u = SPH_R(1) / h_i;
+        const sph_real h_i = sphi_at(cloud.h, i);
+        const sph_index end = cloud.list.start[i + 1];
+        const int many = end - cloud.list.start[i] > SPHI_TILE; /* Then the first tiles are gone. */
         SPH_GLOBAL sph_real *const row = out.row;
+        sphi_tile t;
         sph_moments m;
         sph_coefficients c;
         sph_real conditioning = SPH_R(0), sum = SPH_R(0);
         int state;
         c.factor = SPH_R(0);
-        sphi_moments(method, k, dim, 0, i, cloud.points, cloud.list, h_i, cloud.volume, cloud.volume, &m);
+        sphi_moments(method, k, dim, 0, i, cloud.points, cloud.list, h_i, cloud.volume, cloud.volume, &t,
+                     &m);
         state = method == SPHI_CSPM
                     ? sph_coefficients_cspm(dim, &m, h_i, d, &c, out.conditioning ? &conditioning : 0)
                     : sph_coefficients_block(dim, method == SPHI_ICSPM, &m, h_i, d, &c,
@@ -2488,14 +2494,28 @@ SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_clo
             state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i,
                                          sphi_neighbours_needed(method, dim));
         else {
-            for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
-                const sph_index j = cloud.list.index[p];
-                const sph_vec e =
-                    sph_scale(u, sphi_separation(dim, cloud.points, sphi_point(dim, cloud.points, j), x_i));
-                row[p] = sph_coefficients_weight(
-                    dim, c, e,
-                    sphi_test_weights(method, k, dim, sph_length(dim, e), sphi_at(cloud.volume, j)));
-                sum += row[p];
+            sph_index left;
+            for (left = end - cloud.list.start[i]; left > 0; left -= SPHI_TILE) {
+                const int n = left < SPHI_TILE ? (int)left : (int)SPHI_TILE;
+                int b, l;
+                if (many)
+                    sphi_tile_gather(method, k, dim, 0, &t, x_i, h_i, SPH_R(0), cloud.points, cloud.volume,
+                                     cloud.volume, cloud.list.index + (end - left), n);
+                for (b = 0; b < n; b += SPHI_BLOCK)
+                    for (l = b; l < b + SPHI_BLOCK; l++) {
+                        sph_vec e;
+                        sph_test_weights tw;
+                        e.x = t.x[l];
+                        e.y = dim > 1 ? t.y[l] : SPH_R(0);
+                        e.z = dim > 2 ? t.z[l] : SPH_R(0);
+                        tw.g = t.g[l];
+                        tw.w = t.w[l];
+                        t.g[l] = sph_coefficients_weight(dim, c, e, tw);
+                    }
+                for (l = 0; l < n; l++) {
+                    row[end - left + l] = t.g[l];
+                    sum += t.g[l];
+                }
             }
             if (!sphi_finite(sum) || !sphi_finite(c.factor)) state = SPH_NOT_FINITE;
         }
