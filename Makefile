@@ -8,7 +8,7 @@
 CC ?= cc
 CFLAGS ?= -O2
 WARN = -std=c99 -Wall -Wextra -Wpedantic
-# the drivers' sweeps run in two thirds of the time with it; compilers that know not the pragma (tcc, which accepts any flag) go without
+# an older gcc vectorises the drivers' sweeps with it alone; compilers that know not the pragma (tcc, which accepts any flag) go without
 SIMD := $(shell echo 'double f(int n) { double s = 0; int i; _Pragma("omp simd reduction(+ : s)") for (i = 0; i < n; i++) s += i; return s; }' | \
     $(CC) -fopenmp-simd -x c -c -o /dev/null - > /dev/null 2>&1 && echo -fopenmp-simd -DSPH_SIMD=1)
 # the drivers' sweeps are shared by threads where there are POSIX threads; else one does all
@@ -103,15 +103,8 @@ define run
 	    OPTIONS=$(2) THREADS=$(SHARE) $(addprefix driver-,$(call long_first,$(LONG_RUNS),$(call drivers_of,$(1)))) || failed=1; \
 	$(MAKE) --no-print-directory figures || failed=1; \
 	echo; $(BUILD)/examples/scoreboard $(patsubst %,"$(RESULTS)/%.csv",$(call drivers_of,$(1))) || failed=1; \
-	$(call seconds,$(patsubst %,"$(RESULTS)/%.csv",$(call drivers_of,$(1)))); \
 	exit $$failed
 endef
-# the drivers' times, longest first: of the processor, by the clock
-seconds = echo; for table in $(1); do [ ! -f "$$table" ] || awk -F , ' \
-    $$1 == "item" { for (k = 1; k <= NF; k++) if ($$k == "measured") m = k } \
-    $$1 == "run" && $$3 == "CPU time [s]" { cpu = $$m } \
-    $$1 == "run" && $$3 == "wall time [s]" { n = split(FILENAME, part, "/"); sub(".csv", "", part[n]); printf "%7.1f s of CPU time, %5.0f s: %s\n", cpu, $$m, part[n] }' \
-    "$$table"; done | sort -rn
 
 THREADS = $(PROCESSORS)
 driver-%:

@@ -213,12 +213,8 @@ enum {
 #endif
 
 /* Bytes for the coordinates and the radius of a slot. The same memory first holds the bucket of each
-   particle, until all have their slots. */
-SPH_FN size_t sphi_place_size(int dim)
-{
-    const size_t place = ((size_t)dim + 1) * sizeof(sph_real);
-    return place > sizeof(sph_index) ? place : sizeof(sph_index);
-}
+   particle, until all have their slots: an index has at most 8 bytes, and these are at least 8. */
+SPH_FN size_t sphi_place_size(int dim) { return ((size_t)dim + 1) * sizeof(sph_real); }
 /* Bytes per slot for the first slots of the buckets, or for the tree, which has at most 4 nodes for SPHI_LEAF
    slots. */
 SPH_FN size_t sphi_cells_size(int dim)
@@ -648,31 +644,12 @@ SPH_FN int sphi_radii(sph_index n, sph_scalars radius, sph_real *mean, sph_real 
     return 0;
 }
 
-/* Sorts the sources. radius: the support radius of each source, or one for all (sph_scalars_same). Give those
-   that you will mostly search with: other radii find the same neighbours, but far larger or smaller ones take
-   longer. None may be more than half of a box length. Coordinates and radii are copied, so later changes of
-   the arrays do not matter until the next build. work may be aligned in any way. Without sources the grid is
-   empty; work and radius are then not read, and may be null.
-   Returns 0 or a negative sph_error: SPH_ERROR_CAPACITY if work_size is below
-   sph_grid_workspace(dim, sources.n); SPH_ERROR_H and SPH_ERROR_BOX as for sph_grid_lists. */
-SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_scalars radius, void *work, size_t work_size,
-                                sph_grid *grid)
+/* Makes the grid of sources, radii and workspace that have been checked. */
+SPH_FN void sphi_grid_make(int dim, sph_points sources, sph_scalars radius, sph_real mean, sph_real largest,
+                           int alike, void *work, sph_grid *grid)
 {
-    const size_t padded = sphi_padded(sources.n > 0 ? sources.n : 0);
-    sph_real mean, largest;
+    const size_t padded = sphi_padded(sources.n);
     sph_index k;
-    int alike, error = sphi_check_points(dim, sources);
-    if (error) return error;
-    if (!grid || (!work && sources.n > 0)) return sphi_refuse("work, grid", -1, SPH_ERROR_NULL);
-    if (sources.n == 0) {
-        sphi_grid_empty(dim, grid);
-        return 0;
-    }
-    if (sph_grid_workspace(dim, sources.n) == 0) return sphi_refuse("sources.n", -1, SPH_ERROR_COUNT);
-    error = sphi_radii(sources.n, radius, &mean, &largest, &alike);
-    if (error) return error;
-    if (sphi_check_box(dim, sources, largest, 0)) return SPH_ERROR_BOX;
-    if (work_size < sph_grid_workspace(dim, sources.n)) return SPH_ERROR_CAPACITY;
     work = sphi_aligned(work);
     sphi_grid_empty(dim, grid);
     grid->n = sources.n;
@@ -698,6 +675,32 @@ SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_scalars radius,
         if (dim > 2) grid->z[k] = SPH_R(0);
         if (grid->own) grid->own[k] = SPH_R(0);
     }
+}
+
+/* Sorts the sources. radius: the support radius of each source, or one for all (sph_scalars_same). Give those
+   that you will mostly search with: other radii find the same neighbours, but far larger or smaller ones take
+   longer. None may be more than half of a box length. Coordinates and radii are copied, so later changes of
+   the arrays do not matter until the next build. work may be aligned in any way. Without sources the grid is
+   empty; work and radius are then not read, and may be null.
+   Returns 0 or a negative sph_error: SPH_ERROR_CAPACITY if work_size is below
+   sph_grid_workspace(dim, sources.n); SPH_ERROR_H and SPH_ERROR_BOX as for sph_grid_lists. */
+SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_scalars radius, void *work, size_t work_size,
+                                sph_grid *grid)
+{
+    sph_real mean, largest;
+    int alike, error = sphi_check_points(dim, sources);
+    if (error) return error;
+    if (!grid || (!work && sources.n > 0)) return sphi_refuse("work, grid", -1, SPH_ERROR_NULL);
+    if (sources.n == 0) {
+        sphi_grid_empty(dim, grid);
+        return 0;
+    }
+    if (sph_grid_workspace(dim, sources.n) == 0) return sphi_refuse("sources.n", -1, SPH_ERROR_COUNT);
+    error = sphi_radii(sources.n, radius, &mean, &largest, &alike);
+    if (error) return error;
+    if (sphi_check_box(dim, sources, largest, 0)) return SPH_ERROR_BOX;
+    if (work_size < sph_grid_workspace(dim, sources.n)) return SPH_ERROR_CAPACITY;
+    sphi_grid_make(dim, sources, radius, mean, largest, alike, work, grid);
     return 0;
 }
 
@@ -1439,6 +1442,15 @@ SPH_FN sph_real sphi_outside(sph_real distance, sph_real half_length)
     const sph_real d = SPHI_ABS(distance) - half_length;
     return SPH_R(0.5) * (d + SPHI_ABS(d));
 }
+/* By how much rounding may change a distance in a tree. */
+SPH_FN sph_real sphi_slack(const sph_grid *g)
+{
+    const sph_real *const root = sphi_node(g, 1), box[3] = {g->box.x, g->box.y, g->box.z};
+    sph_real size = SPH_R(0);
+    int c;
+    for (c = 0; c < g->dim; c++) size += SPHI_ABS(root[c]) + root[g->dim + c] + box[c];
+    return SPH_R(16) * SPH_EPSILON * size;
+}
 /* Finds the leaves that the group may see, from where the view stands, until it is full. A node is left out
    with all below it if it is farther away than the largest radius of a pair with one of its sources. */
 SPHI_LARGE void sphi_view_fill(const sph_grid *g, const sphi_search *s, sphi_view *v)
@@ -1559,11 +1571,14 @@ SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search 
     run.y = run.z = 0;
     run.shift.x = run.shift.y = run.shift.z = SPH_R(0);
     run.met = s->skip < 0 || count_all;
-    if (kind == SPHI_TREE) *candidates += g->n;
-    if (kind == SPHI_TREE && count_all) return 0;
-    if (kind != SPHI_TREE && s->radius > SPH_R(SPHI_FARTHEST) * g->radius)
-        return sphi_rows_far(g, s, &run, count_all, out, room, candidates);
-    if (kind != SPHI_TREE) k = sphi_block_of(dim, kind, g, s);
+    if (kind == SPHI_TREE) {
+        *candidates += g->n;
+        if (count_all) return 0;
+    } else {
+        if (s->radius > SPH_R(SPHI_FARTHEST) * g->radius)
+            return sphi_rows_far(g, s, &run, count_all, out, room, candidates);
+        k = sphi_block_of(dim, kind, g, s);
+    }
     do {
         if (kind == SPHI_TREE) count = sphi_tree_row(dim, g, s, &run, careful, out, room);
         else if (kind == SPHI_OPEN)
@@ -1894,7 +1909,7 @@ SPH_FN int sphi_job_of(int dim, const sph_grid *grid, sph_query query, sph_index
     const int known = SPH_LIST_SELF | SPH_LIST_HALF | SPH_LIST_SORTED | SPH_LIST_FOREIGN;
     sph_real largest;
     sph_index i;
-    int error, c;
+    int error;
     if (grid && grid->dim != dim) return sphi_refuse("dim", -1, SPH_ERROR_DIM);
     if (grid && !(flags & SPH_LIST_FOREIGN) && targets.n > grid->n)
         return sphi_refuse("query.targets.n", -1, SPH_ERROR_RANGE);
@@ -1932,12 +1947,7 @@ SPH_FN int sphi_job_of(int dim, const sph_grid *grid, sph_query query, sph_index
     job->criterion = criterion;
     job->flags = flags;
     job->radius = radius;
-    job->slack = SPH_R(0);
-    for (c = 0; grid->levels && c < dim; c++) {
-        const sph_real *const root = sphi_node(grid, 1);
-        const sph_real box[3] = {grid->box.x, grid->box.y, grid->box.z};
-        job->slack += SPH_R(16) * SPH_EPSILON * (SPHI_ABS(root[c]) + root[dim + c] + box[c]);
-    }
+    job->slack = grid->levels ? sphi_slack(grid) : SPH_R(0);
     job->widest = largest;
     if (grid->box.x > SPH_R(0)) job->widest = sphi_lesser(job->widest, SPH_R(0.5) * grid->box.x);
     if (dim > 1 && grid->box.y > SPH_R(0)) job->widest = sphi_lesser(job->widest, SPH_R(0.5) * grid->box.y);
@@ -2067,12 +2077,11 @@ SPH_FN sph_index sph_search(int dim, sph_points points, sph_scalars radius, int 
         found->pairs = sphi_search_guess(dim, points.n);
         return SPH_ERROR_CAPACITY;
     }
-    error = sph_grid_build(dim, points, radius, memory, work, &found->grid);
+    sphi_grid_make(dim, points, radius, mean, largest, alike, memory, &found->grid);
     start = (sph_index *)(void *)((char *)sphi_aligned(memory) + (work - SPHI_ALIGN));
     index = start + points.n + 1;
-    if (!error)
-        error = sph_grid_lists(dim, &found->grid, sph_query_of(points, criterion, radius, 0), start, index,
-                               room, &found->pairs);
+    error = sph_grid_lists(dim, &found->grid, sph_query_of(points, criterion, radius, 0), start, index, room,
+                           &found->pairs);
     if (error) {
         const int too_many = sph_search_size(dim, points.n, found->pairs) == 0;
         sphi_grid_empty(dim, &found->grid);

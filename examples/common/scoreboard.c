@@ -14,8 +14,18 @@ typedef struct score {
     int published; /* rows with a published value */
     int verdict[REPORT_VERDICTS];
     int match[REPORT_SOURCES + 1]; /* matches by source; the last one: limits */
+    double cpu;
     double wall; /* seconds; NAN until the last row, which every finished run has */
 } score;
+
+/* Take the number of seconds, if the record has that quantity of the run.  Returns 0 if it is no such number. */
+static int take_seconds(const report_record *row, const char *quantity, double *seconds)
+{
+    const char *end;
+    if (strcmp(row->field[0], "run") != 0 || strcmp(row->field[REPORT_QUANTITY], quantity) != 0) return 1;
+    *seconds = number_of(row->field[REPORT_MEASURED], &end);
+    return end != row->field[REPORT_MEASURED] && !*end && *seconds >= 0.0;
+}
 
 /* Count one record.  Returns NULL, or what is wrong with it. */
 static const char *count_row(score *s, const report_record *row)
@@ -31,11 +41,8 @@ static const char *count_row(score *s, const report_record *row)
     s->published += published;
     if (verdict == REPORT_MATCH) ++s->match[source == REPORT_PAPER && !published ? REPORT_SOURCES : source];
 
-    if (strcmp(row->field[0], "run") == 0 && strcmp(row->field[REPORT_QUANTITY], "wall time [s]") == 0) {
-        const char *end;
-        s->wall = number_of(row->field[REPORT_MEASURED], &end);
-        if (end == row->field[REPORT_MEASURED] || *end || !(s->wall >= 0.0)) return "the wall time is not a number of seconds";
-    }
+    if (!take_seconds(row, "CPU time [s]", &s->cpu)) return "the CPU time is not a number of seconds";
+    if (!take_seconds(row, "wall time [s]", &s->wall)) return "the wall time is not a number of seconds";
     return NULL;
 }
 
@@ -75,13 +82,14 @@ static void print_score(const char *path, const score *s)
     if (length > 4 && strcmp(name + length - 4, ".csv") == 0) length -= 4;
     printf("%-3s%-28.*s %9d %6d", s->verdict[REPORT_DIFFERS] ? "!!" : "", (int)length, name, s->published, s->verdict[REPORT_MATCH]);
     for (int k = 0; k <= REPORT_SOURCES; ++k) printf(" %*d", width[k], s->match[k]);
-    printf(" %10d %6d %7d %14d %8.0f\n", s->verdict[REPORT_CONSISTENT], s->verdict[REPORT_FITTED], s->verdict[REPORT_DIFFERS],
-           s->verdict[REPORT_NOT_REPRODUCED], s->wall);
+    printf(" %10d %6d %7d %14d %7.0f %8.0f\n", s->verdict[REPORT_CONSISTENT], s->verdict[REPORT_FITTED], s->verdict[REPORT_DIFFERS],
+           s->verdict[REPORT_NOT_REPRODUCED], s->cpu, s->wall);
 }
 
 static void add_score(score *total, const score *s)
 {
     total->published += s->published;
+    total->cpu += s->cpu;
     total->wall += s->wall;
     for (int k = 0; k < REPORT_VERDICTS; ++k) total->verdict[k] += s->verdict[k];
     for (int k = 0; k <= REPORT_SOURCES; ++k) total->match[k] += s->match[k];
@@ -121,8 +129,8 @@ int main(int argc, char **argv)
     }
     printf("%-3s%-28s %9s %6s", "", "driver", "published", report_verdict_name(REPORT_MATCH));
     for (int k = 0; k <= REPORT_SOURCES; ++k) printf(" %*s", width[k], matched[k]);
-    printf(" %10s %6s %7s %14s %8s\n", report_verdict_name(REPORT_CONSISTENT), report_verdict_name(REPORT_FITTED), report_verdict_name(REPORT_DIFFERS),
-           report_verdict_name(REPORT_NOT_REPRODUCED), "wall [s]");
+    printf(" %10s %6s %7s %14s %7s %8s\n", report_verdict_name(REPORT_CONSISTENT), report_verdict_name(REPORT_FITTED), report_verdict_name(REPORT_DIFFERS),
+           report_verdict_name(REPORT_NOT_REPRODUCED), "CPU [s]", "wall [s]");
     for (int k = 1; k < argc; ++k) unread += !count_file(argv[k], &row, &total);
     print_score("total", &total);
     if (total.verdict[REPORT_MATCH] > 0)

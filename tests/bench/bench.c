@@ -133,6 +133,19 @@ static double reference(sph_index n, const sph_real *r2, long passes)
     return total;
 }
 
+#if BENCH_SWEEPS > FLUID
+static sph_fluid fluid_of(sph_scalars V, sph_scalars f, int viscosity)
+{
+    sph_fluid fluid;
+    fluid.m = fluid.rho = fluid.c = V;
+    fluid.p = fluid.v.x = fluid.v.y = fluid.v.z = f;
+    fluid.alpha = fluid.eta = SPH_R(0.1);
+    fluid.beta = SPH_R(0);
+    fluid.viscosity = viscosity;
+    return fluid;
+}
+#endif
+
 #if BENCH_SWEEPS > APPLY
 /* sum of row * (f_j - f_i): what a host does with rows it has stored */
 static sph_index apply_rows(sph_index first, sph_index last, const cloud *c, const sph_real *row, sph_real *out)
@@ -171,12 +184,7 @@ static sph_index sweep_range(int which, sph_index first, sph_index last, const c
 #endif
 #if BENCH_SWEEPS > FLUID
     case FLUID: { /* with artificial viscosity, density rate and heating */
-        sph_fluid fluid;
-        fluid.m = fluid.rho = fluid.c = V;
-        fluid.p = fluid.v.x = fluid.v.y = fluid.v.z = f;
-        fluid.alpha = fluid.eta = SPH_R(0.1);
-        fluid.beta = SPH_R(0);
-        fluid.viscosity = SPH_VISCOSITY_MONAGHAN;
+        const sph_fluid fluid = fluid_of(V, f, SPH_VISCOSITY_MONAGHAN);
         return sph_fluid_rates_monaghan(KERNEL, 3, targets, fluid,
                                         (sph_fluid_out){.acceleration = a, .rate = o->g[3], .heating = o->g[4]});
     }
@@ -209,12 +217,7 @@ static sph_index sweep_range(int which, sph_index first, sph_index last, const c
 #endif
 #if BENCH_SWEEPS > ACCELERATION
     case ACCELERATION: { /* pressure alone */
-        sph_fluid fluid;
-        fluid.m = fluid.rho = fluid.c = V;
-        fluid.p = fluid.v.x = fluid.v.y = fluid.v.z = f;
-        fluid.alpha = fluid.eta = SPH_R(0.1);
-        fluid.beta = SPH_R(0);
-        fluid.viscosity = SPH_VISCOSITY_NONE;
+        const sph_fluid fluid = fluid_of(V, f, SPH_VISCOSITY_NONE);
         return sph_fluid_rates_monaghan(KERNEL, 3, targets, fluid, (sph_fluid_out){.acceleration = a});
     }
 #endif

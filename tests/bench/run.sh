@@ -324,8 +324,15 @@ run_variant() {
         "$dir/flags-$count-$single" -n "${sizes:-64000}" -rounds 2 -clouds lattice | sed "s/^/$1,/" >> "$csv"
     done
 }
+# the first two lines of a table in Markdown, for awk
+table_head='function head(first, column, columns,    k, rule) {
+    printf "| %s |", first
+    rule = "|---|"
+    for (k = 1; k <= columns; k++) { printf " %s |", column[k]; rule = rule "---|" }
+    print "\n" rule
+}'
 flags_table() {
-    awk -F, '
+    awk -F, "$table_head"'
     function least(row, what, precision, value) {
         if (!(row in known)) { known[row] = 1; name[++rows] = row }
         if (!((row, what, precision) in ns) || value < ns[row, what, precision]) ns[row, what, precision] = value
@@ -335,11 +342,7 @@ flags_table() {
     $2 == "search" && $6 == "sorted" { least($1, "search", $3, $9); n = $4 }
     END {
         columns = split("density,corrected gradient,fluid rates,SPMHD with cleaning,M-SPH rows,search", column, ",")
-        printf "| compiler and flags |"
-        for (k = 1; k <= columns; k++) printf " %s |", column[k]
-        printf "\n|---|"
-        for (k = 1; k <= columns; k++) printf "---|"
-        print ""
+        head("compiler and flags", column, columns)
         for (r = 1; r <= rows; r++) {
             printf "| `%s` |", name[r]
             for (k = 1; k <= columns; k++) {
@@ -407,17 +410,13 @@ measure_compile() {
         echo "Seconds of CPU and bytes of machine code (text) of a file with one call of each in 3D; the shortest of $rounds."
         echo "\`nothing\` is a file without the headers. In \`unused\` they are included, and nothing is called."
         echo
-        awk -F, '
+        awk -F, "$table_head"'
         !($1 in row) { row[$1] = ++rows; name[rows] = $1 }
         !($2 in column) { column[$2] = ++columns; what[columns] = $2 }
         !(($1, $2) in s) || $3 < s[$1, $2] { s[$1, $2] = $3 }
         { b[$1, $2] = $4 }
         END {
-            printf "| |"
-            for (k = 1; k <= columns; k++) printf " %s |", what[k]
-            printf "\n|---|"
-            for (k = 1; k <= columns; k++) printf "---|"
-            print ""
+            head("", what, columns)
             for (r = 1; r <= rows; r++) {
                 printf "| `%s` |", name[r]
                 for (k = 1; k <= columns; k++) printf " %.2f s, %d B |", s[name[r], what[k]], b[name[r], what[k]]
