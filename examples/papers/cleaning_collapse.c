@@ -14,6 +14,7 @@
 #ifndef SPH_CHECK
 #define SPH_CHECK 0 /* every step looks for what is not finite, and says where */
 #endif
+#include "../common/vtk.h"
 #include "cleaning.h"
 #include "collapse.h"
 #include "collapse_column.h"

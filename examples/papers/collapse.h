@@ -12,10 +12,9 @@
 #define COLLAPSE_H
 
 #include <stdarg.h>
-#include <stdint.h>
 #include <time.h>
 
-#include "../common/vtk.h" /* files that get their names when they are whole */
+#include "../common/restart.h"
 #include "collapse_sink.h"
 #include "collapse_tree.h"
 
@@ -680,86 +679,48 @@ static inline void collapse_momentum(const collapse *g, double *p)
 
 /* ---- restart ---- */
 
-typedef struct collapse_file {
-    FILE *f;
-    int reads;
-    uint64_t hash;
-    long length; /* of the whole file that is read: no part of it asks for more memory */
-} collapse_file;
-static inline int collapse_transfer(collapse_file *file, void *p, size_t size)
-{
-    const unsigned char *const byte = (const unsigned char *)p;
-    size_t k;
-    if (size > 0 && (file->reads ? fread(p, 1, size, file->f) : fwrite(p, 1, size, file->f)) != size)
-        return 0;
-    for (k = 0; k < size; k++) file->hash = (file->hash ^ byte[k]) * 1099511628211u; /* FNV-1a */
-    return 1;
-}
+#define COLLAPSE_MAGIC "sph.h collapse 3"
 /* Everything that the next step needs, in the order of the file. more: what the driver wants to keep; it belongs to the caller who reads. */
-static inline int collapse_transfer_all(collapse_file *file, collapse *g, void **more, size_t *more_size)
+static inline int collapse_transfer(restart *r, collapse *g, void **more, size_t *more_size)
 {
-    char magic[16] = "sph.h collapse 2";
-    collapse_model model = g->model;
-    uint64_t size = *more_size, hash;
+    uint64_t size = *more_size;
     int k;
-    if (!collapse_transfer(file, magic, sizeof magic) || memcmp(magic, "sph.h collapse 2", sizeof magic) != 0)
-        return !collapse_trouble(g, "it is no restart of this program");
-    if (!collapse_transfer(file, &model, sizeof model) || memcmp(&model, &g->model, sizeof model) != 0)
-        return !collapse_trouble(g, "it belongs to a run with other parameters");
-    collapse_trouble(g, "it is cut short or damaged");
-    if (!collapse_transfer(file, &size, sizeof size) || (file->reads && size > (uint64_t)file->length))
-        return 0;
-    if (!collapse_transfer(file, &g->s, sizeof g->s) || g->s.n < 1 || g->s.n > g->room) return 0;
+    if (!restart_same(r, &g->model, sizeof g->model) || !restart_block(r, &size, sizeof size)) return 0;
+    if (r->reads && size > (uint64_t)r->length) return restart_trouble(r, RESTART_DAMAGED);
+    if (!restart_block(r, &g->s, sizeof g->s)) return 0;
+    if (g->s.n < 1 || g->s.n > g->room) return restart_trouble(r, RESTART_DAMAGED);
     for (k = 0; k < ARRAYS; k++)
-        if (!collapse_transfer(file, g->a[k], (size_t)g->s.n * sizeof(double))) return 0;
+        if (!restart_block(r, g->a[k], (size_t)g->s.n * sizeof(double))) return 0;
     for (k = 0; k < EVOLVED; k++)
-        if (!collapse_transfer(file, g->rate[k], (size_t)g->s.n * sizeof(double))) return 0;
-    if (file->reads) {
+        if (!restart_block(r, g->rate[k], (size_t)g->s.n * sizeof(double))) return 0;
+    if (r->reads) {
         *more_size = (size_t)size;
         *more = need(NULL, *more_size + 1, 1);
     }
-    if (!collapse_transfer(file, *more, *more_size)) return 0;
-    hash = file->hash;
-    if (file->reads ? fread(&hash, sizeof hash, 1, file->f) != 1 || hash != file->hash
-                    : fwrite(&hash, sizeof hash, 1, file->f) != 1)
-        return 0;
-    g->trouble[0] = '\0';
-    return 1;
+    return restart_block(r, *more, *more_size);
 }
-/* dir/name.restart, under that name once it is whole. 0: it could not be written, and `trouble` says why. The same program continues from it bit for bit. */
+/* dir/name.restart. 0: it could not be written, and `trouble` says why. The same program continues from it bit for bit. */
 static inline int collapse_save(collapse *g, const char *dir, const char *name, void *more, size_t more_size)
 {
-    part_file to;
-    collapse_file file = {NULL, 0, 14695981039346656037u, 0};
-    if (!part_file_open(&to, dir, name, "restart"))
-        return !collapse_trouble(g, "cannot write %.60s/%.60s.restart: %s", dir, name, strerror(errno));
-    file.f = to.to;
-    if (!collapse_transfer_all(&file, g, &more, &more_size)) {
-        fclose(to.to);
-        return !collapse_trouble(g, "cannot write %.60s/%.60s.restart: is the disk full?", dir, name);
-    }
-    return part_file_close(&to)
-               ? 1
-               : !collapse_trouble(g, "cannot write %.60s/%.60s.restart: %s", dir, name, strerror(errno));
+    restart r;
+    g->trouble[0] = '\0';
+    if (restart_write(&r, dir, name, COLLAPSE_MAGIC) && restart_end(&r, collapse_transfer(&r, g, &more, &more_size)))
+        return 1;
+    return !collapse_trouble(g, "cannot write %.60s/%.60s.restart: %s", dir, name, r.trouble);
 }
 /* 1: g, which is new, of the same model and of no fewer particles, is what was saved; *more is the caller's to free. 0: there is no such file. -1: `trouble` says what is wrong with it. */
 static inline int collapse_load(collapse *g, const char *dir, const char *name, void **more,
                                 size_t *more_size)
 {
-    char path[PART_FILE_PATH];
-    collapse_file file = {NULL, 1, 14695981039346656037u, 0};
-    int good;
+    restart r;
+    int found;
     *more = NULL;
     *more_size = 0;
-    if (snprintf(path, sizeof path, "%s/%s.restart", dir, name) >= (int)sizeof path ||
-        !(file.f = fopen(path, "rb")))
-        return 0;
-    good = fseek(file.f, 0, SEEK_END) == 0 && (file.length = ftell(file.f)) >= 0 &&
-           fseek(file.f, 0, SEEK_SET) == 0;
-    if (!good) collapse_trouble(g, "it cannot be read");
-    good = good && collapse_transfer_all(&file, g, more, more_size);
-    fclose(file.f);
-    return good ? 1 : -1;
+    g->trouble[0] = '\0';
+    found = restart_read(&r, dir, name, COLLAPSE_MAGIC);
+    if (found > 0 && !restart_end(&r, collapse_transfer(&r, g, more, more_size))) found = -1;
+    if (found < 0) collapse_trouble(g, "%s", r.trouble);
+    return found;
 }
 
 #endif
