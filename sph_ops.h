@@ -150,6 +150,14 @@
  *                  sph_viscosity_mu_monaghan_cleary(k, dim, cloud, fluid, mu, acceleration)
  *                  sph_velocity_xsph(k, dim, cloud, fluid, epsilon, change)
  *                  sph_wall_adami(k, dim, cloud, wall, out)          pressure and velocity of wall particles
+ *   liquids        sph_density_difference_molteni  sph_density_difference_antuono
+ *                  sph_density_difference_fourtakas  sph_density_slope  sph_density_diffusion_weight
+ *                  sph_time_step_density_diffusion
+ *                  sph_density_diffusion_molteni(k, dim, cloud, fluid, diffusion, out)
+ *                      density rate with density diffusion
+ *                  sph_density_diffusion_antuono(k, dim, cloud, fluid, diffusion, out)   delta-SPH
+ *                  sph_density_diffusion_fourtakas(k, dim, cloud, fluid, diffusion, out)
+ *                  sph_density_diffusion_rows_molteni(k, dim, cloud, fluid, diffusion, out)
  *   collisions     sph_collision_pair
  *                  sph_collision_sequential(dim, cloud, collision, velocity, out)
  *                  sph_collision_count(dim, cloud, collision, v, count)
@@ -4609,6 +4617,255 @@ SPH_FN sph_index sph_wall_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall
             state = SPH_NOT_FINITE;
         if (out.status) out.status[i] = (unsigned char)state;
         failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* ================================================================ liquids
+ *
+ * What weakly compressible liquids need beside their forces. With a density diffusion D_i, the continuity
+ * equation of a particle is
+ *     drho_i/dt = rho_i sum_j V_j v_ij . grad_i W_ij + D_i,
+ *     D_i       = delta c sum_j h_ij psi_ij V_j (-F_ij),
+ * and psi_ij is
+ *     Molteni & Colagrossi   2 (rho_j - rho_i)
+ *     Antuono et al.         2 (rho_j - rho_i) + (g_i + g_j) . x_ij,   g = grad rho by sph_gradient_cspm
+ *     Fourtakas et al.       2 (rho_j - rho_i - rho0 gravity . (x_j - x_i) / c^2)
+ * D takes away the checkerboard of the density, and with it the noise of the pressure. psi_ij = -psi_ji, so
+ * that sum_i V_i D_i = 0 to round-off: no volume-weighted mass comes or goes. In its place many codes print
+ * psi r_ji . grad W / (r^2 + eta^2 h^2): the same with eta = 0, since r^2 cancels; eta = 0.1 makes D about
+ * 1 % smaller. delta = 0.1 is usual. Some codes call the whole support h, and some leave the 2 of psi to
+ * delta: compare the whole factor.
+ *
+ * Which one: Molteni's is the cheapest, but takes the weight of a column for noise, so that a free surface at
+ * rest rises (by 0.5 % of the depth within 10 sqrt(depth / gravity): tests/test_liquid.c). Antuono's and
+ * Fourtakas's do not. Antuono's needs the gradient of the density, one sweep more, but no gravity. Where a
+ * wall is made of particles, give them the share 0: otherwise they take density from the liquid.
+ *
+ * Sources: Molteni & Colagrossi 2009, Comput. Phys. Commun. 180, 861; Antuono, Colagrossi, Marrone & Molteni
+ * 2010, Comput. Phys. Commun. 181, 532; Fourtakas, Vacondio, Dominguez & Rogers 2019, Comput. Fluids 190,
+ * 346.
+ */
+
+/* -------- density diffusion: pair functions */
+
+/* psi = 2 (rho_j - rho_i) of Molteni & Colagrossi: twice the difference of the densities. */
+SPH_FN sph_real sph_density_difference_molteni(sph_fluid_side i, sph_fluid_side j)
+{
+    return SPH_R(2) * (j.rho - i.rho);
+}
+/* psi = 2 (rho_j - rho_i) + (g_i + g_j) . x_ij of Antuono et al., where g is the gradient of the density at
+   the two particles. It is 0 for a linear density, if g is exact. Papers print - (g_i + g_j) . r_ji with
+   r_ji = -x_ij. */
+SPH_FN sph_real sph_density_difference_antuono(int dim, sph_fluid_side i, sph_fluid_side j, sph_vec g_i,
+                                               sph_vec g_j, sph_vec x_ij)
+{
+    return sph_density_difference_molteni(i, j) + sph_dot(dim, g_i, x_ij) + sph_dot(dim, g_j, x_ij);
+}
+/* psi = 2 (rho_j - rho_i - slope . (x_j - x_i)) of Fourtakas et al., with slope = rho0 gravity / c^2
+   (sph_density_slope). It is 0 for a density of this slope. In its place the paper subtracts
+   rho0 (1 + gamma gravity . (x_j - x_i) / c^2)^(1 / gamma) - rho0, which is the same to first order. But that
+   does not change its sign with the pair unless gamma = 1, so that it does not conserve. */
+SPH_FN sph_real sph_density_difference_fourtakas(int dim, sph_fluid_side i, sph_fluid_side j, sph_vec slope,
+                                                 sph_vec x_ij)
+{
+    return sph_density_difference_molteni(i, j) + SPH_R(2) * sph_dot(dim, slope, x_ij);
+}
+/* grad rho = rho0 gravity / c^2 in a liquid at rest, near rho0. Needs rho0 > 0 and c > 0. */
+SPH_FN sph_vec sph_density_slope(sph_tait t, sph_vec gravity)
+{
+    SPH_ASSERT(t.rho0 > SPH_R(0) && t.c > SPH_R(0));
+    return sph_scale(t.rho0 / (t.c * t.c), gravity);
+}
+/* The weight of psi: delta c h V_j (-F) >= 0 with V_j = m_j / rho_j. strength = delta c h, and f_ij = F_ij
+   with the h of the pair. Needs rho_j > 0. */
+SPH_FN sph_real sph_density_diffusion_weight(sph_fluid_side j, sph_real strength, sph_real f_ij)
+{
+    SPH_ASSERT(j.rho > SPH_R(0));
+    return -strength * f_ij * (j.m / j.rho);
+}
+/* The longest step in which density diffusion makes no new extreme: h / (S delta c), with
+   S = h^2 sum_j 2 V_j |F_ij| in the limit of many neighbours. In 2D S = 4 pi h^2 W(0), 7 for
+   the C2 kernel of Wendland. Twice that step is the limit
+   of stability. With delta = 0.1 it is longer than that of sound (sph_time_step_sound). Where nothing limits
+   the step the answer is 1/SPHI_TINY. Needs h > 0, delta >= 0 and c >= 0. */
+SPH_FN sph_real sph_time_step_density_diffusion(sph_kernel k, int dim, sph_real h, sph_real delta, sph_real c)
+{
+    const sph_real dq = sph_kernel_support_ratio(k) / SPH_R(64);
+    sph_real sum = SPH_R(0);
+    int n;
+    SPH_ASSERT(SPHI_IS_DIM(dim) && h > SPH_R(0) && delta >= SPH_R(0) && c >= SPH_R(0));
+    for (n = 0; n < 64; n++) {
+        const sph_real q = dq * (SPH_R(n) + SPH_R(0.5));
+        sum -= sphi_power(q, dim - 1) * sph_kernel_shape_f(k, dim, q);
+    }
+    sum *= SPH_R(2) * dq * sph_kernel_sigma(k, dim) *
+           (dim == 1   ? SPH_R(2)
+            : dim == 2 ? SPH_R(6.28318530717958647693)
+                       : SPH_R(12.5663706143591729539));
+    return sphi_limit(h, sum * delta * c);
+}
+
+/* -------- density diffusion: sweeps */
+
+/* What density diffusion needs to know. */
+typedef struct sph_diffusion {
+    sph_real delta; /* its strength; 0 means the usual 0.1, a negative number none */
+    sph_tait tait;  /* of the liquid: c >= 0 is read, and by fourtakas rho0 */
+    /* A pair has the factor share_i share_j: 1 for the liquid, 0 for walls and other fluids. Null: all take
+       part. */
+    sph_scalars share;
+    sph_vectors gradient; /* of the density, from sph_gradient_cspm: antuono only */
+    sph_vec gravity;      /* fourtakas only */
+} sph_diffusion;
+
+enum { SPHI_MOLTENI, SPHI_ANTUONO, SPHI_FOURTAKAS };
+/* The delta of sph_diffusion as it is used. */
+SPH_FN sph_real sphi_delta(sph_real delta)
+{
+    return delta == SPH_R(0) ? SPH_R(0.1) : delta < SPH_R(0) ? SPH_R(0) : delta;
+}
+SPH_FN int sphi_check_diffusion(int form, sph_kernel k, int dim, sph_cloud cloud, sph_fluid f,
+                                sph_diffusion d)
+{
+    int error = sphi_check_sweep(k, dim, cloud, "m", f.m);
+    if (!error && (!sphi_finite(d.delta) || !sphi_finite(d.tait.c) || d.tait.c < SPH_R(0)))
+        error = sphi_refuse("diffusion.delta, tait", -1, SPH_ERROR_VALUE);
+    if (!error && form == SPHI_FOURTAKAS &&
+        (!(d.tait.rho0 > SPH_R(0)) || !(d.tait.c > SPH_R(0)) ||
+         !sphi_finite(sph_length(dim, sph_density_slope(d.tait, d.gravity)))))
+        error = sphi_refuse("diffusion.tait, gravity", -1, SPH_ERROR_VALUE);
+    if (!error) error = sphi_check_positive("rho", f.rho, cloud.points.n);
+    if (!error && d.share.p) error = sphi_check_field("share", d.share, cloud.points.n);
+    if (!error && form == SPHI_ANTUONO)
+        error = sphi_check_vectors("gradient", dim, d.gradient, cloud.points.n);
+    return error;
+}
+SPH_FN sph_real sphi_density_difference(int form, int dim, sph_fluid_side i, sph_fluid_side j,
+                                        const sph_diffusion *d, sph_vec g_i, sph_index at, sph_vec x_ij)
+{
+    if (form == SPHI_MOLTENI) return sph_density_difference_molteni(i, j);
+    if (form == SPHI_FOURTAKAS) return sph_density_difference_fourtakas(dim, i, j, g_i, x_ij);
+    return sph_density_difference_antuono(dim, i, j, g_i, sphi_vector_at(dim, d->gradient, at), x_ij);
+}
+/* moving and shared: whether there are velocities, and shares. They are arguments because the loops
+   vectorise only where the compiler knows which arrays are read. */
+SPH_FN sph_index sphi_diffusion_range(int form, int uniform, int moving, int shared, sph_kernel k, int dim,
+                                      sph_cloud cloud, const sph_fluid *f, const sph_diffusion *d,
+                                      sph_scalar_out out)
+{
+    const int reads = SPHI_READ_M + SPHI_READ_RHO;
+    const sph_real speed = sphi_delta(d->delta) * d->tait.c;
+    sph_index i, p, failed = 0;
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i),
+                      v_i = moving ? sphi_vector_at(dim, f->v, i) : sph_scale(SPH_R(0), x_i),
+                      g_i = form == SPHI_ANTUONO     ? sphi_vector_at(dim, d->gradient, i)
+                            : form == SPHI_FOURTAKAS ? sph_density_slope(d->tait, d->gravity)
+                                                     : v_i;
+        const sph_real h_i = sphi_at(cloud.h, i), speed_i = shared ? speed * sphi_at(d->share, i) : speed;
+        const sph_fluid_side own = sphi_fluid_side(reads, f, f->m, i);
+        sph_real rate = SPH_R(0);
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], rate) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_fluid_side other = sphi_fluid_side(reads, f, f->m, j);
+            const sph_real h_ij = sphi_mean_h(uniform, cloud.h, h_i, j),
+                           f_ij = sph_kernel_f_apart(k, dim, sph_length(dim, x_ij), h_ij),
+                           strength = h_ij * (shared ? speed_i * sphi_at(d->share, j) : speed_i);
+            sph_real c = sph_density_diffusion_weight(other, strength, f_ij) *
+                         sphi_density_difference(form, dim, own, other, d, g_i, j, x_ij);
+            if (moving)
+                c += sph_density_rate_pair_volume(
+                    own, other, sph_dot(dim, sph_subtract(dim, v_i, sphi_vector_at(dim, f->v, j)), x_ij),
+                    f_ij);
+            rate += c;
+        }
+        failed += sphi_store(out, i, rate);
+    }
+    return failed;
+}
+SPH_FN sph_index sphi_diffusion_shares(int form, int uniform, int moving, sph_kernel k, int dim,
+                                       sph_cloud cloud, const sph_fluid *f, const sph_diffusion *d,
+                                       sph_scalar_out out)
+{
+    return d->share.p ? sphi_diffusion_range(form, uniform, moving, 1, k, dim, cloud, f, d, out)
+                      : sphi_diffusion_range(form, uniform, moving, 0, k, dim, cloud, f, d, out);
+}
+SPH_FN sph_index sphi_diffusion(int form, sph_kernel k, int dim, sph_cloud cloud, sph_fluid f,
+                                sph_diffusion d, sph_scalar_out out)
+{
+    const int moving = f.v.x.p != 0;
+    int error = sphi_check_diffusion(form, k, dim, cloud, f, d);
+    if (!error && moving) error = sphi_check_vectors("v", dim, f.v, cloud.points.n);
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
+    if (cloud.h.stride)
+        return moving ? sphi_diffusion_shares(form, 0, 1, k, dim, cloud, &f, &d, out)
+                      : sphi_diffusion_shares(form, 0, 0, k, dim, cloud, &f, &d, out);
+    return moving ? sphi_diffusion_shares(form, 1, 1, k, dim, cloud, &f, &d, out)
+                  : sphi_diffusion_shares(form, 1, 0, k, dim, cloud, &f, &d, out);
+}
+
+/* drho_i/dt = rho_i sum_j (m_j / rho_j) v_ij . grad_i W_ij + D_i: the density rate of the liquid with the
+   density diffusion of Molteni & Colagrossi. Of fluid, the members m, rho and v are read; where v is null,
+   the answer is D_i alone. Take the new velocities, as the order of a step in the chapter of fluids says. A
+   pair uses (h_i + h_j) / 2: lists by SPH_MEAN, or by any criterion if all particles have the same h.
+     D      is delta c h times sph_laplacian_brookshaw of the density, if all have the same h. It conserves
+            sum_i V_i rho_i to round-off, V_i = m_i / rho_i, and is dissipative: sum_i V_i rho_i D_i <= 0. It
+            is 0 for constants only: it takes the density of a column at rest for noise.
+   Across a jump of rho0 diffuse rho / rho0 instead, or give the other fluid the share 0. Where the sum
+   overflows, the result is 0 and SPH_NOT_FINITE. Returns the number of these targets, or a negative
+   sph_error. Sources stand at the head of the chapter. */
+SPH_FN sph_index sph_density_diffusion_molteni(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                               sph_diffusion diffusion, sph_scalar_out out)
+{
+    return sphi_diffusion(SPHI_MOLTENI, k, dim, cloud, fluid, diffusion, out);
+}
+/* The same with the density diffusion of Antuono et al. (delta-SPH): D = 0 to round-off for a linear density
+   at any particle, also at a boundary, if diffusion.gradient comes from sph_gradient_cspm. */
+SPH_FN sph_index sph_density_diffusion_antuono(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                               sph_diffusion diffusion, sph_scalar_out out)
+{
+    return sphi_diffusion(SPHI_ANTUONO, k, dim, cloud, fluid, diffusion, out);
+}
+/* The same with the density diffusion of Fourtakas et al.: D = 0 to round-off for a density of the slope
+   rho0 gravity / c^2 (sph_density_slope) at any particle. */
+SPH_FN sph_index sph_density_diffusion_fourtakas(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                                 sph_diffusion diffusion, sph_scalar_out out)
+{
+    return sphi_diffusion(SPHI_FOURTAKAS, k, dim, cloud, fluid, diffusion, out);
+}
+/* The D of Molteni & Colagrossi as rows: D_i = sum_p row[p] (rho_j - rho_i), row[p] >= 0, factor 1 and
+   conditioning 1. The rates of sph_density_diffusion_molteni without v agree to round-off. A row that
+   overflows is 0, with SPH_NOT_FINITE. */
+SPH_FN sph_index sph_density_diffusion_rows_molteni(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                                    sph_diffusion diffusion, sph_rows_out out)
+{
+    SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
+    const int reads = SPHI_READ_M + SPHI_READ_RHO, shared = diffusion.share.p != 0;
+    const sph_real speed = sphi_delta(diffusion.delta) * diffusion.tait.c;
+    int error = sphi_check_diffusion(SPHI_MOLTENI, k, dim, cloud, fluid, diffusion);
+    sph_index i, p, failed = 0;
+    if (!error && !row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i),
+                       speed_i = shared ? speed * sphi_at(diffusion.share, i) : speed;
+        int lost;
+        SPH_EACH(p, cloud.list.start[i], cloud.list.start[i + 1]) {
+            const sph_index j = cloud.list.index[p];
+            const sph_real r = sph_length(dim, sphi_separation(dim, cloud.points, x_i,
+                                                               sphi_point(dim, cloud.points, j))),
+                           h_ij = sphi_mean_h(0, cloud.h, h_i, j),
+                           strength = h_ij * (shared ? speed_i * sphi_at(diffusion.share, j) : speed_i);
+            row[p] = SPH_R(2) * sph_density_diffusion_weight(sphi_fluid_side(reads, &fluid, fluid.m, j),
+                                                             strength, sph_kernel_f_apart(k, dim, r, h_ij));
+        }
+        lost = sphi_row_finite(row, cloud.list.start[i], cloud.list.start[i + 1]);
+        sphi_row_answer(out, cloud.list, i, 1, SPH_R(1), lost ? (int)SPH_NOT_FINITE : (int)SPH_OK);
+        failed += lost;
     }
     return failed;
 }
