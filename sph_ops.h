@@ -162,6 +162,11 @@
  *                  sph_free_surface(k, dim, cloud, out)              div r, lambda, normal
  *                  sph_free_surface_cone(dim, cloud, lambda, normal, flag)
  *                      which particles are the surface
+ *                  sph_shift_pair  sph_shift_strength_skillen  sph_shift_strength_sun
+ *                  sph_shift_at_surface  sph_shift_limited  sph_shift_rate_pair  sph_transport_pair_adami
+ *                  sph_shift_displacement(k, dim, cloud, shift, out) keeps particles even
+ *                  sph_shift_rates(k, dim, cloud, fluid, shift, out) what particles that are shifted carry
+ *                  sph_transport_adami(k, dim, cloud, fluid, transport, background, out)
  *   collisions     sph_collision_pair
  *                  sph_collision_sequential(dim, cloud, collision, velocity, out)
  *                  sph_collision_count(dim, cloud, collision, v, count)
@@ -5001,6 +5006,329 @@ SPH_FN sph_index sph_free_surface_cone(int dim, sph_cloud cloud, sph_scalars lam
         found += !covered;
     }
     return found;
+}
+
+/* -------- shifting: functions of values
+ *
+ * Particles that follow the flow line up and leave holes. Shifting moves them a little from where they are
+ * many to where they are few, along
+ *     G_i  = sum_j V_j (1 + R (W_ij / W(dx))^4) grad_i W_ij,   dx_i = -strength_i G_i.
+ * Inside an even cloud G is 0; at a free surface it points inward, so that dx would throw particles out:
+ * sph_shift_at_surface keeps there only what lies along the surface. strength is an area:
+ *     Lind et al.    A h^2 with A <= 0.5,
+ *     Skillen et al. A h |v| dt with A = 1 ... 6 (sph_shift_strength_skillen),
+ *     Sun et al.     dt v_max (2 h)^2 / (2 length) (sph_shift_strength_sun); they take R = 0.2, and
+ *                    m_j / (rho_i + rho_j) where V_j / 2 stands here.
+ * What a particle carries moves with it. Add dx . grad f to each field f (sph_gradient_cspm: exact for linear
+ * fields), or the rates of sph_shift_rates. Or move particles with the transport velocity
+ * (sph_transport_adami).
+ *
+ * WHAT IT COSTS. Shifting makes particles even: where particles cluster, 19 % of them come down to 1.5 %. But
+ * it does not conserve angular momentum, and makes a liquid with a free surface swell: a still tank rises by
+ * about 1 % of its depth in 10 sqrt(depth / gravity), while density diffusion alone leaves it where it is
+ * (tests/test_liquid.c asserts both). See also Jandaghian et al. 2021, arXiv:2110.10076. With walls, their
+ * particles must be sources.
+ *
+ * As a tool that packs particles: dx = -0.4 h^2 G, again and again with new lists, makes an even cloud of any
+ * one, in any shape whose outside is filled with particles that do not move. It converges for A <= 0.6 and
+ * diverges for 1 (Wendland's kernels). examples/OPERATORS.md shows the loop.
+ *
+ * Sources: Lind, Xu, Stansby & Rogers 2012, JCP 231, 1499; Skillen, Lind, Stansby & Rogers 2013, CMAME 265,
+ * 163; Sun, Colagrossi, Marrone & Zhang 2017, CMAME 315, 25; Sun, Colagrossi, Marrone, Antuono & Zhang 2019,
+ * CMAME 348, 912; Adami, Hu & Adams 2013, JCP 241, 292; R and the power 4: Monaghan 2000, JCP 159, 290.
+ */
+
+/* What j adds to G: V_j (1 + R w^4) F x_ij, with w = W_ij / W(dx), and R = tensile, 0.2 or 0. */
+SPH_FN sph_vec sph_shift_pair(sph_real V_j, sph_real tensile, sph_real w, sph_real f_ij, sph_vec x_ij)
+{
+    return sph_scale(V_j * (SPH_R(1) + tensile * (w * w) * (w * w)) * f_ij, x_ij);
+}
+/* A h |v| dt of Skillen et al.; speed = |v|, factor = A, 1 ... 6. */
+SPH_FN sph_real sph_shift_strength_skillen(sph_real h, sph_real speed, sph_real dt, sph_real factor)
+{
+    return factor * h * speed * dt;
+}
+/* dt v_max (2 h)^2 / (2 length) of Sun et al.; speed = v_max, the largest speed of the flow. In the paper
+   length = h; TrixiParticles takes 2 dx, because the shift then scales with the spacing. At h = 2 dx they are
+   the same. Needs length > 0. */
+SPH_FN sph_real sph_shift_strength_sun(sph_real h, sph_real speed, sph_real dt, sph_real length)
+{
+    SPH_ASSERT(length > SPH_R(0));
+    return SPH_R(2) * dt * speed * h * h / length;
+}
+/* The shift that a free surface leaves: none for lambda < 0.4 (splash), only the part along the surface,
+   dx - n (n . dx), for lambda < 0.75, and all of it inside. lambda and n come from sph_free_surface. The
+   limits are those of Sun et al. 2019. */
+SPH_FN sph_vec sph_shift_at_surface(int dim, sph_vec shift, sph_real lambda, sph_vec normal)
+{
+    if (lambda < SPH_R(0.4)) return sph_scale(SPH_R(0), shift);
+    if (!(lambda < SPH_R(0.75))) return shift;
+    return sph_subtract(dim, shift, sph_scale(sph_dot(dim, normal, shift), normal));
+}
+/* The same vector, made shorter if it is longer than `longest`. Needs longest >= 0. */
+SPH_FN sph_vec sph_shift_limited(int dim, sph_vec shift, sph_real longest)
+{
+    const sph_real length = sph_length(dim, shift);
+    SPH_ASSERT(longest >= SPH_R(0));
+    return length > longest ? sph_scale(longest / length, shift) : shift;
+}
+/* What j adds to the rate of a field f that is seen from a particle with the velocity v + u instead of v, u
+   being the velocity of shifting:
+       f_i (u_i - u_j) . V_j grad_i W_ij + (f_i u_i + f_j u_j) . V_j grad_i W_ij,
+   which are -f div u and div(f u): their sum is u . grad f. along_i = V_j u_i . grad_i W_ij, and along_j the
+   same for u_j. Sun et al. 2019. */
+SPH_FN sph_real sph_shift_rate_pair(sph_real f_i, sph_real f_j, sph_real along_i, sph_real along_j)
+{
+    return f_i * (along_i - along_j) + (f_i * along_i + f_j * along_j);
+}
+/* One particle of a pair that moves with a transport velocity u: its mass and density, its velocity v, and
+   drift = u - v. */
+typedef struct sph_transport_side {
+    sph_real m, rho;
+    sph_vec v, drift;
+} sph_transport_side;
+/* What j adds to i: the acceleration by a background pressure of 1, and that by the stress of the drift. */
+typedef struct sph_transport_change {
+    sph_vec background, stress;
+} sph_transport_change;
+/* With P_1 = (V_i^2 + V_j^2) / (m_i m_j), which is sph_pressure_pair_hu_adams for p = 1:
+       background  -m_j P_1 grad_i W_ij,
+       stress      m_j P_1 (A_i + A_j) / 2 . grad_i W_ij,   A = rho v drift^T.
+   Adami, Hu & Adams 2013. Needs m > 0 and rho > 0 on both sides. */
+SPH_FN sph_transport_change sph_transport_pair_adami(int dim, sph_transport_side i, sph_transport_side j,
+                                                     sph_vec x_ij, sph_real f_ij)
+{
+    sph_fluid_side a, b;
+    sph_transport_change c;
+    sph_real push, along_i, along_j;
+    a.m = i.m;
+    a.rho = i.rho;
+    b.m = j.m;
+    b.rho = j.rho;
+    a.p = b.p = SPH_R(1);
+    a.mu = b.mu = SPH_R(0);
+    push = j.m * sph_pressure_pair_hu_adams(a, b) * f_ij;
+    along_i = SPH_R(0.5) * push * i.rho * sph_dot(dim, i.drift, x_ij);
+    along_j = SPH_R(0.5) * push * j.rho * sph_dot(dim, j.drift, x_ij);
+    c.background = sph_scale(-push, x_ij);
+    c.stress.x = along_i * i.v.x + along_j * j.v.x;
+    c.stress.y = along_i * i.v.y + along_j * j.v.y;
+    c.stress.z = along_i * i.v.z + along_j * j.v.z;
+    return c;
+}
+
+/* -------- shifting: sweeps */
+
+/* How particles are shifted. Zeros are the defaults where nothing else is said. */
+typedef struct sph_shift {
+    sph_scalars strength; /* an area, of each particle or of all. There is no default */
+    sph_real tensile;     /* R; 0: no such term */
+    sph_real spacing;     /* dx / h, of the particles as they should lie; is read if R is not 0 */
+    sph_scalars lambda;   /* of sph_free_surface. Null: there is no free surface */
+    sph_vectors normal;   /* of sph_free_surface; is read with lambda */
+    sph_real longest;     /* the longest shift, a length; 0 means 0.2 h, a negative number no limit */
+} sph_shift;
+
+SPH_FN sph_index sphi_shift_range(int uniform, int tensile, sph_kernel k, int dim, sph_cloud cloud,
+                                  const sph_shift *s, sph_vector_out out)
+{
+    const sph_real per_w = tensile ? SPH_R(1) / sph_kernel_w(k, dim, s->spacing, SPH_R(1)) : SPH_R(0);
+    sph_index i, p, failed = 0;
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        sph_real gx = SPH_R(0), gy = SPH_R(0), gz = SPH_R(0);
+        sph_vec shift;
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], gx, gy, gz) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_real h_ij = sphi_mean_h(uniform, cloud.h, h_i, j);
+            const sph_wf both = sph_kernel_wf(k, dim, sph_length(dim, x_ij), h_ij);
+            const sph_vec g =
+                sph_shift_pair(sphi_at(cloud.volume, j), tensile ? s->tensile : SPH_R(0),
+                               tensile ? both.w * sphi_power(h_ij, dim) * per_w : SPH_R(0), both.f, x_ij);
+            gx += g.x;
+            gy += g.y;
+            gz += g.z;
+        }
+        shift.x = gx;
+        shift.y = gy;
+        shift.z = gz;
+        shift = sph_scale(-sphi_at(s->strength, i), shift);
+        if (s->lambda.p)
+            shift =
+                sph_shift_at_surface(dim, shift, sphi_at(s->lambda, i), sphi_vector_at(dim, s->normal, i));
+        if (!(s->longest < SPH_R(0)))
+            shift = sph_shift_limited(dim, shift, s->longest > SPH_R(0) ? s->longest : SPH_R(0.2) * h_i);
+        failed += sphi_store_vector(dim, out, i, shift);
+    }
+    return failed;
+}
+/* The shift dx_i = -strength_i G_i of the targets, less what the surface forbids, and no longer than
+   `longest`. The host adds it to the positions; for a velocity of shifting it divides by dt (Sun et al. 2019:
+   longest = dt v_max / 2). A pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). With the same strength for all,
+   no surface and no limit, sum_i V_i dx_i = 0 to round-off. What it costs stands above. Returns the number of
+   targets whose shift overflowed (it is 0 then), or a negative sph_error. */
+SPH_FN sph_index sph_shift_displacement(sph_kernel k, int dim, sph_cloud cloud, sph_shift shift,
+                                        sph_vector_out out)
+{
+    const int tensile = shift.tensile != SPH_R(0);
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
+    if (!error) error = sphi_check_field("shift.strength", shift.strength, cloud.points.n);
+    if (!error && (!sphi_finite(shift.tensile) || !sphi_finite(shift.longest)))
+        error = sphi_refuse("shift.tensile, longest", -1, SPH_ERROR_VALUE);
+    if (!error && tensile && (!(shift.spacing > SPH_R(0)) || !(shift.spacing < sph_kernel_support_ratio(k))))
+        error = sphi_refuse("shift.spacing", -1, SPH_ERROR_VALUE);
+    if (!error && shift.lambda.p) {
+        error = sphi_check_field("shift.lambda", shift.lambda, cloud.points.n);
+        if (!error) error = sphi_check_vectors("shift.normal", dim, shift.normal, cloud.points.n);
+    }
+    if (!error) error = sphi_check_out("out", dim, out);
+    if (error) return sphi_answer_of(error);
+    if (cloud.h.stride)
+        return tensile ? sphi_shift_range(0, 1, k, dim, cloud, &shift, out)
+                       : sphi_shift_range(0, 0, k, dim, cloud, &shift, out);
+    return tensile ? sphi_shift_range(1, 1, k, dim, cloud, &shift, out)
+                   : sphi_shift_range(1, 0, k, dim, cloud, &shift, out);
+}
+
+SPH_FN sph_index sphi_shift_rates_range(int uniform, sph_kernel k, int dim, sph_cloud cloud,
+                                        const sph_fluid *f, const sph_vectors *shift, sph_fluid_out out)
+{
+    const int reads = SPHI_READ_M + SPHI_READ_RHO;
+    sph_index i, p, failed = 0;
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, f->v, i),
+                      u_i = sphi_vector_at(dim, *shift, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        const sph_fluid_side own = sphi_fluid_side(reads, f, f->m, i);
+        sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0), rate = SPH_R(0);
+        sph_vec sum;
+        int lost;
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], ax, ay, az, rate) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)),
+                          v_j = sphi_vector_at(dim, f->v, j);
+            const sph_fluid_side other = sphi_fluid_side(reads, f, f->m, j);
+            const sph_vec g =
+                sph_gradient_pair_difference(k, dim, other.m / other.rho, SPH_R(1), x_ij,
+                                             sph_length(dim, x_ij), sphi_mean_h(uniform, cloud.h, h_i, j));
+            const sph_real along_i = sph_dot(dim, u_i, g),
+                           along_j = sph_dot(dim, sphi_vector_at(dim, *shift, j), g);
+            rate += sph_shift_rate_pair(own.rho, other.rho, along_i, along_j);
+            ax += sph_shift_rate_pair(v_i.x, v_j.x, along_i, along_j);
+            if (dim > 1) ay += sph_shift_rate_pair(v_i.y, v_j.y, along_i, along_j);
+            if (dim > 2) az += sph_shift_rate_pair(v_i.z, v_j.z, along_i, along_j);
+        }
+        sum.x = ax;
+        sum.y = ay;
+        sum.z = az;
+        lost = sphi_store_vector(dim, out.acceleration, i, sum);
+        lost |= sphi_put(out.rate, sphi_stride(out.stride), i, rate);
+        sphi_tell(out.status, i, lost);
+        failed += lost;
+    }
+    return failed;
+}
+/* What particles that move with v + u instead of v, where u is a velocity of shifting, add to their
+   acceleration and density rate: u . grad v and u . grad rho, by sph_shift_rate_pair with V_j = m_j / rho_j.
+   Sun et al. 2019. Of fluid, the members m, rho and v are read; out.heating is not written. A pair uses (h_i
+   + h_j) / 2 (lists by SPH_MEAN).
+   For a constant f the rate is 2 f u_i . sum_j V_j grad_i W_ij: not 0 in disorder, so that it depends on the
+   frame, and momentum is not conserved. (sum_i V_i of the part div(rho u) is 0 to round-off.) u . grad f
+   with sph_gradient_cspm is exact for linear f instead, and conserves nothing. Returns the number of targets
+   of which a result overflowed (it is 0 then), or a negative sph_error. */
+SPH_FN sph_index sph_shift_rates(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid, sph_vectors shift,
+                                 sph_fluid_out out)
+{
+    int error = sphi_check_sweep(k, dim, cloud, "m", fluid.m);
+    if (!error) error = sphi_check_positive("rho", fluid.rho, cloud.points.n);
+    if (!error) error = sphi_check_vectors("v", dim, fluid.v, cloud.points.n);
+    if (!error) error = sphi_check_vectors("shift", dim, shift, cloud.points.n);
+    if (!error) error = sphi_check_out("out.acceleration", dim, out.acceleration);
+    if (error) return sphi_answer_of(error);
+    return cloud.h.stride ? sphi_shift_rates_range(0, k, dim, cloud, &fluid, &shift, out)
+                          : sphi_shift_rates_range(1, k, dim, cloud, &fluid, &shift, out);
+}
+
+/* Where the accelerations of the transport velocity go. */
+typedef struct sph_transport_out {
+    sph_vector_out background, stress;
+    SPH_GLOBAL unsigned char *status;
+} sph_transport_out;
+
+SPH_FN sph_transport_side sphi_transport_side(int dim, const sph_fluid *f, const sph_vectors *transport,
+                                              sph_index i)
+{
+    sph_transport_side s;
+    s.m = sphi_at(f->m, i);
+    s.rho = sphi_at(f->rho, i);
+    s.v = sphi_vector_at(dim, f->v, i);
+    s.drift = sph_subtract(dim, sphi_vector_at(dim, *transport, i), s.v);
+    return s;
+}
+SPH_FN sph_index sphi_transport_range(int uniform, sph_kernel k, int dim, sph_cloud cloud, const sph_fluid *f,
+                                      const sph_vectors *transport, sph_real background,
+                                      sph_transport_out out)
+{
+    sph_index i, p, failed = 0;
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        const sph_transport_side own = sphi_transport_side(dim, f, transport, i);
+        sph_real bx = SPH_R(0), by = SPH_R(0), bz = SPH_R(0), sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
+        sph_vec sum;
+        int lost;
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], bx, by, bz, sx, sy, sz) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_transport_change c = sph_transport_pair_adami(
+                dim, own, sphi_transport_side(dim, f, transport, j), x_ij,
+                sph_kernel_f_apart(k, dim, sph_length(dim, x_ij), sphi_mean_h(uniform, cloud.h, h_i, j)));
+            bx += c.background.x;
+            sx += c.stress.x;
+            if (dim > 1) by += c.background.y, sy += c.stress.y;
+            if (dim > 2) bz += c.background.z, sz += c.stress.z;
+        }
+        sum.x = background * bx;
+        sum.y = background * by;
+        sum.z = background * bz;
+        lost = sphi_store_vector(dim, out.background, i, sum);
+        sum.x = sx;
+        sum.y = sy;
+        sum.z = sz;
+        lost |= sphi_store_vector(dim, out.stress, i, sum);
+        sphi_tell(out.status, i, lost);
+        failed += lost;
+    }
+    return failed;
+}
+/* The two accelerations of a scheme whose particles move with a transport velocity u, which is nearly v but
+   keeps the particles even:
+       background  -(p_b / m_i) sum_j (V_i^2 + V_j^2) grad_i W_ij, from the pressure `background` = p_b,
+       stress      (1 / m_i) sum_j (V_i^2 + V_j^2) (A_i + A_j) / 2 . grad_i W_ij,   A = rho v (u - v)^T.
+   A step: v += dt (a + stress) with the other accelerations a, u = v + dt / 2 background (of a half step),
+   x += dt u, and rho from sph_density_summation or sph_density_number. p_b = rho0 c^2 is usual, and the
+   pressure in a is then close to 0 (Tait with p0 = 0).
+   For flows without a free surface only: a background pressure throws particles out of one. Both conserve
+   linear momentum to round-off. Adami, Hu & Adams 2013, JCP 241, 292. Of fluid, the members m, rho and v are
+   read. A pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). Pairs closer than 1e-12 h exert no force on each
+   other. Returns the number of targets of which a result overflowed (it is 0 then), or a negative
+   sph_error. */
+SPH_FN sph_index sph_transport_adami(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                     sph_vectors transport, sph_real background, sph_transport_out out)
+{
+    int error = sphi_check_sweep(k, dim, cloud, "m", fluid.m);
+    if (!error) error = sphi_check_positive("m", fluid.m, cloud.points.n);
+    if (!error) error = sphi_check_positive("rho", fluid.rho, cloud.points.n);
+    if (!error) error = sphi_check_vectors("v", dim, fluid.v, cloud.points.n);
+    if (!error) error = sphi_check_vectors("transport", dim, transport, cloud.points.n);
+    if (!error && !sphi_finite(background)) error = sphi_refuse("background", -1, SPH_ERROR_VALUE);
+    if (!error) error = sphi_check_out("out.background", dim, out.background);
+    if (!error) error = sphi_check_out("out.stress", dim, out.stress);
+    if (error) return sphi_answer_of(error);
+    return cloud.h.stride ? sphi_transport_range(0, k, dim, cloud, &fluid, &transport, background, out)
+                          : sphi_transport_range(1, k, dim, cloud, &fluid, &transport, background, out);
 }
 
 /* ================================================================ collisions
