@@ -26,19 +26,20 @@ endif
 RESULTS = $(BUILD)/results
 FIGURES = $(BUILD)/figures
 HEADERS = sph.h sph_ops.h sph_kernels.h
-COMMON = $(wildcard examples/common/*.h) $(wildcard examples/papers/*.h)
 
-# The papers and their drivers (examples/papers/<driver>.c). A driver's name starts with its paper's.
+# The groups of drivers: the papers, all in examples/papers, and subjects, each in a folder of its name. A driver's
+# name starts with its group's, and GROUP.gp beside it draws the group's figures.
 PAPERS = icspm elliptic clustering cleaning
-DRIVERS_icspm = icspm_uniform icspm_random icspm_dimensions
-DRIVERS_elliptic = $(patsubst examples/papers/%.c,%,$(wildcard examples/papers/elliptic_*.c))
-DRIVERS_clustering = $(patsubst examples/papers/%.c,%,$(wildcard examples/papers/clustering_*.c))
-DRIVERS_cleaning = $(patsubst examples/papers/%.c,%,$(wildcard examples/papers/cleaning_*.c))
-DRIVERS = $(foreach p,$(PAPERS),$(DRIVERS_$(p)))
+SUBJECTS = fluids
+GROUPS = $(PAPERS) $(SUBJECTS)
+FOLDERS = $(addprefix examples/,papers $(SUBJECTS))
+COMMON = $(wildcard $(addsuffix /*.h,examples/common $(FOLDERS)))
+drivers_in = $(notdir $(basename $(wildcard $(addsuffix /$(1)_*.c,$(FOLDERS)))))
+DRIVERS = $(foreach g,$(GROUPS),$(call drivers_in,$(g)))
 # what takes longest starts first, so that nothing long is left alone at the end
 LONG_RUNS = clustering_shaft cleaning_collapse clustering_cavity elliptic_boundary_values cleaning_orszag_tang icspm_random clustering_box cleaning_disc clustering_dam cleaning_drop
 LONG_COMPILES = elliptic_operators elliptic_clouds elliptic_boundary_values elliptic_uses icspm_dimensions cleaning_disc clustering_flows
-THREADED := $(patsubst examples/papers/%.c,%,$(shell grep -l -e THREADS_OPTION -e CLUSTERING_OPTIONS examples/papers/*.c))
+THREADED := $(notdir $(basename $(shell grep -l -e THREADS_OPTION -e '[A-Z]_OPTIONS' $(addsuffix /*.c,$(FOLDERS)))))
 
 # Tests of the headers are built twice, in double and in float; tests of what the examples share in double only.
 TESTS_DOUBLE = common sparse elliptic_reference collapse
@@ -49,9 +50,9 @@ TEST_PROGRAMS = $(TESTS:%=$(BUILD)/tests/%) $(TESTS_FLOAT:%=$(BUILD)/tests/%-flo
 TEST_SCRIPTS = tests/index.sh tests/signatures.sh tests/hosts/generated.sh tests/readme.sh tests/docs.sh tests/compile/matrix.sh tests/compile/names.sh tests/compile/options.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/threads.sh tests/files.sh tests/faults.sh tests/single.sh tests/bare.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
 
 help:
-	@echo "make reproduce        run the papers' benchmarks, published beside measured values, and print a scoreboard;"
+	@echo "make reproduce        run the drivers of papers and subjects, published beside measured values, and print a scoreboard;"
 	@echo "                      several at a time, on all processors (-j N: N at a time; -j1: one, with threads)"
-	@echo "make reproduce-PAPER  one paper's ($(PAPERS))"
+	@echo "make reproduce-GROUP  those of a paper ($(PAPERS)) or of a subject ($(SUBJECTS))"
 	@echo "make reproduce-full   with more realisations and finer clouds"
 	@echo "make test             the tests; the last line is 'N passed, N failed'"
 	@echo "make test-sanitize    the tests under the address and undefined-behaviour sanitizers"
@@ -75,14 +76,14 @@ help:
 	@echo "make clean            remove $(BUILD)/"
 	@echo "There is nothing to build: copy $(HEADERS) into your code."
 
-# ---------------------------------------------------------------- papers
+# ---------------------------------------------------------------- papers and subjects
 
 reproduce: run-quick-all
 reproduce-full: run-full-all
 reproduce-%: run-quick-%
 	@:
 
-drivers_of = $(if $(filter all,$(1)),$(DRIVERS),$(DRIVERS_$(1)))
+drivers_of = $(if $(filter all,$(1)),$(DRIVERS),$(call drivers_in,$(filter $(GROUPS),$(1))))
 long_first = $(filter $(2),$(1)) $(filter-out $(1),$(2))
 
 # Without -j as many compilers as processors, and four drivers side by side. Each has its share of the processors
@@ -93,9 +94,9 @@ AT_A_TIME = $(or $(asked_jobs),$(shell echo $$(($(PROCESSORS) < 4 ? $(PROCESSORS
 SHARE = $(shell echo $$(($(PROCESSORS) > $(AT_A_TIME) ? $(PROCESSORS) / $(AT_A_TIME) : 1)))
 jobs = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(1))
 
-# $(1): paper or all; $(2): options. All drivers run (side by side, each with its output in one piece; alone, with a line of progress), then the scoreboard tells; the answer is failure if any driver failed.
+# $(1): group or all; $(2): options. All drivers run (side by side, each with its output in one piece; alone, with a line of progress), then the scoreboard tells; the answer is failure if any driver failed.
 define run
-	@if [ -z "$(strip $(call drivers_of,$(1)))" ]; then echo "no paper called '$(1)'; there are: $(PAPERS)"; exit 2; fi
+	@if [ -z "$(strip $(call drivers_of,$(1)))" ]; then echo "no group of drivers is called '$(1)'; there are: $(GROUPS)"; exit 2; fi
 	@mkdir -p "$(RESULTS)" "$(FIGURES)"
 	+@$(MAKE) --no-print-directory $(call jobs,$(PROCESSORS)) $(addprefix $(BUILD)/examples/,$(call long_first,$(LONG_COMPILES),$(call drivers_of,$(1))) scoreboard)
 	+@rm -f $(patsubst %,"$(RESULTS)/%.csv",$(call drivers_of,$(1))); failed=0; \
@@ -117,8 +118,8 @@ run-full-%:
 figures:
 	@if ! command -v gnuplot > /dev/null 2>&1; then \
 	    echo "gnuplot is not installed: no PNG; the figures' data are in $(FIGURES)/*.csv"; \
-	else for p in $(PAPERS); do \
-	    if ls "$(FIGURES)"/$${p}_*.csv > /dev/null 2>&1; then gnuplot -c examples/papers/$$p.gp "$(FIGURES)" && echo "figures: $(FIGURES)/$${p}_*.png"; fi || exit 1; \
+	else for g in $(GROUPS); do \
+	    if ls "$(FIGURES)"/$${g}_*.csv > /dev/null 2>&1; then gnuplot -c examples/*/$$g.gp "$(FIGURES)" && echo "figures: $(FIGURES)/$${g}_*.png"; fi || exit 1; \
 	done; fi
 
 $(BUILD)/examples/scoreboard: examples/common/scoreboard.c $(COMMON)
@@ -128,7 +129,8 @@ $(BUILD)/examples/scoreboard: examples/common/scoreboard.c $(COMMON)
 $(BUILD)/common/host_search.o: examples/common/host_search.c $(COMMON) $(HEADERS)
 	@mkdir -p $(@D)
 	$(CC) $(WARN) $(CFLAGS) $(SIMD) $(PTHREADS) -c -o $@ $<
-$(BUILD)/examples/%: examples/papers/%.c $(BUILD)/common/host_search.o $(COMMON) $(HEADERS)
+vpath %.c $(FOLDERS)
+$(BUILD)/examples/%: %.c $(BUILD)/common/host_search.o $(COMMON) $(HEADERS)
 	@mkdir -p $(@D)
 	$(CC) $(WARN) $(CFLAGS) $(SIMD) $(PTHREADS) -DHOST_LINKED=1 -o $@ $< $(BUILD)/common/host_search.o $(LDLIBS)
 

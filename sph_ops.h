@@ -150,6 +150,23 @@
  *                  sph_viscosity_mu_monaghan_cleary(k, dim, cloud, fluid, mu, acceleration)
  *                  sph_velocity_xsph(k, dim, cloud, fluid, epsilon, change)
  *                  sph_wall_adami(k, dim, cloud, wall, out)          pressure and velocity of wall particles
+ *   liquids        sph_density_difference_molteni  sph_density_difference_antuono
+ *                  sph_density_difference_fourtakas  sph_density_slope  sph_density_diffusion_weight
+ *                  sph_time_step_density_diffusion
+ *                  sph_density_diffusion_molteni(k, dim, cloud, fluid, diffusion, out)
+ *                      density rate with density diffusion
+ *                  sph_density_diffusion_antuono(k, dim, cloud, fluid, diffusion, out)   delta-SPH
+ *                  sph_density_diffusion_fourtakas(k, dim, cloud, fluid, diffusion, out)
+ *                  sph_density_diffusion_rows_molteni(k, dim, cloud, fluid, diffusion, out)
+ *                  sph_surface_of  sph_surface_normal  sph_surface_covers
+ *                  sph_free_surface(k, dim, cloud, out)              div r, lambda, normal
+ *                  sph_free_surface_cone(dim, cloud, lambda, normal, flag)
+ *                      which particles are the surface
+ *                  sph_shift_pair  sph_shift_strength_skillen  sph_shift_strength_sun
+ *                  sph_shift_at_surface  sph_shift_limited  sph_shift_rate_pair  sph_transport_pair_adami
+ *                  sph_shift_displacement(k, dim, cloud, shift, out) keeps particles even
+ *                  sph_shift_rates(k, dim, cloud, fluid, shift, out) what particles that are shifted carry
+ *                  sph_transport_adami(k, dim, cloud, fluid, transport, background, out)
  *   collisions     sph_collision_pair
  *                  sph_collision_sequential(dim, cloud, collision, velocity, out)
  *                  sph_collision_count(dim, cloud, collision, v, count)
@@ -1476,13 +1493,14 @@ SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_cloud cloud,
     return failed;
 }
 
-/* *moment = K = sum_j weight e e^T with e = x_j - x_i. If with_f is 1: *sum = sum_j weight e (f_j - f_i). */
+/* *moment = K = sum_j weight e e^T with e = x_j - x_i. If with_f is 1: *sum = sum_j weight e (f_j - f_i); if
+   it is 2: *sum = sum_j weight e. */
 SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list,
                                   sph_real h_i, sph_scalars volume, int with_f, sph_scalars f,
                                   sph_sym *moment, sph_vec *sum)
 {
     const sph_vec x_i = sphi_point(dim, x, i);
-    const sph_real f_i = with_f ? sphi_at(f, i) : SPH_R(0);
+    const sph_real f_i = with_f == 1 ? sphi_at(f, i) : SPH_R(0);
     sph_real xx = SPH_R(0), xy = SPH_R(0), yy = SPH_R(0), xz = SPH_R(0), yz = SPH_R(0), zz = SPH_R(0),
              sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
     sph_index p;
@@ -1491,7 +1509,7 @@ SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points
         const sph_vec e = sphi_separation(dim, x, sphi_point(dim, x, j), x_i);
         const sph_vec we =
             sph_scale(sph_moment_weight_gradient(k, dim, sph_length(dim, e), h_i, sphi_at(volume, j)), e);
-        const sph_real df = with_f ? sphi_at(f, j) - f_i : SPH_R(0);
+        const sph_real df = with_f == 1 ? sphi_at(f, j) - f_i : SPH_R(1);
         xx += we.x * e.x;
         if (dim > 1) {
             xy += we.x * e.y;
@@ -4611,6 +4629,706 @@ SPH_FN sph_index sph_wall_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall
         failed += state != SPH_OK;
     }
     return failed;
+}
+
+/* ================================================================ liquids
+ *
+ * What weakly compressible liquids need beside their forces. With a density diffusion D_i, the continuity
+ * equation of a particle is
+ *     drho_i/dt = rho_i sum_j V_j v_ij . grad_i W_ij + D_i,
+ *     D_i       = delta c sum_j h_ij psi_ij V_j (-F_ij),
+ * and psi_ij is
+ *     Molteni & Colagrossi   2 (rho_j - rho_i)
+ *     Antuono et al.         2 (rho_j - rho_i) + (g_i + g_j) . x_ij,   g = grad rho by sph_gradient_cspm
+ *     Fourtakas et al.       2 (rho_j - rho_i - rho0 gravity . (x_j - x_i) / c^2)
+ * D takes away the checkerboard of the density, and with it the noise of the pressure. psi_ij = -psi_ji, so
+ * that sum_i V_i D_i = 0 to round-off: no volume-weighted mass comes or goes. In its place many codes print
+ * psi r_ji . grad W / (r^2 + eta^2 h^2): the same with eta = 0, since r^2 cancels; eta = 0.1 makes D about
+ * 1 % smaller. delta = 0.1 is usual. Some codes call the whole support h, and some leave the 2 of psi to
+ * delta: compare the whole factor.
+ *
+ * Which one: Molteni's is the cheapest, but takes the weight of a column for noise, so that a free surface at
+ * rest rises (by 0.5 % of the depth within 10 sqrt(depth / gravity): tests/test_liquid.c). Antuono's and
+ * Fourtakas's do not. Antuono's needs the gradient of the density, one sweep more, but no gravity. Where a
+ * wall is made of particles, give them the share 0: otherwise they take density from the liquid.
+ *
+ * Sources: Molteni & Colagrossi 2009, Comput. Phys. Commun. 180, 861; Antuono, Colagrossi, Marrone & Molteni
+ * 2010, Comput. Phys. Commun. 181, 532; Fourtakas, Vacondio, Dominguez & Rogers 2019, Comput. Fluids 190,
+ * 346.
+ */
+
+/* -------- density diffusion: pair functions */
+
+/* psi = 2 (rho_j - rho_i) of Molteni & Colagrossi: twice the difference of the densities. */
+SPH_FN sph_real sph_density_difference_molteni(sph_fluid_side i, sph_fluid_side j)
+{
+    return SPH_R(2) * (j.rho - i.rho);
+}
+/* psi = 2 (rho_j - rho_i) + (g_i + g_j) . x_ij of Antuono et al., where g is the gradient of the density at
+   the two particles. It is 0 for a linear density, if g is exact. Papers print - (g_i + g_j) . r_ji with
+   r_ji = -x_ij. */
+SPH_FN sph_real sph_density_difference_antuono(int dim, sph_fluid_side i, sph_fluid_side j, sph_vec g_i,
+                                               sph_vec g_j, sph_vec x_ij)
+{
+    return sph_density_difference_molteni(i, j) + sph_dot(dim, g_i, x_ij) + sph_dot(dim, g_j, x_ij);
+}
+/* psi = 2 (rho_j - rho_i - slope . (x_j - x_i)) of Fourtakas et al., with slope = rho0 gravity / c^2
+   (sph_density_slope). It is 0 for a density of this slope. In its place the paper subtracts
+   rho0 (1 + gamma gravity . (x_j - x_i) / c^2)^(1 / gamma) - rho0, which is the same to first order. But that
+   does not change its sign with the pair unless gamma = 1, so that it does not conserve. */
+SPH_FN sph_real sph_density_difference_fourtakas(int dim, sph_fluid_side i, sph_fluid_side j, sph_vec slope,
+                                                 sph_vec x_ij)
+{
+    return sph_density_difference_molteni(i, j) + SPH_R(2) * sph_dot(dim, slope, x_ij);
+}
+/* grad rho = rho0 gravity / c^2 in a liquid at rest, near rho0. Needs rho0 > 0 and c > 0. */
+SPH_FN sph_vec sph_density_slope(sph_tait t, sph_vec gravity)
+{
+    SPH_ASSERT(t.rho0 > SPH_R(0) && t.c > SPH_R(0));
+    return sph_scale(t.rho0 / (t.c * t.c), gravity);
+}
+/* The weight of psi: delta c h V_j (-F) >= 0 with V_j = m_j / rho_j. strength = delta c h, and f_ij = F_ij
+   with the h of the pair. Needs rho_j > 0. */
+SPH_FN sph_real sph_density_diffusion_weight(sph_fluid_side j, sph_real strength, sph_real f_ij)
+{
+    SPH_ASSERT(j.rho > SPH_R(0));
+    return -strength * f_ij * (j.m / j.rho);
+}
+/* The longest step in which density diffusion makes no new extreme: h / (S delta c), with
+   S = h^2 sum_j 2 V_j |F_ij| in the limit of many neighbours. In 2D S = 4 pi h^2 W(0), 7 for
+   the C2 kernel of Wendland. Twice that step is the limit
+   of stability. With delta = 0.1 it is longer than that of sound (sph_time_step_sound). Where nothing limits
+   the step the answer is 1/SPHI_TINY. Needs h > 0, delta >= 0 and c >= 0. */
+SPH_FN sph_real sph_time_step_density_diffusion(sph_kernel k, int dim, sph_real h, sph_real delta, sph_real c)
+{
+    const sph_real dq = sph_kernel_support_ratio(k) / SPH_R(64);
+    sph_real sum = SPH_R(0);
+    int n;
+    SPH_ASSERT(SPHI_IS_DIM(dim) && h > SPH_R(0) && delta >= SPH_R(0) && c >= SPH_R(0));
+    for (n = 0; n < 64; n++) {
+        const sph_real q = dq * (SPH_R(n) + SPH_R(0.5));
+        sum -= sphi_power(q, dim - 1) * sph_kernel_shape_f(k, dim, q);
+    }
+    sum *= SPH_R(2) * dq * sph_kernel_sigma(k, dim) *
+           (dim == 1   ? SPH_R(2)
+            : dim == 2 ? SPH_R(6.28318530717958647693)
+                       : SPH_R(12.5663706143591729539));
+    return sphi_limit(h, sum * delta * c);
+}
+
+/* -------- density diffusion: sweeps */
+
+/* What density diffusion needs to know. */
+typedef struct sph_diffusion {
+    sph_real delta; /* its strength; 0 means the usual 0.1, a negative number none */
+    sph_tait tait;  /* of the liquid: c >= 0 is read, and by fourtakas rho0 */
+    /* A pair has the factor share_i share_j: 1 for the liquid, 0 for walls and other fluids. Null: all take
+       part. */
+    sph_scalars share;
+    sph_vectors gradient; /* of the density, from sph_gradient_cspm: antuono only */
+    sph_vec gravity;      /* fourtakas only */
+} sph_diffusion;
+
+enum { SPHI_MOLTENI, SPHI_ANTUONO, SPHI_FOURTAKAS };
+/* The delta of sph_diffusion as it is used. */
+SPH_FN sph_real sphi_delta(sph_real delta)
+{
+    return delta == SPH_R(0) ? SPH_R(0.1) : delta < SPH_R(0) ? SPH_R(0) : delta;
+}
+SPH_FN int sphi_check_diffusion(int form, sph_kernel k, int dim, sph_cloud cloud, sph_fluid f,
+                                sph_diffusion d)
+{
+    int error = sphi_check_sweep(k, dim, cloud, "m", f.m);
+    if (!error && (!sphi_finite(d.delta) || !sphi_finite(d.tait.c) || d.tait.c < SPH_R(0)))
+        error = sphi_refuse("diffusion.delta, tait", -1, SPH_ERROR_VALUE);
+    if (!error && form == SPHI_FOURTAKAS &&
+        (!(d.tait.rho0 > SPH_R(0)) || !(d.tait.c > SPH_R(0)) ||
+         !sphi_finite(sph_length(dim, sph_density_slope(d.tait, d.gravity)))))
+        error = sphi_refuse("diffusion.tait, gravity", -1, SPH_ERROR_VALUE);
+    if (!error) error = sphi_check_positive("rho", f.rho, cloud.points.n);
+    if (!error && d.share.p) error = sphi_check_field("share", d.share, cloud.points.n);
+    if (!error && form == SPHI_ANTUONO)
+        error = sphi_check_vectors("gradient", dim, d.gradient, cloud.points.n);
+    return error;
+}
+SPH_FN sph_real sphi_density_difference(int form, int dim, sph_fluid_side i, sph_fluid_side j,
+                                        const sph_diffusion *d, sph_vec g_i, sph_index at, sph_vec x_ij)
+{
+    if (form == SPHI_MOLTENI) return sph_density_difference_molteni(i, j);
+    if (form == SPHI_FOURTAKAS) return sph_density_difference_fourtakas(dim, i, j, g_i, x_ij);
+    return sph_density_difference_antuono(dim, i, j, g_i, sphi_vector_at(dim, d->gradient, at), x_ij);
+}
+/* moving and shared: whether there are velocities, and shares. They are arguments because the loops
+   vectorise only where the compiler knows which arrays are read. */
+SPH_FN sph_index sphi_diffusion_range(int form, int uniform, int moving, int shared, sph_kernel k, int dim,
+                                      sph_cloud cloud, const sph_fluid *f, const sph_diffusion *d,
+                                      sph_scalar_out out)
+{
+    const int reads = SPHI_READ_M + SPHI_READ_RHO;
+    const sph_real speed = sphi_delta(d->delta) * d->tait.c;
+    sph_index i, p, failed = 0;
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i),
+                      v_i = moving ? sphi_vector_at(dim, f->v, i) : sph_scale(SPH_R(0), x_i),
+                      g_i = form == SPHI_ANTUONO     ? sphi_vector_at(dim, d->gradient, i)
+                            : form == SPHI_FOURTAKAS ? sph_density_slope(d->tait, d->gravity)
+                                                     : v_i;
+        const sph_real h_i = sphi_at(cloud.h, i), speed_i = shared ? speed * sphi_at(d->share, i) : speed;
+        const sph_fluid_side own = sphi_fluid_side(reads, f, f->m, i);
+        sph_real rate = SPH_R(0);
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], rate) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_fluid_side other = sphi_fluid_side(reads, f, f->m, j);
+            const sph_real h_ij = sphi_mean_h(uniform, cloud.h, h_i, j),
+                           f_ij = sph_kernel_f_apart(k, dim, sph_length(dim, x_ij), h_ij),
+                           strength = h_ij * (shared ? speed_i * sphi_at(d->share, j) : speed_i);
+            sph_real c = sph_density_diffusion_weight(other, strength, f_ij) *
+                         sphi_density_difference(form, dim, own, other, d, g_i, j, x_ij);
+            if (moving)
+                c += sph_density_rate_pair_volume(
+                    own, other, sph_dot(dim, sph_subtract(dim, v_i, sphi_vector_at(dim, f->v, j)), x_ij),
+                    f_ij);
+            rate += c;
+        }
+        failed += sphi_store(out, i, rate);
+    }
+    return failed;
+}
+SPH_FN sph_index sphi_diffusion_shares(int form, int uniform, int moving, sph_kernel k, int dim,
+                                       sph_cloud cloud, const sph_fluid *f, const sph_diffusion *d,
+                                       sph_scalar_out out)
+{
+    return d->share.p ? sphi_diffusion_range(form, uniform, moving, 1, k, dim, cloud, f, d, out)
+                      : sphi_diffusion_range(form, uniform, moving, 0, k, dim, cloud, f, d, out);
+}
+SPH_FN sph_index sphi_diffusion(int form, sph_kernel k, int dim, sph_cloud cloud, sph_fluid f,
+                                sph_diffusion d, sph_scalar_out out)
+{
+    const int moving = f.v.x.p != 0;
+    int error = sphi_check_diffusion(form, k, dim, cloud, f, d);
+    if (!error && moving) error = sphi_check_vectors("v", dim, f.v, cloud.points.n);
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
+    if (cloud.h.stride)
+        return moving ? sphi_diffusion_shares(form, 0, 1, k, dim, cloud, &f, &d, out)
+                      : sphi_diffusion_shares(form, 0, 0, k, dim, cloud, &f, &d, out);
+    return moving ? sphi_diffusion_shares(form, 1, 1, k, dim, cloud, &f, &d, out)
+                  : sphi_diffusion_shares(form, 1, 0, k, dim, cloud, &f, &d, out);
+}
+
+/* drho_i/dt = rho_i sum_j (m_j / rho_j) v_ij . grad_i W_ij + D_i: the density rate of the liquid with the
+   density diffusion of Molteni & Colagrossi. Of fluid, the members m, rho and v are read; where v is null,
+   the answer is D_i alone. Take the new velocities, as the order of a step in the chapter of fluids says. A
+   pair uses (h_i + h_j) / 2: lists by SPH_MEAN, or by any criterion if all particles have the same h.
+     D      is delta c h times sph_laplacian_brookshaw of the density, if all have the same h. It conserves
+            sum_i V_i rho_i to round-off, V_i = m_i / rho_i, and is dissipative: sum_i V_i rho_i D_i <= 0. It
+            is 0 for constants only: it takes the density of a column at rest for noise.
+   Across a jump of rho0 diffuse rho / rho0 instead, or give the other fluid the share 0. Where the sum
+   overflows, the result is 0 and SPH_NOT_FINITE. Returns the number of these targets, or a negative
+   sph_error. Sources stand at the head of the chapter. */
+SPH_FN sph_index sph_density_diffusion_molteni(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                               sph_diffusion diffusion, sph_scalar_out out)
+{
+    return sphi_diffusion(SPHI_MOLTENI, k, dim, cloud, fluid, diffusion, out);
+}
+/* The same with the density diffusion of Antuono et al. (delta-SPH): D = 0 to round-off for a linear density
+   at any particle, also at a boundary, if diffusion.gradient comes from sph_gradient_cspm. */
+SPH_FN sph_index sph_density_diffusion_antuono(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                               sph_diffusion diffusion, sph_scalar_out out)
+{
+    return sphi_diffusion(SPHI_ANTUONO, k, dim, cloud, fluid, diffusion, out);
+}
+/* The same with the density diffusion of Fourtakas et al.: D = 0 to round-off for a density of the slope
+   rho0 gravity / c^2 (sph_density_slope) at any particle. */
+SPH_FN sph_index sph_density_diffusion_fourtakas(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                                 sph_diffusion diffusion, sph_scalar_out out)
+{
+    return sphi_diffusion(SPHI_FOURTAKAS, k, dim, cloud, fluid, diffusion, out);
+}
+/* The D of Molteni & Colagrossi as rows: D_i = sum_p row[p] (rho_j - rho_i), row[p] >= 0, factor 1 and
+   conditioning 1. The rates of sph_density_diffusion_molteni without v agree to round-off. A row that
+   overflows is 0, with SPH_NOT_FINITE. */
+SPH_FN sph_index sph_density_diffusion_rows_molteni(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                                    sph_diffusion diffusion, sph_rows_out out)
+{
+    SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
+    const int reads = SPHI_READ_M + SPHI_READ_RHO, shared = diffusion.share.p != 0;
+    const sph_real speed = sphi_delta(diffusion.delta) * diffusion.tait.c;
+    int error = sphi_check_diffusion(SPHI_MOLTENI, k, dim, cloud, fluid, diffusion);
+    sph_index i, p, failed = 0;
+    if (!error && !row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i),
+                       speed_i = shared ? speed * sphi_at(diffusion.share, i) : speed;
+        int lost;
+        SPH_EACH(p, cloud.list.start[i], cloud.list.start[i + 1]) {
+            const sph_index j = cloud.list.index[p];
+            const sph_real r = sph_length(dim, sphi_separation(dim, cloud.points, x_i,
+                                                               sphi_point(dim, cloud.points, j))),
+                           h_ij = sphi_mean_h(0, cloud.h, h_i, j),
+                           strength = h_ij * (shared ? speed_i * sphi_at(diffusion.share, j) : speed_i);
+            row[p] = SPH_R(2) * sph_density_diffusion_weight(sphi_fluid_side(reads, &fluid, fluid.m, j),
+                                                             strength, sph_kernel_f_apart(k, dim, r, h_ij));
+        }
+        lost = sphi_row_finite(row, cloud.list.start[i], cloud.list.start[i + 1]);
+        sphi_row_answer(out, cloud.list, i, 1, SPH_R(1), lost ? (int)SPH_NOT_FINITE : (int)SPH_OK);
+        failed += lost;
+    }
+    return failed;
+}
+
+/* -------- free surface: functions of values
+ *
+ * One pass over the neighbours, with e = x_j - x_i and the weight -V_j F_ij of CSPM's gradient, gives
+ *     K        = sum_j weight e e^T,   the unit tensor inside,
+ *     div r    = tr K:                 dim inside; at a surface less than 1.5 (2D) or 2.4 (3D),
+ *     lambda   = the least eigenvalue of K: 1 inside, 0 for a particle alone,
+ *     normal   = -K^-1 g / |K^-1 g|,   outward, where g = sum_j V_j grad_i W_ij points inward.
+ * lambda < 0.75 marks a band of one to two rows. That is what shifting needs. In it the cone finds the one
+ * row that is the surface. That is what a condition p = 0 needs: of particles that are moved by up to 0.3
+ * spacings it finds more than 99 %, with less than 0.5 % of others (tests/test_liquid.c). div r is nearly as
+ * good for h = 1.3 spacings, less for longer ones, and costs no second pass. Sums of V W tell a surface from
+ * disorder badly, and are not offered. Wall particles must be sources with their volume: otherwise the liquid
+ * has a surface there.
+ *
+ * Sources: Marrone, Colagrossi, Le Touze & Graziani 2010, JCP 229, 3652 (lambda, cone); Lee, Moulinec, Xu,
+ * Violeau, Laurence & Stansby 2008, JCP 227, 8417 (div r; their formula has the wrong sign).
+ */
+
+/* What lambda says of a particle. */
+typedef enum sph_surface {
+    SPH_SURFACE_INSIDE, /* lambda > 0.75 */
+    SPH_SURFACE_BAND,   /* look closer */
+    SPH_SURFACE_SPLASH  /* lambda < 0.2: at the surface, or outside */
+} sph_surface;
+SPH_FN sph_surface sph_surface_of(sph_real lambda)
+{
+    if (lambda < SPH_R(0.2)) return SPH_SURFACE_SPLASH;
+    return lambda > SPH_R(0.75) ? SPH_SURFACE_INSIDE : SPH_SURFACE_BAND;
+}
+/* The outward normal -K^-1 g / |K^-1 g|; inverse = K^-1 (sph_solve_gradient), g = sum_j V_j grad_i W_ij. It
+   is 0 where |K^-1 g| h is rounding error, as inside a lattice. Needs h > 0. */
+SPH_FN sph_vec sph_surface_normal(int dim, sph_sym inverse, sph_vec g, sph_real h)
+{
+    const sph_vec a = sphi_sym_times(dim, inverse, g);
+    const sph_real length = sph_length(dim, a);
+    SPH_ASSERT(h > SPH_R(0));
+    return sph_scale(length * h > SPHI_PIVOT_MIN ? SPH_R(-1) / length : SPH_R(0), a);
+}
+/* 1 if the neighbour j covers i, so that i is not at the surface: if j lies
+       within sqrt(2) h of i, less than 45 degrees from the normal, or
+       farther away, but within h of the point x_i + h normal.
+   x_ij = x_i - x_j. The same in all dimensions: in 2D the first region is the part within sqrt(2) h of the
+   square that Marrone et al. print. A coincident j covers nothing. Needs h > 0. */
+SPH_FN int sph_surface_covers(int dim, sph_vec normal, sph_vec x_ij, sph_real h)
+{
+    const sph_real r2 = sph_dot(dim, x_ij, x_ij), up = -sph_dot(dim, normal, x_ij);
+    SPH_ASSERT(h > SPH_R(0));
+    if (r2 < SPH_R(2) * h * h) return up > SPH_R(0) && SPH_R(2) * up * up > r2;
+    return r2 - SPH_R(2) * h * up < SPH_R(0); /* |x_ij + h n|^2 < h^2 */
+}
+
+/* -------- free surface: sweeps */
+
+/* Where what is known of the surface goes. Null pointers are not written. The stride is that of divergence
+   and lambda. */
+typedef struct sph_surface_out {
+    SPH_GLOBAL sph_real *divergence, *lambda; /* div r and lambda, pure numbers */
+    sph_vector_out normal;                    /* outward, of length 1 or 0 */
+    size_t stride;
+    SPH_GLOBAL unsigned char *status;
+} sph_surface_out;
+
+/* div r, lambda and the normal of the targets, in one pass. A target needs neighbours as for
+   sph_gradient_cspm. Else it is SPH_TOO_FEW or SPH_SINGULAR, with the normal 0; div r and lambda are computed
+   (without neighbours they are 0). The normal is also 0 where no side is emptier than another. Its error on a
+   disc of particles that are moved by up to 0.3 spacings is 8 degrees for h = 1.33 spacings, and 3 degrees
+   for h = 2. Returns the number of targets that are not SPH_OK, or a negative sph_error. */
+SPH_FN sph_index sph_free_surface(sph_kernel k, int dim, sph_cloud cloud, sph_surface_out out)
+{
+    const size_t stride = sphi_stride(out.stride);
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
+    sph_index i, failed = 0;
+    if (!error && out.normal.x) error = sphi_check_out("out.normal", dim, out.normal);
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_real h_i = sphi_at(cloud.h, i);
+        sph_sym moment, inverse;
+        sph_vec g, normal;
+        sph_real trace;
+        int state, lost;
+        sphi_gradient_moments(k, dim, i, cloud.points, cloud.list, h_i, cloud.volume, 2, cloud.volume,
+                              &moment, &g);
+        normal = sph_scale(SPH_R(0), g);
+        state = sph_solve_gradient(dim, moment, &inverse, 0);
+        if (state) state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i, dim);
+        else normal = sph_surface_normal(dim, inverse, g, h_i);
+        trace = moment.xx;
+        if (dim > 1) trace += moment.yy;
+        if (dim > 2) trace += moment.zz;
+        lost = sphi_put(out.divergence, stride, i, trace);
+        lost |= sphi_put(out.lambda, stride, i, sph_sym_eigenvalues(dim, moment).x);
+        if (out.normal.x) lost |= sphi_store_vector(dim, out.normal, i, normal);
+        if (lost) state = SPH_NOT_FINITE;
+        if (out.status) out.status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+/* flag[i] = 1 for the targets at the surface, else 0, from the lambda and the normals of sph_free_surface.
+   Only the band of sph_surface_of is scanned, until a neighbour covers the target (sph_surface_covers). In
+   the band, a target without a normal is at the surface. h is that of the target; lists must hold every
+   source with r < 2 h. Returns the number of targets at the surface, or a negative sph_error. */
+SPH_FN sph_index sph_free_surface_cone(int dim, sph_cloud cloud, sph_scalars lambda, sph_vectors normal,
+                                       SPH_GLOBAL unsigned char *flag)
+{
+    /* any kernel that ends at 2 h checks what this sweep needs */
+    int error = sphi_check_sweep(SPH_WENDLAND_C2, dim, cloud, "lambda", lambda);
+    sph_index i, p, found = 0;
+    if (!error) error = sphi_check_vectors("normal", dim, normal, cloud.points.n);
+    if (!error && !flag) error = sphi_refuse("flag", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), n_i = sphi_vector_at(dim, normal, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        const sph_surface kind = sph_surface_of(sphi_at(lambda, i));
+        int covered = kind == SPH_SURFACE_INSIDE;
+        for (p = cloud.list.start[i]; kind == SPH_SURFACE_BAND && !covered && p < cloud.list.start[i + 1];
+             p++)
+            covered = sph_surface_covers(
+                dim, n_i,
+                sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, cloud.list.index[p])),
+                h_i);
+        flag[i] = (unsigned char)!covered;
+        found += !covered;
+    }
+    return found;
+}
+
+/* -------- shifting: functions of values
+ *
+ * Particles that follow the flow line up and leave holes. Shifting moves them a little from where they are
+ * many to where they are few, along
+ *     G_i  = sum_j V_j (1 + R (W_ij / W(dx))^4) grad_i W_ij,   dx_i = -strength_i G_i.
+ * Inside an even cloud G is 0; at a free surface it points inward, so that dx would throw particles out:
+ * sph_shift_at_surface keeps there only what lies along the surface. strength is an area:
+ *     Lind et al.    A h^2 with A <= 0.5,
+ *     Skillen et al. A h |v| dt with A = 1 ... 6 (sph_shift_strength_skillen),
+ *     Sun et al.     dt v_max (2 h)^2 / (2 length) (sph_shift_strength_sun); they take R = 0.2, and
+ *                    m_j / (rho_i + rho_j) where V_j / 2 stands here.
+ * What a particle carries moves with it. Add dx . grad f to each field f (sph_gradient_cspm: exact for linear
+ * fields), or the rates of sph_shift_rates. Or move particles with the transport velocity
+ * (sph_transport_adami).
+ *
+ * WHAT IT COSTS. Shifting makes particles even: where particles cluster, 19 % of them come down to 1.5 %. But
+ * it does not conserve angular momentum, and makes a liquid with a free surface swell: a still tank rises by
+ * about 1 % of its depth in 10 sqrt(depth / gravity), while density diffusion alone leaves it where it is
+ * (tests/test_liquid.c asserts both). See also Jandaghian et al. 2021, arXiv:2110.10076. With walls, their
+ * particles must be sources.
+ *
+ * As a tool that packs particles: dx = -0.4 h^2 G, again and again with new lists, makes an even cloud of any
+ * one, in any shape whose outside is filled with particles that do not move. It converges for A <= 0.6 and
+ * diverges for 1 (Wendland's kernels). examples/OPERATORS.md shows the loop.
+ *
+ * Sources: Lind, Xu, Stansby & Rogers 2012, JCP 231, 1499; Skillen, Lind, Stansby & Rogers 2013, CMAME 265,
+ * 163; Sun, Colagrossi, Marrone & Zhang 2017, CMAME 315, 25; Sun, Colagrossi, Marrone, Antuono & Zhang 2019,
+ * CMAME 348, 912; Adami, Hu & Adams 2013, JCP 241, 292; R and the power 4: Monaghan 2000, JCP 159, 290.
+ */
+
+/* What j adds to G: V_j (1 + R w^4) F x_ij, with w = W_ij / W(dx), and R = tensile, 0.2 or 0. */
+SPH_FN sph_vec sph_shift_pair(sph_real V_j, sph_real tensile, sph_real w, sph_real f_ij, sph_vec x_ij)
+{
+    return sph_scale(V_j * (SPH_R(1) + tensile * (w * w) * (w * w)) * f_ij, x_ij);
+}
+/* A h |v| dt of Skillen et al.; speed = |v|, factor = A, 1 ... 6. */
+SPH_FN sph_real sph_shift_strength_skillen(sph_real h, sph_real speed, sph_real dt, sph_real factor)
+{
+    return factor * h * speed * dt;
+}
+/* dt v_max (2 h)^2 / (2 length) of Sun et al.; speed = v_max, the largest speed of the flow. In the paper
+   length = h; TrixiParticles takes 2 dx, because the shift then scales with the spacing. At h = 2 dx they are
+   the same. Needs length > 0. */
+SPH_FN sph_real sph_shift_strength_sun(sph_real h, sph_real speed, sph_real dt, sph_real length)
+{
+    SPH_ASSERT(length > SPH_R(0));
+    return SPH_R(2) * dt * speed * h * h / length;
+}
+/* The shift that a free surface leaves: none for lambda < 0.4 (splash), only the part along the surface,
+   dx - n (n . dx), for lambda < 0.75, and all of it inside. lambda and n come from sph_free_surface. The
+   limits are those of Sun et al. 2019. */
+SPH_FN sph_vec sph_shift_at_surface(int dim, sph_vec shift, sph_real lambda, sph_vec normal)
+{
+    if (lambda < SPH_R(0.4)) return sph_scale(SPH_R(0), shift);
+    if (!(lambda < SPH_R(0.75))) return shift;
+    return sph_subtract(dim, shift, sph_scale(sph_dot(dim, normal, shift), normal));
+}
+/* The same vector, made shorter if it is longer than `longest`. Needs longest >= 0. */
+SPH_FN sph_vec sph_shift_limited(int dim, sph_vec shift, sph_real longest)
+{
+    const sph_real length = sph_length(dim, shift);
+    SPH_ASSERT(longest >= SPH_R(0));
+    return length > longest ? sph_scale(longest / length, shift) : shift;
+}
+/* What j adds to the rate of a field f that is seen from a particle with the velocity v + u instead of v, u
+   being the velocity of shifting:
+       f_i (u_i - u_j) . V_j grad_i W_ij + (f_i u_i + f_j u_j) . V_j grad_i W_ij,
+   which are -f div u and div(f u): their sum is u . grad f. along_i = V_j u_i . grad_i W_ij, and along_j the
+   same for u_j. Sun et al. 2019. */
+SPH_FN sph_real sph_shift_rate_pair(sph_real f_i, sph_real f_j, sph_real along_i, sph_real along_j)
+{
+    return f_i * (along_i - along_j) + (f_i * along_i + f_j * along_j);
+}
+/* One particle of a pair that moves with a transport velocity u: its mass and density, its velocity v, and
+   drift = u - v. */
+typedef struct sph_transport_side {
+    sph_real m, rho;
+    sph_vec v, drift;
+} sph_transport_side;
+/* What j adds to i: the acceleration by a background pressure of 1, and that by the stress of the drift. */
+typedef struct sph_transport_change {
+    sph_vec background, stress;
+} sph_transport_change;
+/* With P_1 = (V_i^2 + V_j^2) / (m_i m_j), which is sph_pressure_pair_hu_adams for p = 1:
+       background  -m_j P_1 grad_i W_ij,
+       stress      m_j P_1 (A_i + A_j) / 2 . grad_i W_ij,   A = rho v drift^T.
+   Adami, Hu & Adams 2013. Needs m > 0 and rho > 0 on both sides. */
+SPH_FN sph_transport_change sph_transport_pair_adami(int dim, sph_transport_side i, sph_transport_side j,
+                                                     sph_vec x_ij, sph_real f_ij)
+{
+    sph_fluid_side a, b;
+    sph_transport_change c;
+    sph_real push, along_i, along_j;
+    a.m = i.m;
+    a.rho = i.rho;
+    b.m = j.m;
+    b.rho = j.rho;
+    a.p = b.p = SPH_R(1);
+    a.mu = b.mu = SPH_R(0);
+    push = j.m * sph_pressure_pair_hu_adams(a, b) * f_ij;
+    along_i = SPH_R(0.5) * push * i.rho * sph_dot(dim, i.drift, x_ij);
+    along_j = SPH_R(0.5) * push * j.rho * sph_dot(dim, j.drift, x_ij);
+    c.background = sph_scale(-push, x_ij);
+    c.stress.x = along_i * i.v.x + along_j * j.v.x;
+    c.stress.y = along_i * i.v.y + along_j * j.v.y;
+    c.stress.z = along_i * i.v.z + along_j * j.v.z;
+    return c;
+}
+
+/* -------- shifting: sweeps */
+
+/* How particles are shifted. Zeros are the defaults where nothing else is said. */
+typedef struct sph_shift {
+    sph_scalars strength; /* an area, of each particle or of all. There is no default */
+    sph_real tensile;     /* R; 0: no such term */
+    sph_real spacing;     /* dx / h, of the particles as they should lie; is read if R is not 0 */
+    sph_scalars lambda;   /* of sph_free_surface. Null: there is no free surface */
+    sph_vectors normal;   /* of sph_free_surface; is read with lambda */
+    sph_real longest;     /* the longest shift, a length; 0 means 0.2 h, a negative number no limit */
+} sph_shift;
+
+SPH_FN sph_index sphi_shift_range(int uniform, int tensile, sph_kernel k, int dim, sph_cloud cloud,
+                                  const sph_shift *s, sph_vector_out out)
+{
+    const sph_real per_w = tensile ? SPH_R(1) / sph_kernel_w(k, dim, s->spacing, SPH_R(1)) : SPH_R(0);
+    sph_index i, p, failed = 0;
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        sph_real gx = SPH_R(0), gy = SPH_R(0), gz = SPH_R(0);
+        sph_vec shift;
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], gx, gy, gz) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_real h_ij = sphi_mean_h(uniform, cloud.h, h_i, j);
+            const sph_wf both = sph_kernel_wf(k, dim, sph_length(dim, x_ij), h_ij);
+            const sph_vec g =
+                sph_shift_pair(sphi_at(cloud.volume, j), tensile ? s->tensile : SPH_R(0),
+                               tensile ? both.w * sphi_power(h_ij, dim) * per_w : SPH_R(0), both.f, x_ij);
+            gx += g.x;
+            gy += g.y;
+            gz += g.z;
+        }
+        shift.x = gx;
+        shift.y = gy;
+        shift.z = gz;
+        shift = sph_scale(-sphi_at(s->strength, i), shift);
+        if (s->lambda.p)
+            shift =
+                sph_shift_at_surface(dim, shift, sphi_at(s->lambda, i), sphi_vector_at(dim, s->normal, i));
+        if (!(s->longest < SPH_R(0)))
+            shift = sph_shift_limited(dim, shift, s->longest > SPH_R(0) ? s->longest : SPH_R(0.2) * h_i);
+        failed += sphi_store_vector(dim, out, i, shift);
+    }
+    return failed;
+}
+/* The shift dx_i = -strength_i G_i of the targets, less what the surface forbids, and no longer than
+   `longest`. The host adds it to the positions; for a velocity of shifting it divides by dt (Sun et al. 2019:
+   longest = dt v_max / 2). A pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). With the same strength for all,
+   no surface and no limit, sum_i V_i dx_i = 0 to round-off. What it costs stands above. Returns the number of
+   targets whose shift overflowed (it is 0 then), or a negative sph_error. */
+SPH_FN sph_index sph_shift_displacement(sph_kernel k, int dim, sph_cloud cloud, sph_shift shift,
+                                        sph_vector_out out)
+{
+    const int tensile = shift.tensile != SPH_R(0);
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
+    if (!error) error = sphi_check_field("shift.strength", shift.strength, cloud.points.n);
+    if (!error && (!sphi_finite(shift.tensile) || !sphi_finite(shift.longest)))
+        error = sphi_refuse("shift.tensile, longest", -1, SPH_ERROR_VALUE);
+    if (!error && tensile && (!(shift.spacing > SPH_R(0)) || !(shift.spacing < sph_kernel_support_ratio(k))))
+        error = sphi_refuse("shift.spacing", -1, SPH_ERROR_VALUE);
+    if (!error && shift.lambda.p) {
+        error = sphi_check_field("shift.lambda", shift.lambda, cloud.points.n);
+        if (!error) error = sphi_check_vectors("shift.normal", dim, shift.normal, cloud.points.n);
+    }
+    if (!error) error = sphi_check_out("out", dim, out);
+    if (error) return sphi_answer_of(error);
+    if (cloud.h.stride)
+        return tensile ? sphi_shift_range(0, 1, k, dim, cloud, &shift, out)
+                       : sphi_shift_range(0, 0, k, dim, cloud, &shift, out);
+    return tensile ? sphi_shift_range(1, 1, k, dim, cloud, &shift, out)
+                   : sphi_shift_range(1, 0, k, dim, cloud, &shift, out);
+}
+
+SPH_FN sph_index sphi_shift_rates_range(int uniform, sph_kernel k, int dim, sph_cloud cloud,
+                                        const sph_fluid *f, const sph_vectors *shift, sph_fluid_out out)
+{
+    const int reads = SPHI_READ_M + SPHI_READ_RHO;
+    sph_index i, p, failed = 0;
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, f->v, i),
+                      u_i = sphi_vector_at(dim, *shift, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        const sph_fluid_side own = sphi_fluid_side(reads, f, f->m, i);
+        sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0), rate = SPH_R(0);
+        sph_vec sum;
+        int lost;
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], ax, ay, az, rate) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)),
+                          v_j = sphi_vector_at(dim, f->v, j);
+            const sph_fluid_side other = sphi_fluid_side(reads, f, f->m, j);
+            const sph_vec g =
+                sph_gradient_pair_difference(k, dim, other.m / other.rho, SPH_R(1), x_ij,
+                                             sph_length(dim, x_ij), sphi_mean_h(uniform, cloud.h, h_i, j));
+            const sph_real along_i = sph_dot(dim, u_i, g),
+                           along_j = sph_dot(dim, sphi_vector_at(dim, *shift, j), g);
+            rate += sph_shift_rate_pair(own.rho, other.rho, along_i, along_j);
+            ax += sph_shift_rate_pair(v_i.x, v_j.x, along_i, along_j);
+            if (dim > 1) ay += sph_shift_rate_pair(v_i.y, v_j.y, along_i, along_j);
+            if (dim > 2) az += sph_shift_rate_pair(v_i.z, v_j.z, along_i, along_j);
+        }
+        sum.x = ax;
+        sum.y = ay;
+        sum.z = az;
+        lost = sphi_store_vector(dim, out.acceleration, i, sum);
+        lost |= sphi_put(out.rate, sphi_stride(out.stride), i, rate);
+        sphi_tell(out.status, i, lost);
+        failed += lost;
+    }
+    return failed;
+}
+/* What particles that move with v + u instead of v, where u is a velocity of shifting, add to their
+   acceleration and density rate: u . grad v and u . grad rho, by sph_shift_rate_pair with V_j = m_j / rho_j.
+   Sun et al. 2019. Of fluid, the members m, rho and v are read; out.heating is not written. A pair uses (h_i
+   + h_j) / 2 (lists by SPH_MEAN).
+   For a constant f the rate is 2 f u_i . sum_j V_j grad_i W_ij: not 0 in disorder, so that it depends on the
+   frame, and momentum is not conserved. (sum_i V_i of the part div(rho u) is 0 to round-off.) u . grad f
+   with sph_gradient_cspm is exact for linear f instead, and conserves nothing. Returns the number of targets
+   of which a result overflowed (it is 0 then), or a negative sph_error. */
+SPH_FN sph_index sph_shift_rates(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid, sph_vectors shift,
+                                 sph_fluid_out out)
+{
+    int error = sphi_check_sweep(k, dim, cloud, "m", fluid.m);
+    if (!error) error = sphi_check_positive("rho", fluid.rho, cloud.points.n);
+    if (!error) error = sphi_check_vectors("v", dim, fluid.v, cloud.points.n);
+    if (!error) error = sphi_check_vectors("shift", dim, shift, cloud.points.n);
+    if (!error) error = sphi_check_out("out.acceleration", dim, out.acceleration);
+    if (error) return sphi_answer_of(error);
+    return cloud.h.stride ? sphi_shift_rates_range(0, k, dim, cloud, &fluid, &shift, out)
+                          : sphi_shift_rates_range(1, k, dim, cloud, &fluid, &shift, out);
+}
+
+/* Where the accelerations of the transport velocity go. */
+typedef struct sph_transport_out {
+    sph_vector_out background, stress;
+    SPH_GLOBAL unsigned char *status;
+} sph_transport_out;
+
+SPH_FN sph_transport_side sphi_transport_side(int dim, const sph_fluid *f, const sph_vectors *transport,
+                                              sph_index i)
+{
+    sph_transport_side s;
+    s.m = sphi_at(f->m, i);
+    s.rho = sphi_at(f->rho, i);
+    s.v = sphi_vector_at(dim, f->v, i);
+    s.drift = sph_subtract(dim, sphi_vector_at(dim, *transport, i), s.v);
+    return s;
+}
+SPH_FN sph_index sphi_transport_range(int uniform, sph_kernel k, int dim, sph_cloud cloud, const sph_fluid *f,
+                                      const sph_vectors *transport, sph_real background,
+                                      sph_transport_out out)
+{
+    sph_index i, p, failed = 0;
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        const sph_transport_side own = sphi_transport_side(dim, f, transport, i);
+        sph_real bx = SPH_R(0), by = SPH_R(0), bz = SPH_R(0), sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
+        sph_vec sum;
+        int lost;
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], bx, by, bz, sx, sy, sz) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_transport_change c = sph_transport_pair_adami(
+                dim, own, sphi_transport_side(dim, f, transport, j), x_ij,
+                sph_kernel_f_apart(k, dim, sph_length(dim, x_ij), sphi_mean_h(uniform, cloud.h, h_i, j)));
+            bx += c.background.x;
+            sx += c.stress.x;
+            if (dim > 1) by += c.background.y, sy += c.stress.y;
+            if (dim > 2) bz += c.background.z, sz += c.stress.z;
+        }
+        sum.x = background * bx;
+        sum.y = background * by;
+        sum.z = background * bz;
+        lost = sphi_store_vector(dim, out.background, i, sum);
+        sum.x = sx;
+        sum.y = sy;
+        sum.z = sz;
+        lost |= sphi_store_vector(dim, out.stress, i, sum);
+        sphi_tell(out.status, i, lost);
+        failed += lost;
+    }
+    return failed;
+}
+/* The two accelerations of a scheme whose particles move with a transport velocity u, which is nearly v but
+   keeps the particles even:
+       background  -(p_b / m_i) sum_j (V_i^2 + V_j^2) grad_i W_ij, from the pressure `background` = p_b,
+       stress      (1 / m_i) sum_j (V_i^2 + V_j^2) (A_i + A_j) / 2 . grad_i W_ij,   A = rho v (u - v)^T.
+   A step: v += dt (a + stress) with the other accelerations a, u = v + dt / 2 background (of a half step),
+   x += dt u, and rho from sph_density_summation or sph_density_number. p_b = rho0 c^2 is usual, and the
+   pressure in a is then close to 0 (Tait with p0 = 0).
+   For flows without a free surface only: a background pressure throws particles out of one. Both conserve
+   linear momentum to round-off. Adami, Hu & Adams 2013, JCP 241, 292. Of fluid, the members m, rho and v are
+   read. A pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). Pairs closer than 1e-12 h exert no force on each
+   other. Returns the number of targets of which a result overflowed (it is 0 then), or a negative
+   sph_error. */
+SPH_FN sph_index sph_transport_adami(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                     sph_vectors transport, sph_real background, sph_transport_out out)
+{
+    int error = sphi_check_sweep(k, dim, cloud, "m", fluid.m);
+    if (!error) error = sphi_check_positive("m", fluid.m, cloud.points.n);
+    if (!error) error = sphi_check_positive("rho", fluid.rho, cloud.points.n);
+    if (!error) error = sphi_check_vectors("v", dim, fluid.v, cloud.points.n);
+    if (!error) error = sphi_check_vectors("transport", dim, transport, cloud.points.n);
+    if (!error && !sphi_finite(background)) error = sphi_refuse("background", -1, SPH_ERROR_VALUE);
+    if (!error) error = sphi_check_out("out.background", dim, out.background);
+    if (!error) error = sphi_check_out("out.stress", dim, out.stress);
+    if (error) return sphi_answer_of(error);
+    return cloud.h.stride ? sphi_transport_range(0, k, dim, cloud, &fluid, &transport, background, out)
+                          : sphi_transport_range(1, k, dim, cloud, &fluid, &transport, background, out);
 }
 
 /* ================================================================ collisions

@@ -15,7 +15,7 @@
  */
 #define FLOW_PERIODIC 0
 #include "clustering.h"
-#include "clustering_column.h"
+#include "../common/column.h"
 
 typedef struct tank {
     double width, height, water_width, water_height, c;

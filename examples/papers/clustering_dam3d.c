@@ -9,7 +9,7 @@
  * Wendland C2, h = 1.5 dref, (5.23) and (5.24), dt = 0.2 h / c, ghosts of zero pressure behind the walls and collisions with them. The same in two dimensions, on a square lattice, stands beside it.
  */
 #include "clustering.h"
-#include "clustering_column.h"
+#include "../common/column.h"
 
 enum { PICTURES = 40 };
 static const sph_kernel wendland = SPH_WENDLAND_C2;

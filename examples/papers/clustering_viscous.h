@@ -14,8 +14,11 @@
 
 #include "clustering.h"
 
+typedef enum viscous_form { VISCOUS_MORRIS, VISCOUS_MONAGHAN_CLEARY } viscous_form;
+
 /* What the hooks need beside the flow: one number for each particle in each array. */
 typedef struct viscous {
+    int form;              /* a viscous_form: Morris's */
     double mu, body_force; /* along x */
     double ch;             /* of cleaning; 0: none */
     double *psi, *share, *wall_p, *wall_vx, *wall_vy, *vx, *vy, *ax, *ay;
@@ -30,7 +33,8 @@ SPH_FN sph_index viscous_walls_by(sph_kernel k, const flow *f, sph_cloud targets
                            .rho = sph_scalars_array(f->rho),
                            .p = sph_scalars_array(f->p),
                            .v = flow_velocities(f),
-                           .velocity = flow_velocities(f)};
+                           .velocity = flow_velocities(f),
+                           .gravity = {f->gravity_x, f->gravity_y, 0}};
     const sph_wall_out out = {.p = w->wall_p, .v = sph_vector_out_separate(w->wall_vx, w->wall_vy, NULL)};
     return sph_wall_adami(k, 2, targets, wall, out);
 }
@@ -65,8 +69,10 @@ SPH_FN sph_index viscous_accelerations_by(sph_kernel k, const flow *f, sph_cloud
                              .rho = sph_scalars_array(f->rho),
                              .v = sph_vectors_separate(w->vx, w->vy, NULL),
                              .eta = 0.1};
-    return sph_viscosity_mu_morris(k, 2, targets, fluid, sph_scalars_same(&w->mu),
-                                   sph_vector_out_separate(w->ax, w->ay, NULL));
+    const sph_vector_out a = sph_vector_out_separate(w->ax, w->ay, NULL);
+    if (w->form == VISCOUS_MONAGHAN_CLEARY)
+        return sph_viscosity_mu_monaghan_cleary(k, 2, targets, fluid, sph_scalars_same(&w->mu), a);
+    return sph_viscosity_mu_morris(k, 2, targets, fluid, sph_scalars_same(&w->mu), a);
 }
 static inline long viscous_accelerations_part(void *data, long first, long last)
 {
@@ -84,10 +90,10 @@ static inline void viscous_forces(flow *f)
         w->vx[i] = f->ghost[i] ? w->wall_vx[i] : f->vx[i];
         w->vy[i] = f->ghost[i] ? w->wall_vy[i] : f->vy[i];
     }
-    expect((sph_index)threads_each(f->n_fluid, viscous_accelerations_part, f));
+    if (w->mu > 0) expect((sph_index)threads_each(f->n_fluid, viscous_accelerations_part, f));
     for (i = 0; i < f->n_fluid; i++) {
-        f->ax[i] += w->ax[i] + w->body_force;
-        f->ay[i] += w->ay[i];
+        f->ax[i] += w->body_force + (w->mu > 0 ? w->ax[i] : 0);
+        f->ay[i] += w->mu > 0 ? w->ay[i] : 0;
     }
 }
 
@@ -119,6 +125,7 @@ static inline void viscous_open(viscous *w, flow *f, double mu, double body_forc
         w->psi[i] = 0;
         w->share[i] = f->ghost[i] ? 0 : 1;
     }
+    w->form = VISCOUS_MORRIS;
     w->mu = mu;
     w->body_force = body_force;
     w->ch = 0;

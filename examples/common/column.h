@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * clustering_column.h - a column of water of a x 2a that collapses on a dry bed: experiments, the front of a run beside them, and the lines of the figure clustering_column.
+ * column.h - a column of water of a x 2a that collapses on a dry bed: experiments, the front of a run beside them, and the lines of a figure of both.
  */
-#ifndef CLUSTERING_COLUMN_H
-#define CLUSTERING_COLUMN_H
+#ifndef COLUMN_H
+#define COLUMN_H
 
 #include <math.h>
 #include <stdio.h>
 
-#include "../common/report.h"
-#include "../common/statistics.h"
+#include "report.h"
+#include "statistics.h"
 
 /* How far water has come, at times about `every` apart. */
 enum { FRONT_SAMPLES = 400 };
