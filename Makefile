@@ -40,6 +40,9 @@ DRIVERS = $(foreach g,$(GROUPS),$(call drivers_in,$(g)))
 LONG_RUNS = clustering_shaft cleaning_collapse clustering_cavity elliptic_boundary_values cleaning_orszag_tang icspm_random clustering_box cleaning_disc clustering_dam cleaning_drop
 LONG_COMPILES = elliptic_operators elliptic_clouds elliptic_boundary_values elliptic_uses icspm_dimensions cleaning_disc clustering_flows
 THREADED := $(notdir $(basename $(shell grep -l -e THREADS_OPTION -e '[A-Z]_OPTIONS' $(addsuffix /*.c,$(FOLDERS)))))
+# those whose long runs leave restarts, and go on from them; and the tables of long runs that are kept
+RESTARTED := $(notdir $(basename $(shell grep -l -e '"continue"' $(addsuffix /*.c,$(FOLDERS)))))
+KEPT = examples/papers/long
 
 # Tests of the headers are built twice, in double and in float; tests of what the examples share in double only.
 TESTS_DOUBLE = common sparse elliptic_reference collapse
@@ -53,7 +56,8 @@ help:
 	@echo "make reproduce        run the drivers of papers and subjects, published beside measured values, and print a scoreboard;"
 	@echo "                      several at a time, on all processors (-j N: N at a time; -j1: one, with threads)"
 	@echo "make reproduce-GROUP  those of a paper ($(PAPERS)) or of a subject ($(SUBJECTS))"
-	@echo "make reproduce-full   with more realisations and finer clouds"
+	@echo "make reproduce-full   with more realisations and finer clouds, some at the published size: a day, in any number of"
+	@echo "                      pieces (Ctrl-C, and again); compared with the tables of $(KEPT)"
 	@echo "make test             the tests; the last line is 'N passed, N failed'"
 	@echo "make test-sanitize    the tests under the address and undefined-behaviour sanitizers"
 	@echo "make check-hosts      C++, Fortran, Python, WebAssembly, OpenCL, CUDA: the hosts whose tools are installed"
@@ -103,13 +107,13 @@ define run
 	$(if $(filter 1,$(AT_A_TIME)),,CI=1) $(MAKE) --no-print-directory --keep-going $(call jobs,$(AT_A_TIME)) $(if $(filter 1,$(AT_A_TIME)),,--output-sync=target) \
 	    OPTIONS=$(2) THREADS=$(SHARE) $(addprefix driver-,$(call long_first,$(LONG_RUNS),$(call drivers_of,$(1)))) || failed=1; \
 	$(MAKE) --no-print-directory figures || failed=1; \
-	echo; $(BUILD)/examples/scoreboard $(patsubst %,"$(RESULTS)/%.csv",$(call drivers_of,$(1))) || failed=1; \
-	exit $$failed
+	echo; $(BUILD)/examples/scoreboard -kept $(KEPT) $(if $(2),-compare) $(patsubst %,"$(RESULTS)/%.csv",$(call drivers_of,$(1))) || failed=1; \
+	$(if $(2),if [ $$failed -eq 0 ]; then rm -f "$(RESULTS)"/*.restart; fi;) exit $$failed
 endef
 
 THREADS = $(PROCESSORS)
 driver-%:
-	@echo; echo "======== $*"; $(BUILD)/examples/$* -out "$(RESULTS)" -figures "$(FIGURES)" $(if $(filter $*,$(THREADED)),-threads $(THREADS)) $(OPTIONS)
+	@echo; echo "======== $*"; $(BUILD)/examples/$* -out "$(RESULTS)" -figures "$(FIGURES)" $(if $(filter $*,$(THREADED)),-threads $(THREADS)) $(OPTIONS) $(if $(filter -full,$(OPTIONS)),$(if $(filter $*,$(RESTARTED)),-continue))
 run-quick-%:
 	$(call run,$*,)
 run-full-%:

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scoreboard FILE.csv ... - count the verdicts in the tables of report.h.
+ * scoreboard [-kept DIR [-compare]] FILE.csv ... - count the verdicts in the tables of report.h.
  *
  * Prints one line per driver and a total.  A match counts under what it was
  * compared with: the paper, theory, other authors, an earlier value of our own
  * (regression), or nothing but a limit that the driver has set (limit).
- * Exits with 0, with 1 if any value differs, with 2 if a file cannot be read or
+ * -kept DIR: beside each driver what its long run said, whose table is in DIR under the same name: matches,
+ * differs, not reproduced. -compare: these are tables of such long runs: which rows have another verdict than
+ * the kept ones, and how far the numbers are apart.
+ * Exits with 0, with 1 if any value differs or any verdict has changed, with 2 if a file cannot be read or
  * is malformed.
  */
 #include "report.h"
@@ -72,18 +75,30 @@ static const char *read_score(FILE *csv, report_record *row, score *s, long *lin
 static const char *const matched[REPORT_SOURCES + 1] = {"paper", "theory", "others", "regression", "limit"};
 static const int width[REPORT_SOURCES + 1] = {6, 6, 6, 10, 6};
 
-/* The file name without directories and ".csv". */
-static void print_score(const char *path, const score *s)
+/* The name of a file without directories and ".csv", and its length. */
+static const char *name_of(const char *path, int *length)
 {
     const char *name = path;
     for (const char *c = path; *c; ++c)
         if (*c == '/' || *c == '\\') name = c + 1;
-    size_t length = strlen(name);
-    if (length > 4 && strcmp(name + length - 4, ".csv") == 0) length -= 4;
-    printf("%-3s%-28.*s %9d %6d", s->verdict[REPORT_DIFFERS] ? "!!" : "", (int)length, name, s->published, s->verdict[REPORT_MATCH]);
+    *length = (int)strlen(name);
+    if (*length > 4 && strcmp(name + *length - 4, ".csv") == 0) *length -= 4;
+    return name;
+}
+/* kept: the score of the long run, or null */
+static void print_score(const char *path, const score *s, const score *kept)
+{
+    int length;
+    const char *const name = name_of(path, &length);
+    char full[48] = "-";
+    if (kept)
+        snprintf(full, sizeof full, "%d/%d/%d", kept->verdict[REPORT_MATCH], kept->verdict[REPORT_DIFFERS],
+                 kept->verdict[REPORT_NOT_REPRODUCED]);
+    printf("%-3s%-28.*s %9d %6d", s->verdict[REPORT_DIFFERS] ? "!!" : "", length, name, s->published,
+           s->verdict[REPORT_MATCH]);
     for (int k = 0; k <= REPORT_SOURCES; ++k) printf(" %*d", width[k], s->match[k]);
-    printf(" %10d %6d %7d %14d %7.0f %8.0f\n", s->verdict[REPORT_CONSISTENT], s->verdict[REPORT_FITTED], s->verdict[REPORT_DIFFERS],
-           s->verdict[REPORT_NOT_REPRODUCED], s->cpu, s->wall);
+    printf(" %10d %6d %7d %14d %7.0f %8.0f %10s\n", s->verdict[REPORT_CONSISTENT], s->verdict[REPORT_FITTED],
+           s->verdict[REPORT_DIFFERS], s->verdict[REPORT_NOT_REPRODUCED], s->cpu, s->wall, full);
 }
 
 static void add_score(score *total, const score *s)
@@ -95,10 +110,9 @@ static void add_score(score *total, const score *s)
     for (int k = 0; k <= REPORT_SOURCES; ++k) total->match[k] += s->match[k];
 }
 
-/* Print one file's line and add it to the total.  Returns 0 if it cannot. */
-static int count_file(const char *path, report_record *row, score *total)
+/* The score of the table at path. Returns 1; 0 and a message if it cannot be read. */
+static int score_of(const char *path, report_record *row, score *s)
 {
-    score s;
     long line;
     errno = 0;
     FILE *csv = fopen(path, "r");
@@ -106,41 +120,130 @@ static int count_file(const char *path, report_record *row, score *total)
         fprintf(stderr, "scoreboard: %s: %s\n", path, errno ? strerror(errno) : "cannot be read");
         return 0;
     }
-    const char *wrong = read_score(csv, row, &s, &line);
+    const char *wrong = read_score(csv, row, s, &line);
     fclose(csv);
-    if (wrong) {
-        fprintf(stderr, "scoreboard: %s: record %ld: %s\n", path, line, wrong);
-        return 0;
+    if (wrong) fprintf(stderr, "scoreboard: %s: record %ld: %s\n", path, line, wrong);
+    return !wrong;
+}
+
+/* ---- the tables of long runs ---- */
+
+/* DIR/NAME.csv of the same name, if there is such a file */
+static int kept_path(char path[PART_FILE_PATH], const char *dir, const char *of)
+{
+    int length;
+    const char *const name = name_of(of, &length);
+    if (!dir || snprintf(path, PART_FILE_PATH, "%s/%.*s.csv", dir, length, name) >= PART_FILE_PATH) return 0;
+    FILE *const there = fopen(path, "r");
+    if (there) fclose(there);
+    return there != NULL;
+}
+
+/* Compares what two runs of one driver measured, row by row: rows of the same item, setting and quantity, in
+ * the order of the table. Prints what has another verdict or is on one side only. Returns the number of
+ * these, or -1 if a table cannot be read. */
+static int compare(const char *path, const char *kept_file)
+{
+    report_record a = {0}, b = {0};
+    FILE *const now = fopen(path, "r"), *const then = fopen(kept_file, "r");
+    int changed = 0, rows = 0, numbers = 0, length, status = now && then ? 1 : -1;
+    double largest = 0, sum = 0;
+    char where[256] = "";
+    const char *const name = name_of(path, &length);
+    if (status > 0 && (report_read(now, &a) <= 0 || report_read(then, &b) <= 0)) status = -1; /* the header */
+    while (status > 0 && (status = report_read(now, &a)) > 0) {
+        const int other = report_read(then, &b);
+        const char *end_a, *end_b;
+        if (strcmp(a.field[0], "run") == 0) break; /* seconds, at the end */
+        rows++;
+        if (other <= 0 || strcmp(a.field[0], b.field[0]) != 0 || strcmp(a.field[1], b.field[1]) != 0 ||
+            strcmp(a.field[REPORT_QUANTITY], b.field[REPORT_QUANTITY]) != 0) {
+            printf("%.*s: row %d, %s, %s, %s: the kept table has another row there: made by another driver, or "
+                   "by a run of other cases\n",
+                   length, name, rows, a.field[0], a.field[1], a.field[REPORT_QUANTITY]);
+            changed++;
+            break;
+        }
+        if (strcmp(a.field[REPORT_VERDICT], b.field[REPORT_VERDICT]) != 0) {
+            printf("%.*s: %s, %s, %s: %s (%s), kept %s (%s)\n", length, name, a.field[0], a.field[1],
+                   a.field[REPORT_QUANTITY], a.field[REPORT_VERDICT], a.field[REPORT_MEASURED],
+                   b.field[REPORT_VERDICT], b.field[REPORT_MEASURED]);
+            changed++;
+        }
+        const double x = number_of(a.field[REPORT_MEASURED], &end_a), y = number_of(b.field[REPORT_MEASURED], &end_b);
+        if (end_a == a.field[REPORT_MEASURED] || *end_a || end_b == b.field[REPORT_MEASURED] || *end_b) continue;
+        const double size = fmax(fabs(x), fabs(y)), apart = size < 1e-12 ? 0 : fabs(x - y) / size; /* not of rounding errors */
+        numbers++;
+        sum += apart;
+        if (apart > largest) {
+            largest = apart;
+            snprintf(where, sizeof where, " (%.60s, %.60s, %.60s)", a.field[0], a.field[1], a.field[REPORT_QUANTITY]);
+        }
     }
-    print_score(path, &s);
-    add_score(total, &s);
-    return 1;
+    if (status >= 0)
+        printf("%.*s: %d rows beside the kept ones, %d with another verdict or no counterpart; %d numbers are "
+               "apart by %.2g on average, by %.2g at most%s\n",
+               length, name, rows, changed, numbers, numbers ? sum / numbers : 0, largest, where);
+    else fprintf(stderr, "scoreboard: %s and %s cannot be compared\n", path, kept_file);
+    if (now) fclose(now);
+    if (then) fclose(then);
+    free(a.text);
+    free(b.text);
+    return status >= 0 ? changed : -1;
 }
 
 int main(int argc, char **argv)
 {
-    score total = {0};
+    const char *kept = NULL;
+    char path[PART_FILE_PATH];
+    score total = {0}, all_kept = {0};
     report_record row = {0};
-    int unread = 0;
+    int unread = 0, changed = 0, compares = 0, first = 1, files = 0;
 
-    if (argc < 2) {
-        fprintf(stderr, "usage: scoreboard FILE.csv ...   (tables that the drivers wrote)\n");
+    if (first + 1 < argc && strcmp(argv[first], "-kept") == 0) {
+        kept = argv[first + 1];
+        first += 2;
+        if (first < argc && strcmp(argv[first], "-compare") == 0) compares = first++;
+    }
+    if (first >= argc || argv[first][0] == '-') {
+        fprintf(stderr, "usage: scoreboard [-kept DIR [-compare]] FILE.csv ...   (tables that the drivers wrote)\n");
         return 2;
     }
     printf("%-3s%-28s %9s %6s", "", "driver", "published", report_verdict_name(REPORT_MATCH));
     for (int k = 0; k <= REPORT_SOURCES; ++k) printf(" %*s", width[k], matched[k]);
-    printf(" %10s %6s %7s %14s %7s %8s\n", report_verdict_name(REPORT_CONSISTENT), report_verdict_name(REPORT_FITTED), report_verdict_name(REPORT_DIFFERS),
-           report_verdict_name(REPORT_NOT_REPRODUCED), "CPU [s]", "wall [s]");
-    for (int k = 1; k < argc; ++k) unread += !count_file(argv[k], &row, &total);
-    print_score("total", &total);
+    printf(" %10s %6s %7s %14s %7s %8s %10s\n", report_verdict_name(REPORT_CONSISTENT),
+           report_verdict_name(REPORT_FITTED), report_verdict_name(REPORT_DIFFERS),
+           report_verdict_name(REPORT_NOT_REPRODUCED), "CPU [s]", "wall [s]", "long run");
+    for (int k = first; k < argc; ++k) {
+        score s, long_run;
+        const int has_kept = kept_path(path, kept, argv[k]);
+        if (!score_of(argv[k], &row, &s) || (has_kept && !score_of(path, &row, &long_run))) {
+            unread++;
+            continue;
+        }
+        print_score(argv[k], &s, has_kept ? &long_run : NULL);
+        add_score(&total, &s);
+        files += has_kept;
+        if (has_kept) add_score(&all_kept, &long_run);
+    }
+    print_score("total", &total, files ? &all_kept : NULL);
     if (total.verdict[REPORT_MATCH] > 0)
         printf("%d of %d matches are with what a paper prints; the other columns say what the rest is compared with (limit: one that the driver has set)\n",
                total.match[REPORT_PAPER], total.verdict[REPORT_MATCH]);
+    if (files)
+        printf("long run: match/differs/not-reproduced of the runs whose tables are kept in %s; they took %.1f hours of processor time\n",
+               kept, all_kept.cpu / 3600);
     free(row.text);
+    for (int k = first; compares && k < argc; ++k)
+        if (kept_path(path, kept, argv[k])) {
+            const int count = compare(argv[k], path);
+            if (count < 0) unread++;
+            else changed += count;
+        }
     if (unread) {
         fflush(stdout);
-        fprintf(stderr, "scoreboard: %d of %d files not counted\n", unread, argc - 1);
+        fprintf(stderr, "scoreboard: %d of %d files not counted\n", unread, argc - first);
         return 2;
     }
-    return total.verdict[REPORT_DIFFERS] ? 1 : 0;
+    return total.verdict[REPORT_DIFFERS] || changed ? 1 : 0;
 }
