@@ -43,14 +43,20 @@ static inline int restart_trouble(restart *r, const char *what)
     snprintf(r->trouble, sizeof r->trouble, "%s", what);
     return 0;
 }
-/* Writes a block, or reads it. */
-static inline int restart_block(restart *r, void *block, size_t size)
+#define RESTART_EMPTY 14695981039346656037u
+static inline uint64_t restart_hash(uint64_t hash, const void *block, size_t size) /* FNV-1a */
 {
     const unsigned char *const byte = (const unsigned char *)block;
     size_t k;
+    for (k = 0; k < size; k++) hash = (hash ^ byte[k]) * 1099511628211u;
+    return hash;
+}
+/* Writes a block, or reads it. */
+static inline int restart_block(restart *r, void *block, size_t size)
+{
     if (size > 0 && (r->reads ? fread(block, 1, size, r->file) : fwrite(block, 1, size, r->file)) != size)
         return restart_trouble(r, r->reads ? RESTART_DAMAGED : RESTART_FULL);
-    for (k = 0; k < size; k++) r->hash = (r->hash ^ byte[k]) * 1099511628211u; /* FNV-1a */
+    r->hash = restart_hash(r->hash, block, size);
     return 1;
 }
 /* Writes a block, or reads one and compares it: the numbers of a run that never change (bytes: no gaps). */
@@ -70,7 +76,7 @@ static inline int restart_begin(restart *r, int reads, const char *magic)
     char text[RESTART_MAGIC] = "";
     snprintf(text, sizeof text, "%s", magic);
     r->reads = reads;
-    r->hash = 14695981039346656037u;
+    r->hash = RESTART_EMPTY;
     if (restart_same(r, text, sizeof text)) return 1;
     return restart_trouble(r, reads ? "it is no restart of this program" : RESTART_FULL);
 }

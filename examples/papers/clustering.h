@@ -42,6 +42,7 @@
 #include "../common/progress.h"
 #include "../common/random.h"
 #include "../common/report.h"
+#include "../common/restart.h"
 #include "../common/vtk.h"
 #include "collision_literal.h"
 
@@ -50,7 +51,7 @@
 typedef struct clustering_options {
     const char *kernel, *remedy, *out, *figures; /* kernel: null, or a run of one's own */
     double h, dref, dt, tend;                    /* h: in units of dref. 0: as the paper has it */
-    int kernels, full, vtk, quiet;
+    int kernels, full, vtk, quiet, go_on;
 } clustering_options;
 
 /* The entries that all drivers have; their own may follow. o: a clustering_options */
@@ -70,10 +71,12 @@ typedef struct clustering_options {
     {"quiet", "no progress on the terminal", OPTION_FLAG, &(o).quiet, 0, 0}, THREADS_OPTION
 /* clang-format on */
 enum { CLUSTERING_OPTION_COUNT = 13 };
+/* and of drivers whose long runs leave restarts */
+#define CLUSTERING_CONTINUE "go on from the restarts in the folder of the results"
 
 static inline clustering_options clustering_defaults(void)
 {
-    clustering_options o = {NULL, "none", ".", ".", 0, 0, 0, 0, 0, 0, 0, 0};
+    clustering_options o = {NULL, "none", ".", ".", 0, 0, 0, 0, 0, 0, 0, 0, 0};
     return o;
 }
 /* the option's value where it was given */
@@ -188,6 +191,10 @@ struct flow {
     double restitution;     /* 0.01 */
     double skin;            /* of the neighbour lists, in units of dref; 0: new lists in each step */
     const char *vtk;        /* folder; null: none */
+    const char *restarts;   /* folder, of runs that take more than a minute; null: none */
+    int go_on;              /* 1: from the restarts that are there */
+    void *kept;             /* what else the hooks carry from step to step: so many bytes; null: nothing */
+    size_t kept_size;
     int quiet;              /* no progress */
     void (*step)(flow *);   /* another step than flow_step's; null: that one */
     void (*ghosts)(flow *); /* before the accelerations: sets p, v, x of ghosts */
@@ -214,6 +221,7 @@ struct flow {
     search_lists all, colliding;
     sph_index *count;
     vtk_series series;
+    int stage; /* number of this call of flow_run */
 };
 
 static inline void flow_open(flow *f, const char *name, sph_kernel kernel, double dref, double h)
@@ -230,6 +238,15 @@ static inline void flow_open(flow *f, const char *name, sph_kernel kernel, doubl
     f->restitution = 0.01;
     f->skin = 0.3;
     f->bad = -1;
+}
+
+/* Restarts of the long run of a driver; kept: see flow, or null. */
+static inline void flow_restarts(flow *f, const clustering_options *o, void *kept, size_t kept_size)
+{
+    f->restarts = o->full || o->go_on ? o->out : NULL;
+    f->go_on = o->go_on;
+    f->kept = kept;
+    f->kept_size = kept_size;
 }
 
 static inline void flow_close(flow *f)
@@ -307,28 +324,36 @@ static inline void flow_wrap(double *x, double length, int n)
     for (i = 0; i < n && length > 0; i++) x[i] -= length * floor(x[i] / length);
 }
 
-/* Lists with a skin, kept until a particle has moved by half of it. */
-static inline void flow_neighbours(flow *f)
+/* Lists with a skin, kept until a particle has moved by half of it: of where the particles were then. */
+static inline sph_points flow_points_then(const flow *f)
 {
-    const double skin = f->skin * f->dref, reach = sph_kernel_support_ratio(f->kernel) * f->h + skin,
-                 touching = f->distance * f->dref + skin;
-    sph_points now, then = flow_points(f);
-    sph_query query;
+    sph_points then = flow_points(f);
     then.x = f->old_x;
     then.y = f->old_y;
-    if (f->all.start && !sph_rebuild_due(2, flow_points(f), then, skin)) return;
-    flow_wrap(f->x, f->box_x, f->n);
-    flow_wrap(f->y, f->box_y, f->n);
-    now = flow_points(f);
-    search_grid_build(&f->grid, 2, now, reach);
-    search_lists_find(&f->all, 2, &f->grid, sph_query_of(now, SPH_GATHER, sph_scalars_same(&reach), 0));
+    return then;
+}
+static inline void flow_lists(flow *f)
+{
+    const sph_points then = flow_points_then(f);
+    const double skin = f->skin * f->dref, reach = sph_kernel_support_ratio(f->kernel) * f->h + skin,
+                 touching = f->distance * f->dref + skin;
+    sph_query query;
+    search_grid_build(&f->grid, 2, then, reach);
+    search_lists_find(&f->all, 2, &f->grid, sph_query_of(then, SPH_GATHER, sph_scalars_same(&reach), 0));
     if (f->remedy) {
-        query = sph_query_of(now, SPH_GATHER, sph_scalars_same(&touching), SPH_LIST_SORTED);
+        query = sph_query_of(then, SPH_GATHER, sph_scalars_same(&touching), SPH_LIST_SORTED);
         search_lists_find(&f->colliding, 2, &f->grid, query); /* sorted: the order of collisions matters */
         if (f->walls_only) neighbours_mixed(&f->colliding, f->n, f->ghost);
     }
+}
+static inline void flow_neighbours(flow *f)
+{
+    if (f->all.start && !sph_rebuild_due(2, flow_points(f), flow_points_then(f), f->skin * f->dref)) return;
+    flow_wrap(f->x, f->box_x, f->n);
+    flow_wrap(f->y, f->box_y, f->n);
     memcpy(f->old_x, f->x, (size_t)f->n * sizeof *f->x);
     memcpy(f->old_y, f->y, (size_t)f->n * sizeof *f->y);
+    flow_lists(f);
     f->rebuilds++;
 }
 
@@ -548,12 +573,76 @@ static inline void flow_picture(flow *f)
     clustering_written(vtk_series_add(&f->series, f->t, f->n, f->x, f->y, NULL, fields, 6), f->vtk, f->name);
 }
 
+/* ---- restarts: one for each stage, which is a call of flow_run. What a driver measures between two stages it
+ * measures again, on the same numbers. */
+
+#define FLOW_MAGIC "sph.h flow 1"
+/* The name tells runs apart that have the same name and other numbers. */
+static inline void flow_restart_name(const flow *f, char name[160])
+{
+    const double fixed[] = {f->kernel,    f->dref, f->h,     f->dt,      f->box_x,          f->box_y, f->gravity_x,
+                            f->gravity_y, f->form, f->alpha, f->remedy,  f->rate_after_kick, f->eta,   f->walls_only,
+                            f->distance,  f->skin, f->n,     f->n_fluid, f->restitution,    f->ghosts_evolve};
+    uint64_t hash = restart_hash(RESTART_EMPTY, fixed, sizeof fixed);
+    char *c;
+    hash = restart_hash(hash, f->state, sizeof f->state);
+    snprintf(name, 160, "clustering_%.90s_%08lx_%d", f->name, (unsigned long)(hash & 0xffffffffu), f->stage);
+    for (c = name; *c; c++)
+        if (!strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789", *c)) *c = '_';
+}
+/* step: how many of the stage are done */
+static inline int flow_transfer(restart *r, flow *f, int64_t *step)
+{
+    double *const arrays[] = {f->x, f->y, f->vx, f->vy, f->ax, f->ay, f->m, f->rho, f->p, f->c, f->rate, f->old_x, f->old_y};
+    size_t a;
+    if (!restart_same(r, &f->n, sizeof f->n) || !restart_same(r, &f->n_fluid, sizeof f->n_fluid) ||
+        !restart_same(r, &f->kept_size, sizeof f->kept_size) || !restart_block(r, step, sizeof *step) ||
+        !restart_block(r, &f->t, sizeof f->t) || !restart_block(r, &f->steps, sizeof f->steps) ||
+        !restart_block(r, &f->rebuilds, sizeof f->rebuilds) ||
+        !restart_block(r, &f->collisions, sizeof f->collisions) ||
+        !restart_block(r, &f->coincident, sizeof f->coincident) ||
+        !restart_block(r, &f->collision_energy, sizeof f->collision_energy) ||
+        !restart_block(r, &f->cpu, sizeof f->cpu) || !restart_block(r, &f->worst_gain, sizeof f->worst_gain))
+        return 0;
+    for (a = 0; a < sizeof arrays / sizeof *arrays; a++)
+        if (!restart_block(r, arrays[a], (size_t)f->n * sizeof(double))) return 0;
+    return f->kept_size == 0 || restart_block(r, f->kept, f->kept_size);
+}
+static inline void flow_restart_failed(const flow *f, const char *name, const char *trouble, const char *advice)
+{
+    fprintf(stderr, "%s: %s/%s.restart: %s%s\n", f->name, f->restarts, name, trouble, advice);
+    exit(2);
+}
+static inline void flow_save(flow *f, int64_t step)
+{
+    char name[160];
+    restart r;
+    flow_restart_name(f, name);
+    if (!restart_write(&r, f->restarts, name, FLOW_MAGIC) || !restart_end(&r, flow_transfer(&r, f, &step)))
+        flow_restart_failed(f, name, r.trouble, "");
+}
+/* How many steps of this stage are done: 0, and nothing has happened, where there is no restart of it. */
+static inline int64_t flow_load(flow *f)
+{
+    int64_t step = 0;
+    char name[160];
+    restart r;
+    int found;
+    flow_restart_name(f, name);
+    found = restart_read(&r, f->restarts, name, FLOW_MAGIC);
+    if (found > 0 && !restart_end(&r, flow_transfer(&r, f, &step))) found = -1;
+    if (found < 0) flow_restart_failed(f, name, r.trouble, "; remove it, or run without -continue");
+    if (found) flow_lists(f);
+    return step;
+}
+
 /* To the time `end`. FLOW_BLEW_UP: the run is over, f->bad, f->bad_what, f->t tell. FLOW_INTERRUPTED: Ctrl-C; the files that there are are whole. */
 static inline flow_answer flow_run(flow *f, double end)
 {
     const double begin = f->t;
     const int64_t steps = (int64_t)ceil((end - begin) / f->dt - 1e-6), every = steps > 50 ? steps / 50 : 1;
-    const clock_t clock_begin = clock();
+    clock_t clock_begin = clock();
+    time_t saved = time(NULL);
     flow_answer answer = FLOW_DONE;
     progress bar;
     int64_t s;
@@ -564,7 +653,8 @@ static inline flow_answer flow_run(flow *f, double end)
         vtk_series_begin(&f->series, f->vtk, f->name);
         flow_picture(f);
     }
-    for (s = 0; s < steps && answer == FLOW_DONE; s++) {
+    f->stage++;
+    for (s = f->restarts && f->go_on ? flow_load(f) : 0; s < steps && answer == FLOW_DONE; s++) {
         (f->step ? f->step : flow_step)(f);
         f->t = begin + (double)(s + 1) * f->dt;
         if (!flow_healthy(f)) answer = FLOW_BLEW_UP;
@@ -574,6 +664,13 @@ static inline flow_answer flow_run(flow *f, double end)
         }
         if (f->vtk && ((s + 1) % every == 0 || answer != FLOW_DONE)) flow_picture(f);
         progress_update(&bar, (double)(s + 1) / (double)steps);
+        if (f->restarts && answer != FLOW_BLEW_UP &&
+            (answer == FLOW_INTERRUPTED || s + 1 == steps || difftime(time(NULL), saved) >= 60)) {
+            f->cpu += (double)(clock() - clock_begin) / CLOCKS_PER_SEC;
+            clock_begin = clock();
+            if (answer == FLOW_INTERRUPTED || f->cpu >= 60) flow_save(f, s + 1);
+            saved = time(NULL);
+        }
     }
     progress_end(&bar);
     f->cpu += (double)(clock() - clock_begin) / CLOCKS_PER_SEC;
@@ -586,8 +683,8 @@ static inline void flow_require(const flow *f, flow_answer answer)
     if (answer == FLOW_DONE) return;
     fflush(stdout);
     if (answer == FLOW_INTERRUPTED) {
-        fprintf(stderr, "%s: interrupted at t = %g; the rows of the table so far are in its .part file\n",
-                f->name, f->t);
+        fprintf(stderr, "%s: interrupted at t = %g; the rows of the table so far are in its .part file%s\n",
+                f->name, f->t, f->restarts ? ", and -continue goes on" : "");
         exit(130);
     }
     fprintf(stderr, "%s: blew up at t = %g: particle %d at (%g, %g): %s; try a smaller -dt\n", f->name, f->t,

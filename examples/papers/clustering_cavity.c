@@ -98,6 +98,7 @@ static cavity simulate(const clustering_options *c, int columns, int cleans, dou
     flow_snapshot(&f, c->figures, "clustering_cavity_initial"); /* a folder that is not there is met at once */
     viscous_open(&w, &f, 0.01, 0);
     if (cleans) viscous_clean(&w, &f, speed_of_sound);
+    flow_restarts(&f, c, w.psi, (size_t)f.n * sizeof *w.psi);
     flow_require(&f, flow_run(&f, end * 2 / 3));
     first_energy = flow_kinetic_energy(&f);
     for (k = 1; k <= SAMPLES; k++) {
@@ -162,6 +163,7 @@ int main(int argc, char **argv)
                                  {"figures", "folder of the figures' data", OPTION_TEXT, &c.figures, 0, 0},
                                  {"full", "finer lattices, and a background pressure", OPTION_FLAG, &c.full, 0, 0},
                                  {"vtk", "write pictures of each run for ParaView", OPTION_FLAG, &c.vtk, 0, 0},
+                                 {"continue", CLUSTERING_CONTINUE, OPTION_FLAG, &c.go_on, 0, 0},
                                  {"quiet", "no progress on the terminal", OPTION_FLAG, &c.quiet, 0, 0},
                                  THREADS_OPTION};
     static report r;

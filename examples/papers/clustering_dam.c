@@ -154,6 +154,7 @@ static void run(const clustering_options *c, const scenario *s, const tank *b, d
     open_dam(&f, s, b, dref, smoothing, dt, &w);
     f.quiet = c->quiet;
     f.vtk = c->vtk ? c->out : NULL;
+    flow_restarts(&f, c, &w, sizeof w);
     for (k = 0; k < count; k++) {
         if (k > 0 && o[k - 1].answer == FLOW_BLEW_UP) {
             o[k] = o[k - 1];
@@ -498,14 +499,14 @@ int main(int argc, char **argv)
     enum { TIMES = 4, FIRST = 0, SECOND, THIRD, LAST };
     static const double times[TIMES] = {0.1, 0.2, 0.3, 0.7};
     clustering_options c = clustering_defaults();
-    const option_spec specs[] = {CLUSTERING_OPTIONS(c)};
+    const option_spec specs[] = {CLUSTERING_OPTIONS(c), {"continue", CLUSTERING_CONTINUE, OPTION_FLAG, &c.go_on, 0, 0}};
     static report r;
     static outcome o[METHODS][TIMES], at[METHODS];
     double dref, dt;
     int k;
     options_parse(argc, argv,
                   "Figures 7 to 9 of the paper on particle clustering: a dam breaks, water and air.", specs,
-                  CLUSTERING_OPTION_COUNT);
+                  (int)(sizeof specs / sizeof *specs));
     report_open(&r, "clustering_dam", c.out);
     if (c.kernel) return own_run(&r, &c);
     dref = c.full ? 0.005 : 0.01;

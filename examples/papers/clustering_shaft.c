@@ -216,6 +216,7 @@ static outcome run(const clustering_options *c, const method *m, double p0, doub
     f.remedy = m->remedy;
     f.quiet = c->quiet;
     f.vtk = c->vtk ? c->out : NULL;
+    flow_restarts(&f, c, NULL, 0);
     f.data = start = fill(&f);
     f.after = turn_shaft;
     turn_shaft(&f);
@@ -315,13 +316,14 @@ static void kernels(report *r, const clustering_options *c, double dt)
 int main(int argc, char **argv)
 {
     clustering_options c = clustering_defaults();
-    const option_spec specs[] = {CLUSTERING_OPTIONS(c)};
+    const option_spec specs[] = {CLUSTERING_OPTIONS(c), {"continue", CLUSTERING_CONTINUE, OPTION_FLAG, &c.go_on, 0, 0}};
     static report r;
     outcome o[METHODS];
     double dt;
     char text[96];
     int k;
-    options_parse(argc, argv, "Figure 6 of the paper on particle clustering: air around a rotating shaft.", specs, CLUSTERING_OPTION_COUNT);
+    options_parse(argc, argv, "Figure 6 of the paper on particle clustering: air around a rotating shaft.", specs,
+                  (int)(sizeof specs / sizeof *specs));
     dt = clustering_choose(c.dt, c.full ? 1e-6 : 1e-5);
     report_open(&r, "clustering_shaft", c.out);
     snprintf(text, sizeof text, "Figure 6: air around a rotating shaft, dt = %g (paper: 1e-6)", dt);
