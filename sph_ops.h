@@ -4707,7 +4707,7 @@ SPH_FN sph_real sph_time_step_density_diffusion(sph_kernel k, int dim, sph_real 
     SPH_ASSERT(SPHI_IS_DIM(dim) && h > SPH_R(0) && delta >= SPH_R(0) && c >= SPH_R(0));
     for (n = 0; n < 64; n++) {
         const sph_real q = dq * (SPH_R(n) + SPH_R(0.5));
-        sum -= sphi_power(q, dim - 1) * sph_kernel_shape_f(k, dim, q);
+        sum -= (dim == 1 ? SPH_R(1) : dim == 2 ? q : q * q) * sph_kernel_shape_f(k, dim, q);
     }
     sum *= SPH_R(2) * dq * sph_kernel_sigma(k, dim) *
            (dim == 1   ? SPH_R(2)
