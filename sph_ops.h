@@ -4707,7 +4707,7 @@ SPH_FN sph_real sph_time_step_density_diffusion(sph_kernel k, int dim, sph_real 
     SPH_ASSERT(SPHI_IS_DIM(dim) && h > SPH_R(0) && delta >= SPH_R(0) && c >= SPH_R(0));
     for (n = 0; n < 64; n++) {
         const sph_real q = dq * (SPH_R(n) + SPH_R(0.5));
-        sum -= sphi_power(q, dim - 1) * sph_kernel_shape_f(k, dim, q);
+        sum -= (dim == 1 ? SPH_R(1) : dim == 2 ? q : q * q) * sph_kernel_shape_f(k, dim, q);
     }
     sum *= SPH_R(2) * dq * sph_kernel_sigma(k, dim) *
            (dim == 1   ? SPH_R(2)
@@ -4933,8 +4933,8 @@ SPH_FN int sph_surface_covers(int dim, sph_vec normal, sph_vec x_ij, sph_real h)
 
 /* -------- free surface: sweeps */
 
-/* Where what is known of the surface goes. Null pointers are not written. The stride is that of divergence
-   and lambda. */
+/* Where what is known of the surface goes. divergence, lambda and status may be null. The stride is that of
+   divergence and lambda. */
 typedef struct sph_surface_out {
     SPH_GLOBAL sph_real *divergence, *lambda; /* div r and lambda, pure numbers */
     sph_vector_out normal;                    /* outward, of length 1 or 0 */
@@ -4952,7 +4952,7 @@ SPH_FN sph_index sph_free_surface(sph_kernel k, int dim, sph_cloud cloud, sph_su
     const size_t stride = sphi_stride(out.stride);
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, failed = 0;
-    if (!error && out.normal.x) error = sphi_check_out("out.normal", dim, out.normal);
+    if (!error) error = sphi_check_out("out.normal", dim, out.normal);
     if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_real h_i = sphi_at(cloud.h, i);
@@ -4971,7 +4971,7 @@ SPH_FN sph_index sph_free_surface(sph_kernel k, int dim, sph_cloud cloud, sph_su
         if (dim > 2) trace += moment.zz;
         lost = sphi_put(out.divergence, stride, i, trace);
         lost |= sphi_put(out.lambda, stride, i, sph_sym_eigenvalues(dim, moment).x);
-        if (out.normal.x) lost |= sphi_store_vector(dim, out.normal, i, normal);
+        lost |= sphi_store_vector(dim, out.normal, i, normal);
         if (lost) state = SPH_NOT_FINITE;
         if (out.status) out.status[i] = (unsigned char)state;
         failed += state != SPH_OK;
@@ -5174,14 +5174,14 @@ SPH_FN sph_index sph_shift_displacement(sph_kernel k, int dim, sph_cloud cloud, 
 {
     const int tensile = shift.tensile != SPH_R(0);
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
-    if (!error) error = sphi_check_field("shift.strength", shift.strength, cloud.points.n);
+    if (!error) error = sphi_check_field("strength", shift.strength, cloud.points.n);
     if (!error && (!sphi_finite(shift.tensile) || !sphi_finite(shift.longest)))
         error = sphi_refuse("shift.tensile, longest", -1, SPH_ERROR_VALUE);
     if (!error && tensile && (!(shift.spacing > SPH_R(0)) || !(shift.spacing < sph_kernel_support_ratio(k))))
         error = sphi_refuse("shift.spacing", -1, SPH_ERROR_VALUE);
     if (!error && shift.lambda.p) {
-        error = sphi_check_field("shift.lambda", shift.lambda, cloud.points.n);
-        if (!error) error = sphi_check_vectors("shift.normal", dim, shift.normal, cloud.points.n);
+        error = sphi_check_field("lambda", shift.lambda, cloud.points.n);
+        if (!error) error = sphi_check_vectors("normal", dim, shift.normal, cloud.points.n);
     }
     if (!error) error = sphi_check_out("out", dim, out);
     if (error) return sphi_answer_of(error);

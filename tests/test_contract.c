@@ -88,7 +88,7 @@ enum { VALUE_, LENGTH };
     X(TOLERANCE, BELOW_ONE, 1e-3, VALUE_) X(RESTITUTION, NOT_NEGATIVE, 0.9, VALUE_) X(DENSITY, POSITIVE, 20.0, VALUE_) \
     X(GRAVITY, ANY_NUMBER, 1.0, VALUE_) X(CH, NOT_NEGATIVE, 1.0, VALUE_) X(SIGMA, NOT_NEGATIVE, 0.3, VALUE_) X(PARAMETER_A, ANY_NUMBER, 1.0, VALUE_) \
     X(PARAMETER_B, ANY_NUMBER, 0.5, VALUE_) X(PARAMETER_C, ANY_NUMBER, 0.1, VALUE_) X(TAU, ANY_NUMBER, 0.1, VALUE_) \
-    X(WAVE, ANY_NUMBER, 1.0, VALUE_) X(SKIN, NOT_NEGATIVE, 0.1, VALUE_) X(GRADIENT, ONE_OF + 3, 0.0, VALUE_) X(MEAN, ONE_OF + 2, 0.0, VALUE_) \
+    X(WAVE, ANY_NUMBER, 1.0, VALUE_) X(SKIN, NOT_NEGATIVE, 0.1, VALUE_) X(RATIO, POSITIVE, 0.8, VALUE_) X(GRADIENT, ONE_OF + 3, 0.0, VALUE_) X(MEAN, ONE_OF + 2, 0.0, VALUE_) \
     X(VISCOSITY, ONE_OF + 3, 1.0, VALUE_) X(CRITERION, ONE_OF + 3, 2.0, VALUE_) X(FLAGS, OF_FLAGS, 0.0, VALUE_) X(CAPACITY, NO_LESS_THAN_0, 0.0, VALUE_) \
     X(DISTANCE, POSITIVE, 0.0, LENGTH) X(WITHIN, NOT_NEGATIVE, 0.0, LENGTH) X(STEP, ANY_NUMBER, 0.1, LENGTH)
 /* clang-format on */
@@ -318,16 +318,44 @@ static sph_fluid_out fluid_out_of(const world *w)
     o.status = (unsigned char *)w->a[STATUS];
     return o;
 }
-static sph_query query_of(const world *w)
-{
-    return sph_query_of(points_of(w), (int)w->number[CRITERION], scalars_of(w, REACH), (int)w->number[FLAGS]);
-}
 static sph_vec along_x(double x)
 {
     sph_vec v;
     v.x = SPH_R(x);
     v.y = v.z = SPH_R(0);
     return v;
+}
+static sph_fluid still_of(const world *w) /* without velocities it is a fluid, too */
+{
+    sph_fluid f = fluid_of(w);
+    f.p = f.c = sph_scalars_none();
+    return f;
+}
+static sph_diffusion diffusion_of(const world *w, double rho0, double c)
+{
+    sph_diffusion d = {0};
+    d.delta = SPH_R(w->number[PARAMETER_A]);
+    d.tait.rho0 = SPH_R(rho0);
+    d.tait.c = SPH_R(c);
+    d.share = scalars_of(w, U);
+    d.gradient = vectors_of(w, BX);
+    d.gravity = along_x(w->number[GRAVITY]);
+    return d;
+}
+static sph_shift shift_of(const world *w)
+{
+    sph_shift s = {0};
+    s.strength = scalars_of(w, U);
+    s.tensile = SPH_R(w->number[PARAMETER_A]);
+    s.spacing = SPH_R(w->number[RATIO]);
+    s.lambda = scalars_of(w, F);
+    s.normal = vectors_of(w, BX);
+    s.longest = SPH_R(w->number[PARAMETER_B]);
+    return s;
+}
+static sph_query query_of(const world *w)
+{
+    return sph_query_of(points_of(w), (int)w->number[CRITERION], scalars_of(w, REACH), (int)w->number[FLAGS]);
 }
 
 /* ---------------------------------------------------------------- the functions, all called through the same arguments */
@@ -382,6 +410,12 @@ CALL(density_number, RANGE, A(M), scalar_out_of(w))
 CALL(viscosity_mu_morris, RANGE, fluid_of(w), A(MX), vector_out_of(w, O0))
 CALL(viscosity_mu_monaghan_cleary, RANGE, fluid_of(w), A(MX), vector_out_of(w, O0))
 CALL(velocity_xsph, RANGE, fluid_of(w), X(PARAMETER_C), vector_out_of(w, O0))
+CALL(density_diffusion_molteni, RANGE, still_of(w), diffusion_of(w, 0.0, w->number[CH]), scalar_out_of(w))
+CALL(density_diffusion_antuono, RANGE, still_of(w), diffusion_of(w, 0.0, w->number[CH]), scalar_out_of(w))
+CALL(density_diffusion_fourtakas, RANGE, still_of(w), diffusion_of(w, w->number[RATIO], w->number[DENSITY]), scalar_out_of(w))
+CALL(density_diffusion_rows_molteni, RANGE, still_of(w), diffusion_of(w, 0.0, w->number[CH]), row_out_of(w))
+CALL(free_surface_cone, LIST, A(F), vectors_of(w, BX), STATE)
+CALL(shift_displacement, RANGE, shift_of(w), vector_out_of(w, O0))
 CALL(collision_count, LIST, collision_of(w), vectors_of(w, VX), I(I0))
 CALL(collision_change_weighted, LIST, collision_of(w), vectors_of(w, VX), I(COUNT), vector_out_of(w, O0))
 CALL(nearest_distance, w->dim, others_with_list(w), points_of(w), scalar_out_of(w))
@@ -454,6 +488,30 @@ static sph_index call_wall_adami(const world *w)
     o.stride = w->out_stride;
     o.status = STATE;
     return sph_wall_adami(RANGE, s, o);
+}
+static sph_index call_free_surface(const world *w)
+{
+    sph_surface_out o = {0};
+    o.normal = vector_out_of(w, O0);
+    o.divergence = R(S1);
+    o.lambda = R(S2);
+    o.stride = w->out_stride;
+    o.status = STATE;
+    return sph_free_surface(RANGE, o);
+}
+static sph_index call_shift_rates(const world *w)
+{
+    sph_fluid_out o = fluid_out_of(w);
+    o.heating = 0;
+    return sph_shift_rates(RANGE, still_of(w), vectors_of(w, BX), o);
+}
+static sph_index call_transport_adami(const world *w)
+{
+    sph_transport_out o = {0};
+    o.background = vector_out_of(w, O0);
+    o.stress = vector_out_of(w, O3);
+    o.status = STATE;
+    return sph_transport_adami(RANGE, still_of(w), vectors_of(w, BX), X(PARAMETER_A), o);
 }
 static sph_index call_elliptic_diagnose(const world *w)
 {
@@ -601,6 +659,15 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(viscosity_mu_monaghan_cleary, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(MX) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
     FUNCTION(velocity_xsph, SMOOTHED, ALL, MASSES | BIT(RHO) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
     FUNCTION(wall_adami, SMOOTHED | KEEPS, ALL, MASSES | BIT(U) | BIT(P) | XYZ(VX) | XYZ(BX), BIT(MX), BIT(S0) | XYZ(O0), BIT(STATUS), N(GRAVITY)),
+    FUNCTION(density_diffusion_molteni, SMOOTHED, ALL, MASSES | BIT(RHO), BIT(VX) | BIT(U), BIT(S0), BIT(STATUS), N(PARAMETER_A) | N(CH)),
+    FUNCTION(density_diffusion_antuono, SMOOTHED, ALL, MASSES | BIT(RHO) | XYZ(BX), BIT(VX) | BIT(U), BIT(S0), BIT(STATUS), N(PARAMETER_A) | N(CH)),
+    FUNCTION(density_diffusion_fourtakas, SMOOTHED, ALL, MASSES | BIT(RHO), BIT(VX) | BIT(U), BIT(S0), BIT(STATUS), N(PARAMETER_A) | N(DENSITY) | N(RATIO) | N(GRAVITY)),
+    FUNCTION(density_diffusion_rows_molteni, SMOOTHED, ALL, MASSES | BIT(RHO), BIT(U), BIT(R0), ROW_EXTRAS, N(PARAMETER_A) | N(CH)),
+    FUNCTION(free_surface, SMOOTHED, ALL, VOLUMES, 0, XYZ(O0), BIT(S1) | BIT(S2) | BIT(STATUS), 0),
+    FUNCTION(free_surface_cone, LISTED | COUNTS, ALL, SWEEP | BIT(F) | XYZ(BX), 0, BIT(STATUS), 0, 0),
+    FUNCTION(shift_displacement, SMOOTHED, ALL, VOLUMES | BIT(U) | XYZ(BX), BIT(F), XYZ(O0), 0, N(PARAMETER_A) | N(PARAMETER_B) | N(RATIO)),
+    FUNCTION(shift_rates, SMOOTHED | PARTS, ALL, MASSES | BIT(RHO) | XYZ(VX) | XYZ(BX), 0, XYZ(O0), BIT(S0) | BIT(STATUS), 0),
+    FUNCTION(transport_adami, SMOOTHED | HEAVY | PARTS, ALL, MASSES | BIT(RHO) | XYZ(VX) | XYZ(BX), 0, XYZ(O0) | XYZ(O3), BIT(STATUS), N(PARAMETER_A)),
     FUNCTION(collision_sequential, LISTED | OPAQUE | TOTALS, ALL, COLLIDERS, 0, XYZ(VX), BIT(REPORT),
              N(DISTANCE) | N(RESTITUTION)),
     FUNCTION(collision_count, LISTED | COUNTS, ALL, COLLIDERS, 0, BIT(I0), 0, N(DISTANCE)),
@@ -1036,7 +1103,16 @@ static const char *argument_of(const function *f, int a)
         const char *names; /* of functions, how they begin */
         uint64_t set;
         const char *argument;
-    } named[] = {{"sph_wall_adami", BIT(M), "share"},
+    } named[] = {{"sph_density_diffusion", BIT(U), "share"},
+                 {"sph_density_diffusion", XYZ(BX), "gradient"},
+                 {"sph_free_surface", BIT(F), "lambda"},
+                 {"sph_free_surface", XYZ(BX), "normal"},
+                 {"sph_shift_displacement", BIT(U), "strength"},
+                 {"sph_shift_displacement", BIT(F), "lambda"},
+                 {"sph_shift_displacement", XYZ(BX), "normal"},
+                 {"sph_shift_rates", XYZ(BX), "shift"},
+                 {"sph_transport", XYZ(BX), "transport"},
+                 {"sph_wall_adami", BIT(M), "share"},
                  {"sph_wall_adami", BIT(U), "rho"},
                  {"sph_wall_adami", XYZ(BX), "velocity"},
                  {"sph_wall_adami", XYZ(MX), "normal"},

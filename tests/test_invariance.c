@@ -175,6 +175,27 @@ OPERATOR(elliptic_msph, sph_elliptic_msph(SWEEP, at(w, MU), (sph_elliptic_option
 OPERATOR(viscous_morris, sph_viscosity_mu_morris(SWEEP, fluid(w), at(w, MU), into(w, 0)))
 OPERATOR(viscous_cleary, sph_viscosity_mu_monaghan_cleary(SWEEP, fluid(w), at(w, MU), into(w, 0)))
 OPERATOR(xsph, sph_velocity_xsph(SWEEP, fluid(w), SPH_R(0.5), into(w, 0)))
+static sph_diffusion diffusion(const world *w)
+{
+    sph_diffusion d = {0};
+    d.tait.c = SPH_R(1.3);
+    d.share = at(w, PSI);
+    return d;
+}
+OPERATOR(diffusion_molteni, sph_density_diffusion_molteni(SWEEP, fluid(w), diffusion(w), SCALAR_OUT))
+OPERATOR(free_surface, sph_free_surface(SWEEP, (sph_surface_out){.divergence = OUT(3), .lambda = OUT(4), .normal = into(w, 0)}))
+static sph_index shifted(world *w, sph_index first, sph_index last)
+{
+    const sph_real strength = SPH_R(1);
+    sph_shift s = {0};
+    s.strength = sph_scalars_same(&strength);
+    s.tensile = SPH_R(0.2);
+    s.spacing = SPH_R(0.8);
+    s.longest = SPH_R(-1);
+    return sph_shift_displacement(SWEEP, s, into(w, 0));
+}
+OPERATOR(shift_rates, sph_shift_rates(SWEEP, fluid(w), vectors(w, BX), (sph_fluid_out){.acceleration = into(w, 0), .rate = OUT(3)}))
+OPERATOR(transport, sph_transport_adami(SWEEP, fluid(w), vectors(w, BX), SPH_R(1.7), (sph_transport_out){into(w, 0), into(w, 3), 0}))
 OPERATOR(divergence_difference, sph_divergence_difference(SWEEP, gas(w), vectors(w, BX), sph_scalar_out_array(OUT(0), 0)))
 OPERATOR(divergence_symmetric, sph_divergence_symmetric(SWEEP, gas(w), vectors(w, BX), sph_scalar_out_array(OUT(0), 0)))
 OPERATOR(gradient_symmetric, sph_gradient_symmetric(SWEEP, gas(w), at(w, F), into(w, 0)))
@@ -323,6 +344,11 @@ static const operation operations[] = {
     {"velocity_xsph", xsph, ALL, 1, {{VECTOR, 0, 0, -1}}},
     {"wall_adami", wall, ALL, 1, {{VECTOR, 0, 0, 0}, {SCALAR, 3, 0, 0}}},
     {"wall_adami-free-slip", wall_slips, ALL, 1, {{VECTOR, 0, 0, 0}, {SCALAR, 3, 0, 0}}},
+    {"density_diffusion_molteni", diffusion_molteni, ALL, 1, {{SCALAR, 0, -1, -1}}},
+    {"free_surface", free_surface, ALL, 20, {{VECTOR, 0, 0, 0}, {SCALAR, 3, 0, 0}, {SCALAR, 4, 0, 0}}},
+    {"shift_displacement", shifted, ALL, 1, {{VECTOR, 0, -1, 0}}},
+    {"shift_rates", shift_rates, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}}},
+    {"transport_adami", transport, ALL, 1, {{VECTOR, 0, -1, -1}, {VECTOR, 3, -1, -1}}},
     {"collision_change_weighted", collisions, ALL, 1, {{VECTOR, 0, 0, 0}}},
     {"nearest_distance", nearest_distance, ALL, 1, {{SCALAR, 0, 1, 0}}},
     {"hexatic_order", hexatic_order, PLANE, 5, {{SCALAR, 0, 0, 0}}},

@@ -45,6 +45,7 @@ static void assertion(void)
 #define NUMBERS_sph_elliptic_moments 21
 #define NUMBERS_sph_fluid_change 5
 #define NUMBERS_sph_wall_sums 5
+#define NUMBERS_sph_transport_change 6
 #define NUMBERS_sph_pair_weights 2
 #define NUMBERS_sph_mhd_sums 17
 #define NUMBERS_sph_mhd_change 10
@@ -717,6 +718,73 @@ static void fluids(void)
     FORBIDDEN_LENGTH(x, sph_collision_pair(one, impact(one, one, x)))
 }
 
+static sph_transport_side carried(sph_real m, sph_real rho)
+{
+    const sph_transport_side s = {m, rho, vec(one, one, one), vec(one, -one, one)};
+    return s;
+}
+static void liquids(void)
+{
+    const sph_vec nothing = vec(zero, zero, zero), along = vec(one, one, one);
+    sph_real x;
+    FUNCTION(sph_density_difference_molteni)
+    ALLOWED(sph_real, sph_density_difference_molteni(fluid(zero, zero, zero, zero), fluid(zero, large, zero, zero)))
+    FUNCTION(sph_density_difference_antuono)
+    ALLOWED(sph_real, sph_density_difference_antuono(3, fluid(zero, zero, zero, zero), fluid(zero, large, zero, zero), along, nothing, along))
+    FORBIDDEN(sph_density_difference_antuono(0, fluid(one, one, one, one), fluid(one, one, one, one), along, along, along))
+    FUNCTION(sph_density_difference_fourtakas)
+    ALLOWED(sph_real, sph_density_difference_fourtakas(3, fluid(zero, zero, zero, zero), fluid(zero, large, zero, zero), nothing, along))
+    FORBIDDEN(sph_density_difference_fourtakas(4, fluid(one, one, one, one), fluid(one, one, one, one), along, along))
+    FUNCTION(sph_density_slope)
+    ALLOWED(sph_vec, sph_density_slope(tait(small_number, one, zero), along))
+    FORBIDDEN_LENGTH(x, sph_density_slope(tait(x, one, one), along))
+    FORBIDDEN_LENGTH(x, sph_density_slope(tait(one, x, one), along))
+    FUNCTION(sph_density_diffusion_weight)
+    ALLOWED(sph_real, sph_density_diffusion_weight(fluid(zero, small_number, zero, zero), zero, -one))
+    FORBIDDEN_LENGTH(x, sph_density_diffusion_weight(fluid(one, x, one, one), one, -one))
+    FUNCTION(sph_time_step_density_diffusion)
+    ALLOWED(sph_real, sph_time_step_density_diffusion(SPH_WENDLAND_C2, 3, small_number, zero, zero))
+    FORBIDDEN(sph_time_step_density_diffusion(SPH_WENDLAND_C2, 0, one, one, one))
+    FORBIDDEN_LENGTH(x, sph_time_step_density_diffusion(SPH_WENDLAND_C2, 1, x, one, one))
+    FORBIDDEN_BELOW_0(x, sph_time_step_density_diffusion(SPH_WENDLAND_C2, 2, one, x, one))
+    FORBIDDEN_BELOW_0(x, sph_time_step_density_diffusion(SPH_WENDLAND_C2, 3, one, one, x))
+    FUNCTION(sph_surface_of)
+    ALLOWED_STATE(SPH_SURFACE_SPLASH, sph_surface_of(-large))
+    ALLOWED_STATE(SPH_SURFACE_BAND, sph_surface_of(SPH_R(0.5)))
+    ALLOWED_STATE(SPH_SURFACE_INSIDE, sph_surface_of(large))
+    FUNCTION(sph_surface_normal)
+    ALLOWED(sph_vec, sph_surface_normal(3, sym(one, zero), nothing, small_number))
+    FORBIDDEN(sph_surface_normal(0, sym(one, zero), along, one))
+    FORBIDDEN_LENGTH(x, sph_surface_normal(3, sym(one, zero), along, x))
+    FUNCTION(sph_surface_covers)
+    ALLOWED_STATE(0, sph_surface_covers(3, nothing, nothing, small_number))
+    FORBIDDEN(sph_surface_covers(4, along, along, one))
+    FORBIDDEN_LENGTH(x, sph_surface_covers(2, along, along, x))
+    FUNCTION(sph_shift_pair)
+    ALLOWED(sph_vec, sph_shift_pair(-one, -one, zero, -one, nothing))
+    FUNCTION(sph_shift_strength_skillen)
+    ALLOWED(sph_real, sph_shift_strength_skillen(zero, zero, zero, zero))
+    FUNCTION(sph_shift_strength_sun)
+    ALLOWED(sph_real, sph_shift_strength_sun(zero, zero, zero, small_number))
+    FORBIDDEN_LENGTH(x, sph_shift_strength_sun(one, one, one, x))
+    FUNCTION(sph_shift_at_surface)
+    ALLOWED(sph_vec, sph_shift_at_surface(3, along, SPH_R(0.5), nothing))
+    FORBIDDEN(sph_shift_at_surface(0, along, SPH_R(0.5), along))
+    FUNCTION(sph_shift_limited)
+    ALLOWED(sph_vec, sph_shift_limited(3, nothing, zero))
+    FORBIDDEN(sph_shift_limited(4, along, one))
+    FORBIDDEN_BELOW_0(x, sph_shift_limited(3, along, x))
+    FUNCTION(sph_shift_rate_pair)
+    ALLOWED(sph_real, sph_shift_rate_pair(-one, zero, large, zero))
+    FUNCTION(sph_transport_pair_adami)
+    ALLOWED(sph_transport_change, sph_transport_pair_adami(3, carried(one, small_number), carried(small_number, one), nothing, zero))
+    FORBIDDEN(sph_transport_pair_adami(0, carried(one, one), carried(one, one), along, -one))
+    FORBIDDEN_LENGTH(x, sph_transport_pair_adami(2, carried(x, one), carried(one, one), along, -one))
+    FORBIDDEN_LENGTH(x, sph_transport_pair_adami(2, carried(one, x), carried(one, one), along, -one))
+    FORBIDDEN_LENGTH(x, sph_transport_pair_adami(2, carried(one, one), carried(x, one), along, -one))
+    FORBIDDEN_LENGTH(x, sph_transport_pair_adami(2, carried(one, one), carried(one, x), along, -one))
+}
+
 static void magnetised_gas(void)
 {
     const sph_vec nothing = vec(zero, zero, zero), field = vec(one, SPH_R(2), SPH_R(2));
@@ -885,6 +953,7 @@ int main(void)
     kernels();
     vectors_and_systems();
     fluids();
+    liquids();
     magnetised_gas();
     begin("the end");
     complete("sph_kernels.h");

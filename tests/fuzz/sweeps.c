@@ -195,6 +195,41 @@ static sph_wall_out wall_out(const arguments *a)
     return o;
 }
 
+static sph_diffusion diffusion(const arguments *a)
+{
+    sph_diffusion d = {0};
+    d.delta = a->number[0];
+    d.tait.c = a->number[1], d.tait.rho0 = a->number[2];
+    if (a->what & 1) d.share = a->s[4];
+    d.gradient = vectors(a, 8);
+    d.gravity.x = a->number[3];
+    return d;
+}
+static sph_shift shifting(const arguments *a)
+{
+    sph_shift s = {0};
+    s.strength = a->s[4];
+    s.tensile = a->number[0], s.spacing = a->number[1], s.longest = a->number[2];
+    if (a->what & 1) s.lambda = a->s[3];
+    s.normal = vectors(a, 8);
+    return s;
+}
+static sph_surface_out surface_out(const arguments *a)
+{
+    sph_surface_out o = {0};
+    o.normal = vector_out(a, 0);
+    o.divergence = OUT(3), o.lambda = OUT(4);
+    o.status = a->status;
+    return o;
+}
+static sph_transport_out transport_out(const arguments *a)
+{
+    sph_transport_out o = {0};
+    o.background = vector_out(a, 0);
+    o.stress = vector_out(a, 3);
+    return o;
+}
+
 /* One X(call, outputs, pairs, flags) each: the first `pairs` outputs have a number for each pair, the others one for each target (ONE: one at all). VECTOR: of the first three as many as there are dimensions;
    VECTORS: of the first two times three; HESSIAN: of derivatives likewise; COUNTS: a->count; NO_COUNT: the answer is no number of targets that are not ok;
    SOME: targets may be passed over. */
@@ -239,6 +274,15 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_viscosity_mu_monaghan_cleary(SWEEP, fluid(a), a->s[2], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_velocity_xsph(SWEEP, fluid(a), a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_wall_adami(SWEEP, wall(a), wall_out(a)), 4, 0, VECTOR | STATUS) \
+    X(sph_density_diffusion_molteni(SWEEP, fluid(a), diffusion(a), scalar_out(a)), 1, 0, STATUS) \
+    X(sph_density_diffusion_antuono(SWEEP, fluid(a), diffusion(a), scalar_out(a)), 1, 0, STATUS) \
+    X(sph_density_diffusion_fourtakas(SWEEP, fluid(a), diffusion(a), scalar_out(a)), 1, 0, STATUS) \
+    X(sph_density_diffusion_rows_molteni(SWEEP, fluid(a), diffusion(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_free_surface(SWEEP, surface_out(a)), 5, 0, VECTOR | STATUS) \
+    X(sph_free_surface_cone(LIST, a->s[3], vectors(a, 5), a->status), 0, 0, STATUS | NO_COUNT) \
+    X(sph_shift_displacement(SWEEP, shifting(a), vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_shift_rates(SWEEP, fluid(a), vectors(a, 8), (sph_fluid_out){.acceleration = vector_out(a, 0), .rate = OUT(3)}), 4, 0, VECTOR) \
+    X(sph_transport_adami(SWEEP, fluid(a), vectors(a, 8), a->number[0], transport_out(a)), 6, 0, VECTORS) \
     X(sph_collision_count(LIST, collision(a), vectors(a, 5), a->count), 0, 0, COUNTS) \
     X(sph_nearest_distance(LIST, a->cloud.points, scalar_out(a)), 1, 0, STATUS) \
     X(sph_hexatic_order(a->cloud, scalar_out(a)), 1, 0, STATUS) \
