@@ -4667,7 +4667,7 @@ SPH_FN sph_riemann_side sph_riemann_side_of(sph_fluid_side a, sph_real c, sph_en
     sph_riemann_side s;
     SPH_ASSERT(a.rho > SPH_R(0) && c > SPH_R(0) && e.r >= SPH_R(0));
     s.p = a.p;
-    s.z = a.rho * c;
+    s.z = a.rho * c + SPHI_TINY; /* the product may underflow */
     s.u = side * e.vx / (e.r + SPHI_TINY);
     return s;
 }
@@ -4679,8 +4679,7 @@ SPH_FN sph_real sph_riemann_beta(sph_riemann_side left, sph_riemann_side right, 
 {
     const sph_real inverse = SPH_R(1) / (left.z + right.z);
     SPH_ASSERT(left.z > SPH_R(0) && right.z > SPH_R(0) && rho > SPH_R(0) && limiter >= SPH_R(0));
-    return SPH_R(1) -
-           sphi_pos(SPH_R(1) - limiter * sphi_pos(left.u - right.u) * (SPH_R(2) * rho * inverse));
+    return SPH_R(1) - sphi_pos(SPH_R(1) - limiter * sphi_pos(left.u - right.u) * (SPH_R(2) * rho * inverse));
 }
 /* The part of P_i - P_j that a fluid at rest has: rho g . x_ij, with the mean of the densities. */
 SPH_FN sph_real sph_riemann_rest(int dim, sph_real rho, sph_vec gravity, sph_vec x_ij)
@@ -4710,9 +4709,8 @@ SPH_FN sph_fluid_change sph_fluid_pair_riemann(sph_fluid_side i, sph_fluid_side 
 {
     const sph_real per = SPH_R(2) / (i.rho * j.rho);
     SPH_ASSERT(i.rho > SPH_R(0) && j.rho > SPH_R(0));
-    return sphi_fluid_change(
-        j.m, per * star.p, per * star.viscous, x_ij, e.vx, f_ij,
-        sph_density_rate_pair_volume(i, j, e.vx + SPH_R(2) * e.r * star.u, f_ij));
+    return sphi_fluid_change(j.m, per * star.p, per * star.viscous, x_ij, e.vx, f_ij,
+                             sph_density_rate_pair_volume(i, j, e.vx + SPH_R(2) * e.r * star.u, f_ij));
 }
 
 /* -------- Riemann solver: sweep */
@@ -4756,8 +4754,8 @@ SPH_FN sph_index sphi_riemann_range(int uniform, sph_kernel k, int dim, sph_clou
             left = sph_riemann_side_of(own, c_i, e, SPH_R(-0.5));
             right = sph_riemann_side_of(other, sphi_at(f->c, j), e, SPH_R(0.5));
             beta = whole ? SPH_R(1) : sph_riemann_beta(left, right, e.rho, limiter);
-            star = sph_riemann_acoustic(left, right, beta,
-                                        sph_riemann_rest(dim, e.rho, options.gravity, x_ij));
+            star =
+                sph_riemann_acoustic(left, right, beta, sph_riemann_rest(dim, e.rho, options.gravity, x_ij));
             c = sph_fluid_pair_riemann(own, other, star, x_ij, e, sph_kernel_f_apart(k, dim, e.r, e.h));
             ax += c.acceleration.x;
             if (dim > 1) ay += c.acceleration.y;
