@@ -535,6 +535,11 @@ static sph_index call_hu_adams(const setup *s)
 {
     return sph_fluid_rates_hu_adams(KERNEL, s->c.dim, cloud_of(s), fluid_of(s), fluid_out(s));
 }
+static sph_index call_riemann(const setup *s)
+{
+    return sph_fluid_rates_riemann(KERNEL, s->c.dim, cloud_of(s), fluid_of(s), (sph_riemann_options){0},
+                                   fluid_out(s));
+}
 static sph_index call_cleaning(const setup *s) { return cleaning(s, sph_scalars_none()); }
 
 /* What overflows is 0, says so, and is counted; nothing else is. `field` is as large as numbers can be at one
@@ -555,6 +560,7 @@ static void test_overflow(setup *s)
                  {"fluid_rates_monaghan", call_monaghan, P, 1 | 8},
                  {"fluid_rates_colagrossi", call_colagrossi, P, 1 | 8},
                  {"fluid_rates_hu_adams", call_hu_adams, P, 1 | 8},
+                 {"fluid_rates_riemann", call_riemann, P, 1 | 8},
                  {"mhd_rates", mhd, P, 1 | 8 | 64 | 128},
                  {"cleaning_rates", call_cleaning, F, 1 | 8}};
     size_t k;

@@ -188,6 +188,13 @@ static sph_fluid fluid_of(const world *w)
     f.eta = SPH_R(w->number[PARAMETER_C]);
     return f;
 }
+static sph_riemann_options riemann_options_of(const world *w)
+{
+    sph_riemann_options o = {0};
+    o.limiter = SPH_R(w->number[PARAMETER_A]);
+    o.gravity.x = SPH_R(w->number[GRAVITY]);
+    return o;
+}
 static sph_derivatives_out derivative_out_of(const world *w)
 {
     sph_derivatives_out o;
@@ -406,6 +413,7 @@ CALL(csr_assemble, cloud_of(w), R(ROW), A(DIAGONAL), 0, csr_of(w), (int64_t *)w-
 CALL(fluid_rates_monaghan, RANGE, fluid_of(w), fluid_out_of(w))
 CALL(fluid_rates_colagrossi, RANGE, fluid_of(w), fluid_out_of(w))
 CALL(fluid_rates_hu_adams, RANGE, fluid_of(w), fluid_out_of(w))
+CALL(fluid_rates_riemann, RANGE, fluid_of(w), riemann_options_of(w), fluid_out_of(w))
 CALL(density_number, RANGE, A(M), scalar_out_of(w))
 CALL(viscosity_mu_morris, RANGE, fluid_of(w), A(MX), vector_out_of(w, O0))
 CALL(viscosity_mu_monaghan_cleary, RANGE, fluid_of(w), A(MX), vector_out_of(w, O0))
@@ -654,6 +662,7 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(fluid_rates_monaghan, SMOOTHED | HEAVY | PARTS, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1) | BIT(STATUS), VISCOUS),
     FUNCTION(fluid_rates_colagrossi, SMOOTHED | HEAVY | PARTS, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1) | BIT(STATUS), VISCOUS),
     FUNCTION(fluid_rates_hu_adams, SMOOTHED | HEAVY | PARTS, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1) | BIT(STATUS), VISCOUS),
+    FUNCTION(fluid_rates_riemann, SMOOTHED | HEAVY | PARTS, ALL, FLUID, 0, XYZ(O0), BIT(S0) | BIT(S1) | BIT(STATUS), N(PARAMETER_A) | N(GRAVITY)),
     FUNCTION(density_number, SMOOTHED, ALL, MASSES, 0, BIT(S0), BIT(STATUS), 0),
     FUNCTION(viscosity_mu_morris, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(MX) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
     FUNCTION(viscosity_mu_monaghan_cleary, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(MX) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),

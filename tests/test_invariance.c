@@ -246,6 +246,14 @@ static sph_index msph_rows(world *w, sph_index first, sph_index last)
 OPERATOR(fluid_monaghan, sph_fluid_rates_monaghan(SWEEP, fluid(w), (sph_fluid_out){.acceleration = into(w, 0), .rate = OUT(3), .heating = OUT(4)}))
 OPERATOR(fluid_colagrossi, sph_fluid_rates_colagrossi(SWEEP, fluid(w), (sph_fluid_out){.acceleration = into(w, 0), .rate = OUT(3), .heating = OUT(4)}))
 OPERATOR(fluid_hu_adams, sph_fluid_rates_hu_adams(SWEEP, fluid(w), (sph_fluid_out){.acceleration = into(w, 0), .rate = OUT(3), .heating = OUT(4)}))
+static sph_riemann_options riemann(const world *w)
+{
+    sph_riemann_options o;
+    o.limiter = SPH_R(0.4);
+    o.gravity = w->gravity;
+    return o;
+}
+OPERATOR(fluid_riemann, sph_fluid_rates_riemann(SWEEP, fluid(w), riemann(w), (sph_fluid_out){.acceleration = into(w, 0), .rate = OUT(3), .heating = OUT(4)}))
 static sph_index wall_of(world *w, sph_index first, sph_index last, sph_vectors velocity, sph_vectors normal)
 {
     sph_wall s;
@@ -339,6 +347,7 @@ static const operation operations[] = {
     {"fluid_rates_monaghan", fluid_monaghan, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
     {"fluid_rates_colagrossi", fluid_colagrossi, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
     {"fluid_rates_hu_adams", fluid_hu_adams, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
+    {"fluid_rates_riemann", fluid_riemann, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
     {"viscous_mu_morris", viscous_morris, ALL, 1, {{VECTOR, 0, -2, -1}}},
     {"viscous_mu_monaghan_cleary", viscous_cleary, ALL, 1, {{VECTOR, 0, -2, -1}}},
     {"velocity_xsph", xsph, ALL, 1, {{VECTOR, 0, 0, -1}}},

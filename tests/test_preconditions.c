@@ -46,6 +46,8 @@ static void assertion(void)
 #define NUMBERS_sph_fluid_change 5
 #define NUMBERS_sph_wall_sums 5
 #define NUMBERS_sph_transport_change 6
+#define NUMBERS_sph_riemann_side 3
+#define NUMBERS_sph_riemann_star 3
 #define NUMBERS_sph_pair_weights 2
 #define NUMBERS_sph_mhd_sums 17
 #define NUMBERS_sph_mhd_change 10
@@ -569,6 +571,21 @@ static void vectors_and_systems(void)
     FORBIDDEN_DIM(sph_sym_eigenvalues_in)
 }
 
+/* the side of a Riemann problem with the impedance z, and a contact at rest */
+static sph_riemann_side riemann(sph_real z)
+{
+    sph_riemann_side s;
+    s.p = s.u = zero;
+    s.z = z;
+    return s;
+}
+static sph_riemann_star contact(void)
+{
+    sph_riemann_star s;
+    s.p = s.u = s.viscous = zero;
+    return s;
+}
+
 /* a function of two sides and numbers: what each side needs */
 #define SIDES(call) \
     i = j = fluid(one, one, one, one); \
@@ -653,6 +670,33 @@ static void fluids(void)
     FUNCTION(sph_velocity_pair_xsph)
     ALLOWED(sph_real, sph_velocity_pair_xsph(i, fluid(zero, small_number, zero, zero), zero))
     SIDES(sph_velocity_pair_xsph(i, j, one))
+
+    FUNCTION(sph_riemann_side_of)
+    i = fluid(zero, small_number, -one, zero);
+    ALLOWED(sph_riemann_side, sph_riemann_side_of(i, small_number, meeting(zero, zero, zero, zero, zero), -one))
+    i = fluid(one, one, one, one);
+    FORBIDDEN_LENGTH(i.rho, sph_riemann_side_of(i, one, meeting(one, one, one, one, one), one))
+    i.rho = one;
+    FORBIDDEN_LENGTH(x, sph_riemann_side_of(i, x, meeting(one, one, one, one, one), one))
+    FORBIDDEN_BELOW_0(x, sph_riemann_side_of(i, one, meeting(one, x, one, one, one), one))
+    FUNCTION(sph_riemann_beta)
+    ALLOWED(sph_real, sph_riemann_beta(riemann(small_number), riemann(small_number), small_number, zero))
+    FORBIDDEN_LENGTH(x, sph_riemann_beta(riemann(x), riemann(one), one, one))
+    FORBIDDEN_LENGTH(x, sph_riemann_beta(riemann(one), riemann(x), one, one))
+    FORBIDDEN_LENGTH(x, sph_riemann_beta(riemann(one), riemann(one), x, one))
+    FORBIDDEN_BELOW_0(x, sph_riemann_beta(riemann(one), riemann(one), one, x))
+    FUNCTION(sph_riemann_rest)
+    ALLOWED(sph_real, sph_riemann_rest(3, zero, nothing, nothing))
+    FORBIDDEN(sph_riemann_rest(0, one, nothing, nothing))
+    FUNCTION(sph_riemann_acoustic)
+    ALLOWED(sph_riemann_star, sph_riemann_acoustic(riemann(small_number), riemann(small_number), zero, zero))
+    FORBIDDEN_LENGTH(x, sph_riemann_acoustic(riemann(x), riemann(one), one, zero))
+    FORBIDDEN_LENGTH(x, sph_riemann_acoustic(riemann(one), riemann(x), one, zero))
+    FUNCTION(sph_fluid_pair_riemann)
+    i = j = fluid(one, one, -one, zero);
+    ALLOWED(sph_fluid_change,
+            sph_fluid_pair_riemann(i, j, contact(), nothing, meeting(zero, zero, zero, zero, zero), zero))
+    SIDES(sph_fluid_pair_riemann(i, j, contact(), nothing, meeting(one, one, one, one, one), zero))
 
     FUNCTION(sph_wall_pair_adami)
     i = fluid(zero, zero, zero, zero);

@@ -137,7 +137,9 @@ def parameters(function, model):
             taken.append((name, "int", default and "0", comment))
         else:
             for field in known[kind].fields:
-                add(field.name, field.type, True, field.comment)
+                own = f"{name}_{field.name}"  # a method has no two parameters of one name
+                clash = field.name in [t[0] for t in taken]
+                add(own if clash else field.name, field.type, True, field.comment)
 
     for a in function.arguments:
         if a.type in LISTS and a.type != "sph_points" or a.name in ("kernel", "dim") or is_output(a.type):

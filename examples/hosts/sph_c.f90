@@ -111,6 +111,11 @@ module sph_c
     ! sph_viscosity_pair_signal: pairs that approach, by the signal speed
     integer(c_int), parameter :: SPH_VISCOSITY_SIGNAL = 3
 
+    ! sph_surface: What lambda says of a particle.
+    integer(c_int), parameter :: SPH_SURFACE_INSIDE = 0 ! lambda > 0.75
+    integer(c_int), parameter :: SPH_SURFACE_BAND = 1 ! look closer
+    integer(c_int), parameter :: SPH_SURFACE_SPLASH = 2 ! lambda < 0.2: at the surface, or outside
+
     ! sph_finding: What may be wrong. sph_finding_text explains each in words.
     integer(c_int), parameter :: SPH_FINDING_LIST_SHORT = 0 ! every row ends before the support does
     ! every row ends at h: h and the support are mixed up
@@ -347,6 +352,12 @@ module sph_c
         integer(c_int64_t) :: capacity = 0
     end type
 
+    ! Tait's equation of state: the density rho0 at the pressure p0, the sound speed c at this density, and
+    ! the exponent gamma.
+    type, bind(c) :: sph_tait
+        real(sph_real) :: rho0 = 0.0_sph_real, c = 0.0_sph_real, gamma = 0.0_sph_real, p0 = 0.0_sph_real
+    end type
+
     ! The state of a fluid, one number for each particle, all sources. A pair uses (h_i + h_j) / 2: lists by
     ! SPH_MEAN, or by any criterion if all particles have the same h.
     type, bind(c) :: sph_fluid
@@ -391,6 +402,61 @@ module sph_c
         integer(c_size_t) :: stride = 0
         ! may be null
         type(c_ptr) :: status = c_null_ptr
+    end type
+
+    ! What density diffusion needs to know.
+    type, bind(c) :: sph_diffusion
+        ! its strength; 0 means the usual 0.1, a negative number none
+        real(sph_real) :: delta = 0.0_sph_real
+        ! of the liquid: c >= 0 is read, and by fourtakas rho0
+        type(sph_tait) :: tait
+        ! A pair has the factor share_i share_j: 1 for the liquid, 0 for walls and other fluids. Null: all
+        ! take part.
+        type(sph_scalars) :: share
+        ! of the density, from sph_gradient_cspm: antuono only
+        type(sph_vectors) :: gradient
+        ! fourtakas only
+        type(sph_vec) :: gravity
+    end type
+
+    ! Where what is known of the surface goes. divergence, lambda and status may be null. The stride is that
+    ! of divergence and lambda.
+    type, bind(c) :: sph_surface_out
+        ! div r and lambda, pure numbers
+        type(c_ptr) :: divergence = c_null_ptr, lambda = c_null_ptr
+        ! outward, of length 1 or 0
+        type(sph_vector_out) :: normal
+        integer(c_size_t) :: stride = 0
+        type(c_ptr) :: status = c_null_ptr
+    end type
+
+    ! How particles are shifted. Zeros are the defaults where nothing else is said.
+    type, bind(c) :: sph_shift
+        ! an area, of each particle or of all. There is no default
+        type(sph_scalars) :: strength
+        ! R; 0: no such term
+        real(sph_real) :: tensile = 0.0_sph_real
+        ! dx / h, of the particles as they should lie; is read if R is not 0
+        real(sph_real) :: spacing = 0.0_sph_real
+        ! of sph_free_surface. Null: there is no free surface
+        type(sph_scalars) :: lambda
+        ! of sph_free_surface; is read with lambda
+        type(sph_vectors) :: normal
+        ! the longest shift, a length; 0 means 0.2 h, a negative number no limit
+        real(sph_real) :: longest = 0.0_sph_real
+    end type
+
+    ! Where the accelerations of the transport velocity go.
+    type, bind(c) :: sph_transport_out
+        type(sph_vector_out) :: background, stress
+        type(c_ptr) :: status = c_null_ptr
+    end type
+
+    ! limiter: 0 means the usual 3; a negative number means beta = 1, the whole acoustic solver. gravity: the
+    ! acceleration g, less that of the frame; 0 leaves the hydrostatic part in the jump.
+    type, bind(c) :: sph_riemann_options
+        real(sph_real) :: limiter = 0.0_sph_real
+        type(sph_vec) :: gravity
     end type
 
     ! Which particles collide, and how. Lists must reach as far as the collision distance. Walls may be mere
@@ -1277,6 +1343,136 @@ module sph_c
             type(sph_wall_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
+        pure function sph_time_step_density_diffusion(kernel, dim, h, delta, c) &
+            bind(c, name='sph_shim_time_step_density_diffusion') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            real(sph_real), value :: h, delta, c
+            real(sph_real) :: answer
+        end function
+        ! density rate with density diffusion
+        function sph_density_diffusion_molteni(kernel, dim, cloud, fluid, diffusion, out) &
+            bind(c, name='sph_shim_density_diffusion_molteni') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_fluid), intent(in) :: fluid
+            type(sph_diffusion), intent(in) :: diffusion
+            type(sph_scalar_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! delta-SPH
+        function sph_density_diffusion_antuono(kernel, dim, cloud, fluid, diffusion, out) &
+            bind(c, name='sph_shim_density_diffusion_antuono') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_fluid), intent(in) :: fluid
+            type(sph_diffusion), intent(in) :: diffusion
+            type(sph_scalar_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        function sph_density_diffusion_fourtakas(kernel, dim, cloud, fluid, diffusion, out) &
+            bind(c, name='sph_shim_density_diffusion_fourtakas') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_fluid), intent(in) :: fluid
+            type(sph_diffusion), intent(in) :: diffusion
+            type(sph_scalar_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        function sph_density_diffusion_rows_molteni(kernel, dim, cloud, fluid, diffusion, out) &
+            bind(c, name='sph_shim_density_diffusion_rows_molteni') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_fluid), intent(in) :: fluid
+            type(sph_diffusion), intent(in) :: diffusion
+            type(sph_rows_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! div r, lambda, normal
+        function sph_free_surface(kernel, dim, cloud, out) &
+            bind(c, name='sph_shim_free_surface') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_surface_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! which particles are the surface
+        function sph_free_surface_cone(dim, cloud, lambda, normal, flag) &
+            bind(c, name='sph_shim_free_surface_cone') result(answer)
+            import
+            integer(c_int), value :: dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_scalars), intent(in) :: lambda
+            type(sph_vectors), intent(in) :: normal
+            integer(sph_state), intent(inout) :: flag(*)
+            integer(sph_index) :: answer
+        end function
+        pure function sph_shift_strength_skillen(h, speed, dt, factor) &
+            bind(c, name='sph_shim_shift_strength_skillen') result(answer)
+            import
+            real(sph_real), value :: h, speed, dt, factor
+            real(sph_real) :: answer
+        end function
+        pure function sph_shift_strength_sun(h, speed, dt, length) &
+            bind(c, name='sph_shim_shift_strength_sun') result(answer)
+            import
+            real(sph_real), value :: h, speed, dt, length
+            real(sph_real) :: answer
+        end function
+        pure function sph_shift_rate_pair(f_i, f_j, along_i, along_j) &
+            bind(c, name='sph_shim_shift_rate_pair') result(answer)
+            import
+            real(sph_real), value :: f_i, f_j, along_i, along_j
+            real(sph_real) :: answer
+        end function
+        ! keeps particles even
+        function sph_shift_displacement(kernel, dim, cloud, shift, out) &
+            bind(c, name='sph_shim_shift_displacement') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_shift), intent(in) :: shift
+            type(sph_vector_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! what particles that are shifted carry
+        function sph_shift_rates(kernel, dim, cloud, fluid, shift, out) &
+            bind(c, name='sph_shim_shift_rates') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_fluid), intent(in) :: fluid
+            type(sph_vectors), intent(in) :: shift
+            type(sph_fluid_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        function sph_transport_adami(kernel, dim, cloud, fluid, transport, background, out) &
+            bind(c, name='sph_shim_transport_adami') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_fluid), intent(in) :: fluid
+            type(sph_vectors), intent(in) :: transport
+            real(sph_real), value :: background
+            type(sph_transport_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! fluid rates with the dissipation of a Riemann solver
+        function sph_fluid_rates_riemann(kernel, dim, cloud, fluid, options, out) &
+            bind(c, name='sph_shim_fluid_rates_riemann') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_fluid), intent(in) :: fluid
+            type(sph_riemann_options), intent(in) :: options
+            type(sph_fluid_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
         function sph_collision_sequential(dim, cloud, collision, velocity, out) &
             bind(c, name='sph_shim_collision_sequential') result(answer)
             import
@@ -1636,10 +1832,16 @@ contains
         type(sph_diagonal) :: sph_diagonal_here
         type(sph_boundary) :: sph_boundary_here
         type(sph_csr) :: sph_csr_here
+        type(sph_tait) :: sph_tait_here
         type(sph_fluid) :: sph_fluid_here
         type(sph_fluid_out) :: sph_fluid_out_here
         type(sph_wall) :: sph_wall_here
         type(sph_wall_out) :: sph_wall_out_here
+        type(sph_diffusion) :: sph_diffusion_here
+        type(sph_surface_out) :: sph_surface_out_here
+        type(sph_shift) :: sph_shift_here
+        type(sph_transport_out) :: sph_transport_out_here
+        type(sph_riemann_options) :: sph_riemann_options_here
         type(sph_collision) :: sph_collision_here
         type(sph_collision_report) :: sph_collision_report_here
         type(sph_medium) :: sph_medium_here
@@ -1698,6 +1900,8 @@ contains
             c_struct_size('sph_boundary'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_csr_here) == &
             c_struct_size('sph_csr'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_tait_here) == &
+            c_struct_size('sph_tait'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_fluid_here) == &
             c_struct_size('sph_fluid'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_fluid_out_here) == &
@@ -1706,6 +1910,16 @@ contains
             c_struct_size('sph_wall'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_wall_out_here) == &
             c_struct_size('sph_wall_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_diffusion_here) == &
+            c_struct_size('sph_diffusion'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_surface_out_here) == &
+            c_struct_size('sph_surface_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_shift_here) == &
+            c_struct_size('sph_shift'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_transport_out_here) == &
+            c_struct_size('sph_transport_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_riemann_options_here) == &
+            c_struct_size('sph_riemann_options'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_collision_here) == &
             c_struct_size('sph_collision'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_collision_report_here) == &

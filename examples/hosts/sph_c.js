@@ -86,6 +86,9 @@ exports.structs = {
         ["start", "pointer", 1], ["column", "pointer", 1], ["value", "pointer", 1],
         ["capacity", "int64_t", 1],
     ],
+    sph_tait: [
+        ["rho0", "sph_real", 1], ["c", "sph_real", 1], ["gamma", "sph_real", 1], ["p0", "sph_real", 1],
+    ],
     sph_fluid: [
         ["m", "sph_scalars", 1], ["rho", "sph_scalars", 1], ["p", "sph_scalars", 1], ["c", "sph_scalars", 1],
         ["v", "sph_vectors", 1], ["viscosity", "int", 1], ["alpha", "sph_real", 1], ["beta", "sph_real", 1],
@@ -102,6 +105,24 @@ exports.structs = {
     ],
     sph_wall_out: [
         ["p", "pointer", 1], ["v", "sph_vector_out", 1], ["stride", "size_t", 1], ["status", "pointer", 1],
+    ],
+    sph_diffusion: [
+        ["delta", "sph_real", 1], ["tait", "sph_tait", 1], ["share", "sph_scalars", 1],
+        ["gradient", "sph_vectors", 1], ["gravity", "sph_vec", 1],
+    ],
+    sph_surface_out: [
+        ["divergence", "pointer", 1], ["lambda", "pointer", 1], ["normal", "sph_vector_out", 1],
+        ["stride", "size_t", 1], ["status", "pointer", 1],
+    ],
+    sph_shift: [
+        ["strength", "sph_scalars", 1], ["tensile", "sph_real", 1], ["spacing", "sph_real", 1],
+        ["lambda", "sph_scalars", 1], ["normal", "sph_vectors", 1], ["longest", "sph_real", 1],
+    ],
+    sph_transport_out: [
+        ["background", "sph_vector_out", 1], ["stress", "sph_vector_out", 1], ["status", "pointer", 1],
+    ],
+    sph_riemann_options: [
+        ["limiter", "sph_real", 1], ["gravity", "sph_vec", 1],
     ],
     sph_collision: [
         ["distance", "sph_real", 1], ["restitution", "sph_real", 1], ["inverse_mass", "sph_scalars", 1],
@@ -217,6 +238,9 @@ exports.SPH_VISCOSITY_NONE = 0;
 exports.SPH_VISCOSITY_MONAGHAN = 1;
 exports.SPH_VISCOSITY_LINEAR = 2;
 exports.SPH_VISCOSITY_SIGNAL = 3;
+exports.SPH_SURFACE_INSIDE = 0;
+exports.SPH_SURFACE_BAND = 1;
+exports.SPH_SURFACE_SPLASH = 2;
 exports.SPH_FINDING_LIST_SHORT = 0;
 exports.SPH_FINDING_LIST_SUPPORT = 1;
 exports.SPH_FINDING_LIST_HALF = 2;

@@ -702,6 +702,154 @@ sph_index sph_shim_wall_adami(int kernel, int dim, const sph_cloud *cloud, const
     return answer;
 }
 #undef SWEEP
+sph_real sph_shim_time_step_density_diffusion(int kernel, int dim, sph_real h, sph_real delta, sph_real c)
+{
+    if (dim < 1 || dim > 3) return SPH_R(0);
+    return sph_time_step_density_diffusion((sph_kernel)kernel, dim, h, delta, c);
+}
+
+#define SWEEP(K, D) \
+    sph_density_diffusion_molteni(K, D, *cloud, GIVEN(sph_fluid, fluid), GIVEN(sph_diffusion, diffusion), \
+                                  GIVEN(sph_scalar_out, out))
+sph_index sph_shim_density_diffusion_molteni(int kernel, int dim, const sph_cloud *cloud,
+                                             const sph_fluid *fluid, const sph_diffusion *diffusion,
+                                             const sph_scalar_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_density_diffusion_antuono(K, D, *cloud, GIVEN(sph_fluid, fluid), GIVEN(sph_diffusion, diffusion), \
+                                  GIVEN(sph_scalar_out, out))
+sph_index sph_shim_density_diffusion_antuono(int kernel, int dim, const sph_cloud *cloud,
+                                             const sph_fluid *fluid, const sph_diffusion *diffusion,
+                                             const sph_scalar_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_density_diffusion_fourtakas(K, D, *cloud, GIVEN(sph_fluid, fluid), GIVEN(sph_diffusion, diffusion), \
+                                    GIVEN(sph_scalar_out, out))
+sph_index sph_shim_density_diffusion_fourtakas(int kernel, int dim, const sph_cloud *cloud,
+                                               const sph_fluid *fluid, const sph_diffusion *diffusion,
+                                               const sph_scalar_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_density_diffusion_rows_molteni(K, D, *cloud, GIVEN(sph_fluid, fluid), \
+                                       GIVEN(sph_diffusion, diffusion), GIVEN(sph_rows_out, out))
+sph_index sph_shim_density_diffusion_rows_molteni(int kernel, int dim, const sph_cloud *cloud,
+                                                  const sph_fluid *fluid, const sph_diffusion *diffusion,
+                                                  const sph_rows_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_free_surface(K, D, *cloud, GIVEN(sph_surface_out, out))
+sph_index sph_shim_free_surface(int kernel, int dim, const sph_cloud *cloud, const sph_surface_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(D) \
+    sph_free_surface_cone(D, *cloud, GIVEN(sph_scalars, lambda), GIVEN(sph_vectors, normal), flag)
+sph_index sph_shim_free_surface_cone(int dim, const sph_cloud *cloud, const sph_scalars *lambda,
+                                     const sph_vectors *normal, unsigned char *flag)
+{
+    sph_index answer = SPH_ERROR_DIM;
+    if (!cloud) return missing("cloud");
+    EVERY_DIM
+    return answer;
+}
+#undef SWEEP
+sph_real sph_shim_shift_strength_skillen(sph_real h, sph_real speed, sph_real dt, sph_real factor)
+{
+    return sph_shift_strength_skillen(h, speed, dt, factor);
+}
+sph_real sph_shim_shift_strength_sun(sph_real h, sph_real speed, sph_real dt, sph_real length)
+{
+    return sph_shift_strength_sun(h, speed, dt, length);
+}
+sph_real sph_shim_shift_rate_pair(sph_real f_i, sph_real f_j, sph_real along_i, sph_real along_j)
+{
+    return sph_shift_rate_pair(f_i, f_j, along_i, along_j);
+}
+
+#define SWEEP(K, D) \
+    sph_shift_displacement(K, D, *cloud, GIVEN(sph_shift, shift), GIVEN(sph_vector_out, out))
+sph_index sph_shim_shift_displacement(int kernel, int dim, const sph_cloud *cloud, const sph_shift *shift,
+                                      const sph_vector_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_shift_rates(K, D, *cloud, GIVEN(sph_fluid, fluid), GIVEN(sph_vectors, shift), \
+                    GIVEN(sph_fluid_out, out))
+sph_index sph_shim_shift_rates(int kernel, int dim, const sph_cloud *cloud, const sph_fluid *fluid,
+                               const sph_vectors *shift, const sph_fluid_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_transport_adami(K, D, *cloud, GIVEN(sph_fluid, fluid), GIVEN(sph_vectors, transport), background, \
+                        GIVEN(sph_transport_out, out))
+sph_index sph_shim_transport_adami(int kernel, int dim, const sph_cloud *cloud, const sph_fluid *fluid,
+                                   const sph_vectors *transport, sph_real background,
+                                   const sph_transport_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_fluid_rates_riemann(K, D, *cloud, GIVEN(sph_fluid, fluid), GIVEN(sph_riemann_options, options), \
+                            GIVEN(sph_fluid_out, out))
+sph_index sph_shim_fluid_rates_riemann(int kernel, int dim, const sph_cloud *cloud, const sph_fluid *fluid,
+                                       const sph_riemann_options *options, const sph_fluid_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
 
 #define SWEEP(D) \
     sph_collision_sequential(D, *cloud, GIVEN(sph_collision, collision), GIVEN(sph_vector_out, velocity), \
@@ -1078,10 +1226,16 @@ size_t sph_shim_struct_size(const char *name)
     if (!strcmp(name, "sph_diagonal")) return sizeof(sph_diagonal);
     if (!strcmp(name, "sph_boundary")) return sizeof(sph_boundary);
     if (!strcmp(name, "sph_csr")) return sizeof(sph_csr);
+    if (!strcmp(name, "sph_tait")) return sizeof(sph_tait);
     if (!strcmp(name, "sph_fluid")) return sizeof(sph_fluid);
     if (!strcmp(name, "sph_fluid_out")) return sizeof(sph_fluid_out);
     if (!strcmp(name, "sph_wall")) return sizeof(sph_wall);
     if (!strcmp(name, "sph_wall_out")) return sizeof(sph_wall_out);
+    if (!strcmp(name, "sph_diffusion")) return sizeof(sph_diffusion);
+    if (!strcmp(name, "sph_surface_out")) return sizeof(sph_surface_out);
+    if (!strcmp(name, "sph_shift")) return sizeof(sph_shift);
+    if (!strcmp(name, "sph_transport_out")) return sizeof(sph_transport_out);
+    if (!strcmp(name, "sph_riemann_options")) return sizeof(sph_riemann_options);
     if (!strcmp(name, "sph_collision")) return sizeof(sph_collision);
     if (!strcmp(name, "sph_collision_report")) return sizeof(sph_collision_report);
     if (!strcmp(name, "sph_medium")) return sizeof(sph_medium);

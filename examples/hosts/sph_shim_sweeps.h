@@ -46,6 +46,14 @@ SPH_SHIM_EXPORT sph_real sph_shim_kernel_f_apart(int kernel, int dim, sph_real r
 SPH_SHIM_EXPORT sph_real sph_shim_time_step_sound(sph_real h, sph_real c, sph_real speed);
 SPH_SHIM_EXPORT sph_real sph_shim_time_step_force(sph_real h, sph_real acceleration);
 SPH_SHIM_EXPORT sph_real sph_shim_time_step_viscous_nu(sph_real h, sph_real nu);
+SPH_SHIM_EXPORT sph_real sph_shim_time_step_density_diffusion(int kernel, int dim, sph_real h, sph_real delta,
+                                                              sph_real c);
+SPH_SHIM_EXPORT sph_real sph_shim_shift_strength_skillen(sph_real h, sph_real speed, sph_real dt,
+                                                         sph_real factor);
+SPH_SHIM_EXPORT sph_real sph_shim_shift_strength_sun(sph_real h, sph_real speed, sph_real dt,
+                                                     sph_real length);
+SPH_SHIM_EXPORT sph_real sph_shim_shift_rate_pair(sph_real f_i, sph_real f_j, sph_real along_i,
+                                                  sph_real along_j);
 SPH_SHIM_EXPORT sph_real sph_shim_conductivity_speed(sph_real P_i, sph_real P_j, sph_real per_rho);
 SPH_SHIM_EXPORT sph_real sph_shim_cleaning_sigma(int dim);
 SPH_SHIM_EXPORT sph_real sph_shim_resistivity_switch(sph_real h, sph_real change, sph_real strength);
@@ -174,6 +182,39 @@ SPH_SHIM_EXPORT sph_index sph_shim_velocity_xsph(int kernel, int dim, const sph_
                                                  const sph_vector_out *change);
 SPH_SHIM_EXPORT sph_index sph_shim_wall_adami(int kernel, int dim, const sph_cloud *cloud,
                                               const sph_wall *wall, const sph_wall_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_density_diffusion_molteni(int kernel, int dim, const sph_cloud *cloud,
+                                                             const sph_fluid *fluid,
+                                                             const sph_diffusion *diffusion,
+                                                             const sph_scalar_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_density_diffusion_antuono(int kernel, int dim, const sph_cloud *cloud,
+                                                             const sph_fluid *fluid,
+                                                             const sph_diffusion *diffusion,
+                                                             const sph_scalar_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_density_diffusion_fourtakas(int kernel, int dim, const sph_cloud *cloud,
+                                                               const sph_fluid *fluid,
+                                                               const sph_diffusion *diffusion,
+                                                               const sph_scalar_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_density_diffusion_rows_molteni(int kernel, int dim, const sph_cloud *cloud,
+                                                                  const sph_fluid *fluid,
+                                                                  const sph_diffusion *diffusion,
+                                                                  const sph_rows_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_free_surface(int kernel, int dim, const sph_cloud *cloud,
+                                                const sph_surface_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_free_surface_cone(int dim, const sph_cloud *cloud,
+                                                     const sph_scalars *lambda, const sph_vectors *normal,
+                                                     unsigned char *flag);
+SPH_SHIM_EXPORT sph_index sph_shim_shift_displacement(int kernel, int dim, const sph_cloud *cloud,
+                                                      const sph_shift *shift, const sph_vector_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_shift_rates(int kernel, int dim, const sph_cloud *cloud,
+                                               const sph_fluid *fluid, const sph_vectors *shift,
+                                               const sph_fluid_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_transport_adami(int kernel, int dim, const sph_cloud *cloud,
+                                                   const sph_fluid *fluid, const sph_vectors *transport,
+                                                   sph_real background, const sph_transport_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_fluid_rates_riemann(int kernel, int dim, const sph_cloud *cloud,
+                                                       const sph_fluid *fluid,
+                                                       const sph_riemann_options *options,
+                                                       const sph_fluid_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_collision_sequential(int dim, const sph_cloud *cloud,
                                                         const sph_collision *collision,
                                                         const sph_vector_out *velocity,

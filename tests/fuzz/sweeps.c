@@ -178,6 +178,13 @@ static sph_vec gravity(const arguments *a)
     g.x = a->number[0], g.y = a->number[1], g.z = a->number[2];
     return g;
 }
+static sph_riemann_options riemann(const arguments *a)
+{
+    sph_riemann_options o;
+    o.limiter = a->number[0];
+    o.gravity = gravity(a);
+    return o;
+}
 static sph_index right(const arguments *a) { return (sph_index)(a->what % MOST); } /* end of the domain */
 static sph_wall wall(const arguments *a)
 {
@@ -270,6 +277,7 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_fluid_rates_monaghan(SWEEP, fluid(a), (sph_fluid_out){.acceleration = vector_out(a, 0), .rate = OUT(3), .heating = OUT(4)}), 5, 0, VECTOR) \
     X(sph_fluid_rates_colagrossi(SWEEP, fluid(a), (sph_fluid_out){.acceleration = vector_out(a, 0), .rate = OUT(3), .heating = OUT(4)}), 5, 0, VECTOR) \
     X(sph_fluid_rates_hu_adams(SWEEP, fluid(a), (sph_fluid_out){.acceleration = vector_out(a, 0), .rate = OUT(3), .heating = OUT(4)}), 5, 0, VECTOR) \
+    X(sph_fluid_rates_riemann(SWEEP, fluid(a), riemann(a), (sph_fluid_out){.acceleration = vector_out(a, 0), .rate = OUT(3), .heating = OUT(4)}), 5, 0, VECTOR) \
     X(sph_viscosity_mu_morris(SWEEP, fluid(a), a->s[2], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_viscosity_mu_monaghan_cleary(SWEEP, fluid(a), a->s[2], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_velocity_xsph(SWEEP, fluid(a), a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \

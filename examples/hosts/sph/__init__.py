@@ -844,10 +844,9 @@ class _Call:
             return self.out(label, kind)
         struct = kind()
         for field, of in kind._fields_:
-            if issubclass(of, ctypes.Structure):
-                setattr(struct, field, self.struct(field, of))
-            else:
-                setattr(struct, field, self.simple(field, of))
+            own = f"{label}_{field}"  # where another struct has a member of this name
+            get = self.struct if issubclass(of, ctypes.Structure) else self.simple
+            setattr(struct, field, get(own if own in self.values else field, of))
         return struct
 
     def scalars(self, label, value):

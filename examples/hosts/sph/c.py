@@ -76,6 +76,11 @@ VISCOSITY_MONAGHAN = 1  # sph_viscosity_pair_monaghan: pairs that approach
 VISCOSITY_LINEAR = 2  # sph_viscosity_pair_linear: all pairs
 VISCOSITY_SIGNAL = 3  # sph_viscosity_pair_signal: pairs that approach, by the signal speed
 
+# sph_surface
+SURFACE_INSIDE = 0  # lambda > 0.75
+SURFACE_BAND = 1  # look closer
+SURFACE_SPLASH = 2  # lambda < 0.2: at the surface, or outside
+
 # sph_finding
 FINDING_LIST_SHORT = 0  # every row ends before the support does
 FINDING_LIST_SUPPORT = 1  # every row ends at h: h and the support are mixed up
@@ -310,6 +315,15 @@ class sph_csr(Structure):
     ]
 
 
+class sph_tait(Structure):
+    _fields_ = [
+        ("rho0", c_double),
+        ("c", c_double),
+        ("gamma", c_double),
+        ("p0", c_double),
+    ]
+
+
 class sph_fluid(Structure):
     _fields_ = [
         ("m", sph_scalars),
@@ -352,6 +366,52 @@ class sph_wall_out(Structure):
         ("v", sph_vector_out),
         ("stride", c_size_t),
         ("status", c_void_p),
+    ]
+
+
+class sph_diffusion(Structure):
+    _fields_ = [
+        ("delta", c_double),
+        ("tait", sph_tait),
+        ("share", sph_scalars),
+        ("gradient", sph_vectors),
+        ("gravity", sph_vec),
+    ]
+
+
+class sph_surface_out(Structure):
+    _fields_ = [
+        ("divergence", c_void_p),
+        ("lambda", c_void_p),
+        ("normal", sph_vector_out),
+        ("stride", c_size_t),
+        ("status", c_void_p),
+    ]
+
+
+class sph_shift(Structure):
+    _fields_ = [
+        ("strength", sph_scalars),
+        ("tensile", c_double),
+        ("spacing", c_double),
+        ("lambda", sph_scalars),
+        ("normal", sph_vectors),
+        ("longest", c_double),
+    ]
+
+
+class sph_transport_out(Structure):
+    _fields_ = [
+        ("background", sph_vector_out),
+        ("stress", sph_vector_out),
+        ("status", c_void_p),
+    ]
+
+
+class sph_riemann_options(Structure):
+    _fields_ = [
+        ("limiter", c_double),
+        ("gravity", sph_vec),
     ]
 
 
@@ -524,10 +584,16 @@ STRUCTS = [
     sph_diagonal,
     sph_boundary,
     sph_csr,
+    sph_tait,
     sph_fluid,
     sph_fluid_out,
     sph_wall,
     sph_wall_out,
+    sph_diffusion,
+    sph_surface_out,
+    sph_shift,
+    sph_transport_out,
+    sph_riemann_options,
     sph_collision,
     sph_collision_report,
     sph_medium,
@@ -907,6 +973,108 @@ FUNCTIONS = {
         ("wall", sph_wall),
         ("out", sph_wall_out),
     ]),
+    "time_step_density_diffusion": (c_double, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("h", c_double),
+        ("delta", c_double),
+        ("c", c_double),
+    ]),
+    "density_diffusion_molteni": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("fluid", sph_fluid),
+        ("diffusion", sph_diffusion),
+        ("out", sph_scalar_out),
+    ]),
+    "density_diffusion_antuono": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("fluid", sph_fluid),
+        ("diffusion", sph_diffusion),
+        ("out", sph_scalar_out),
+    ]),
+    "density_diffusion_fourtakas": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("fluid", sph_fluid),
+        ("diffusion", sph_diffusion),
+        ("out", sph_scalar_out),
+    ]),
+    "density_diffusion_rows_molteni": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("fluid", sph_fluid),
+        ("diffusion", sph_diffusion),
+        ("out", sph_rows_out),
+    ]),
+    "free_surface": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("out", sph_surface_out),
+    ]),
+    "free_surface_cone": (c_int32, [
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("lambda", sph_scalars),
+        ("normal", sph_vectors),
+        ("flag", (c_ubyte, False)),
+    ]),
+    "shift_strength_skillen": (c_double, [
+        ("h", c_double),
+        ("speed", c_double),
+        ("dt", c_double),
+        ("factor", c_double),
+    ]),
+    "shift_strength_sun": (c_double, [
+        ("h", c_double),
+        ("speed", c_double),
+        ("dt", c_double),
+        ("length", c_double),
+    ]),
+    "shift_rate_pair": (c_double, [
+        ("f_i", c_double),
+        ("f_j", c_double),
+        ("along_i", c_double),
+        ("along_j", c_double),
+    ]),
+    "shift_displacement": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("shift", sph_shift),
+        ("out", sph_vector_out),
+    ]),
+    "shift_rates": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("fluid", sph_fluid),
+        ("shift", sph_vectors),
+        ("out", sph_fluid_out),
+    ]),
+    "transport_adami": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("fluid", sph_fluid),
+        ("transport", sph_vectors),
+        ("background", c_double),
+        ("out", sph_transport_out),
+    ]),
+    "fluid_rates_riemann": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("fluid", sph_fluid),
+        ("options", sph_riemann_options),
+        ("out", sph_fluid_out),
+    ]),
     "collision_sequential": (c_int32, [
         ("dim", c_int),
         ("cloud", sph_cloud),
@@ -1154,6 +1322,9 @@ __all__ = [
     "VISCOSITY_MONAGHAN",
     "VISCOSITY_LINEAR",
     "VISCOSITY_SIGNAL",
+    "SURFACE_INSIDE",
+    "SURFACE_BAND",
+    "SURFACE_SPLASH",
     "FINDING_LIST_SHORT",
     "FINDING_LIST_SUPPORT",
     "FINDING_LIST_HALF",

@@ -851,6 +851,353 @@ class Operators:
         """
         return self._call("wall_adami", locals())
 
+    def density_diffusion_molteni(
+        self,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+        delta: float = 0.0,
+        rho0: float = 0.0,
+        tait_c: float = 0.0,
+        gamma: float = 0.0,
+        p0: float = 0.0,
+        share: Scalars = None,
+        gradient: Vectors = None,
+        gravity: Sequence[float] = (),
+    ) -> Array:
+        """sph_density_diffusion_molteni: density rate with density diffusion
+
+        drho_i/dt = rho_i sum_j (m_j / rho_j) v_ij . grad_i W_ij + D_i: the density rate of the liquid with
+        the density diffusion of Molteni & Colagrossi. Of fluid, the members m, rho and v are read; where v is
+        null, the answer is D_i alone. Take the new velocities, as the order of a step in the chapter of
+        fluids says. A pair uses (h_i + h_j) / 2: lists by SPH_MEAN, or by any criterion if all particles have
+        the same h. D      is delta c h times sph_laplacian_brookshaw of the density, if all have the same h.
+        It conserves sum_i V_i rho_i to round-off, V_i = m_i / rho_i, and is dissipative: sum_i V_i rho_i D_i
+        <= 0. It is 0 for constants only: it takes the density of a column at rest for noise. Across a jump of
+        rho0 diffuse rho / rho0 instead, or give the other fluid the share 0. Where the sum overflows, the
+        result is 0 and SPH_NOT_FINITE. Returns the number of these targets, or a negative sph_error. Sources
+        stand at the head of the chapter.
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        delta: its strength; 0 means the usual 0.1, a negative number none
+        share: A pair has the factor share_i share_j: 1 for the liquid, 0 for walls and other fluids. Null:
+        all take part.
+        gradient: of the density, from sph_gradient_cspm: antuono only
+        gravity: fourtakas only
+        """
+        return self._call("density_diffusion_molteni", locals())
+
+    def density_diffusion_antuono(
+        self,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+        delta: float = 0.0,
+        rho0: float = 0.0,
+        tait_c: float = 0.0,
+        gamma: float = 0.0,
+        p0: float = 0.0,
+        share: Scalars = None,
+        gradient: Vectors = None,
+        gravity: Sequence[float] = (),
+    ) -> Array:
+        """sph_density_diffusion_antuono: delta-SPH
+
+        The same with the density diffusion of Antuono et al. (delta-SPH): D = 0 to round-off for a linear
+        density at any particle, also at a boundary, if diffusion.gradient comes from sph_gradient_cspm.
+
+        (What is the same: see density_diffusion_molteni.)
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        delta: its strength; 0 means the usual 0.1, a negative number none
+        share: A pair has the factor share_i share_j: 1 for the liquid, 0 for walls and other fluids. Null:
+        all take part.
+        gradient: of the density, from sph_gradient_cspm: antuono only
+        gravity: fourtakas only
+        """
+        return self._call("density_diffusion_antuono", locals())
+
+    def density_diffusion_fourtakas(
+        self,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+        delta: float = 0.0,
+        rho0: float = 0.0,
+        tait_c: float = 0.0,
+        gamma: float = 0.0,
+        p0: float = 0.0,
+        share: Scalars = None,
+        gradient: Vectors = None,
+        gravity: Sequence[float] = (),
+    ) -> Array:
+        """sph_density_diffusion_fourtakas.
+
+        The same with the density diffusion of Fourtakas et al.: D = 0 to round-off for a density of the slope
+        rho0 gravity / c^2 (sph_density_slope) at any particle.
+
+        (What is the same: see density_diffusion_molteni.)
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        delta: its strength; 0 means the usual 0.1, a negative number none
+        share: A pair has the factor share_i share_j: 1 for the liquid, 0 for walls and other fluids. Null:
+        all take part.
+        gradient: of the density, from sph_gradient_cspm: antuono only
+        gravity: fourtakas only
+        """
+        return self._call("density_diffusion_fourtakas", locals())
+
+    def density_diffusion_rows_molteni(
+        self,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+        delta: float = 0.0,
+        rho0: float = 0.0,
+        tait_c: float = 0.0,
+        gamma: float = 0.0,
+        p0: float = 0.0,
+        share: Scalars = None,
+        gradient: Vectors = None,
+        gravity: Sequence[float] = (),
+    ) -> Any:
+        """sph_density_diffusion_rows_molteni.
+
+        The D of Molteni & Colagrossi as rows: D_i = sum_p row[p] (rho_j - rho_i), row[p] >= 0, factor 1 and
+        conditioning 1. The rates of sph_density_diffusion_molteni without v agree to round-off. A row that
+        overflows is 0, with SPH_NOT_FINITE.
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        delta: its strength; 0 means the usual 0.1, a negative number none
+        share: A pair has the factor share_i share_j: 1 for the liquid, 0 for walls and other fluids. Null:
+        all take part.
+        gradient: of the density, from sph_gradient_cspm: antuono only
+        gravity: fourtakas only
+        """
+        return self._call("density_diffusion_rows_molteni", locals())
+
+    def free_surface(self) -> Any:
+        """sph_free_surface: div r, lambda, normal
+
+        div r, lambda and the normal of the targets, in one pass. A target needs neighbours as for
+        sph_gradient_cspm. Else it is SPH_TOO_FEW or SPH_SINGULAR, with the normal 0; div r and lambda are
+        computed (without neighbours they are 0). The normal is also 0 where no side is emptier than another.
+        Its error on a disc of particles that are moved by up to 0.3 spacings is 8 degrees for h = 1.33
+        spacings, and 3 degrees for h = 2. Returns the number of targets that are not SPH_OK, or a negative
+        sph_error.
+        """
+        return self._call("free_surface", locals())
+
+    def free_surface_cone(self, lambda: Scalars, normal: Vectors) -> Any:
+        """sph_free_surface_cone: which particles are the surface
+
+        flag[i] = 1 for the targets at the surface, else 0, from the lambda and the normals of
+        sph_free_surface. Only the band of sph_surface_of is scanned, until a neighbour covers the target
+        (sph_surface_covers). In the band, a target without a normal is at the surface. h is that of the
+        target; lists must hold every source with r < 2 h. Returns the number of targets at the surface, or a
+        negative sph_error.
+        """
+        return self._call("free_surface_cone", locals())
+
+    def shift_displacement(
+        self,
+        strength: Scalars = None,
+        tensile: float = 0.0,
+        spacing: float = 0.0,
+        lambda: Scalars = None,
+        normal: Vectors = None,
+        longest: float = 0.0,
+    ) -> Array:
+        """sph_shift_displacement: keeps particles even
+
+        The shift dx_i = -strength_i G_i of the targets, less what the surface forbids, and no longer than
+        `longest`. The host adds it to the positions; for a velocity of shifting it divides by dt (Sun et al.
+        2019: longest = dt v_max / 2). A pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). With the same strength
+        for all, no surface and no limit, sum_i V_i dx_i = 0 to round-off. What it costs stands above. Returns
+        the number of targets whose shift overflowed (it is 0 then), or a negative sph_error.
+
+        strength: an area, of each particle or of all. There is no default
+        tensile: R; 0: no such term
+        spacing: dx / h, of the particles as they should lie; is read if R is not 0
+        lambda: of sph_free_surface. Null: there is no free surface
+        normal: of sph_free_surface; is read with lambda
+        longest: the longest shift, a length; 0 means 0.2 h, a negative number no limit
+        """
+        return self._call("shift_displacement", locals())
+
+    def shift_rates(
+        self,
+        shift: Vectors,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+    ) -> Any:
+        """sph_shift_rates: what particles that are shifted carry
+
+        What particles that move with v + u instead of v, where u is a velocity of shifting, add to their
+        acceleration and density rate: u . grad v and u . grad rho, by sph_shift_rate_pair with V_j = m_j /
+        rho_j. Sun et al. 2019. Of fluid, the members m, rho and v are read; out.heating is not written. A
+        pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). For a constant f the rate is 2 f u_i . sum_j V_j grad_i
+        W_ij: not 0 in disorder, so that it depends on the frame, and momentum is not conserved. (sum_i V_i of
+        the part div(rho u) is 0 to round-off.) u . grad f with sph_gradient_cspm is exact for linear f
+        instead, and conserves nothing. Returns the number of targets of which a result overflowed (it is 0
+        then), or a negative sph_error.
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        """
+        return self._call("shift_rates", locals())
+
+    def transport_adami(
+        self,
+        transport: Vectors,
+        background: float,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+    ) -> Any:
+        """sph_transport_adami.
+
+        The two accelerations of a scheme whose particles move with a transport velocity u, which is nearly v
+        but keeps the particles even: background  -(p_b / m_i) sum_j (V_i^2 + V_j^2) grad_i W_ij, from the
+        pressure `background` = p_b, stress      (1 / m_i) sum_j (V_i^2 + V_j^2) (A_i + A_j) / 2 . grad_i
+        W_ij,   A = rho v (u - v)^T. A step: v += dt (a + stress) with the other accelerations a, u = v + dt /
+        2 background (of a half step), x += dt u, and rho from sph_density_summation or sph_density_number.
+        p_b = rho0 c^2 is usual, and the pressure in a is then close to 0 (Tait with p0 = 0). For flows
+        without a free surface only: a background pressure throws particles out of one. Both conserve linear
+        momentum to round-off. Adami, Hu & Adams 2013, JCP 241, 292. Of fluid, the members m, rho and v are
+        read. A pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). Pairs closer than 1e-12 h exert no force on
+        each other. Returns the number of targets of which a result overflowed (it is 0 then), or a negative
+        sph_error.
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        """
+        return self._call("transport_adami", locals())
+
+    def fluid_rates_riemann(
+        self,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+        limiter: float = 0.0,
+        gravity: Sequence[float] = (),
+    ) -> Any:
+        """sph_fluid_rates_riemann: fluid rates with the dissipation of a Riemann solver
+
+        Acceleration, density rate and viscous heating of the targets by the Riemann solver, in one pass: the
+        sums of sph_fluid_pair_riemann. Zhang, Hu & Adams 2017, JCP 335, 605. Of fluid, the members m, rho, p,
+        c and v are read; c is positive. Neither viscosity nor alpha, beta and eta are read: the solver has a
+        dissipation of its own. Physical viscosity is added by sph_viscosity_mu_morris. A pair uses (h_i +
+        h_j) / 2 (lists by SPH_MEAN). It conserves momentum to round-off, also where the density jumps.
+        Without gravity in options, energy never grows; give gravity where a fluid stands or pours under it.
+        Gravity itself is not contained in the acceleration. Wall particles are sources like all others, with
+        pressure and velocity from sph_wall_adami. out.rate, out.heating and out.status may be null. out.rate
+        is that of the velocities given: for the order of a step that the chapter above tells, call it again
+        with the new velocities. Returns the number of targets of which a result overflowed (it is 0 then), or
+        a negative sph_error: SPH_ERROR_VALUE also for masses, densities and sound speeds that are not
+        positive.
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        """
+        return self._call("fluid_rates_riemann", locals())
+
     def collision_sequential(
         self,
         velocity: Vectors,
@@ -1472,6 +1819,47 @@ def time_step_viscous_nu(h: float, nu: float) -> float:
     return _number("time_step_viscous_nu", h, nu)
 
 
+def time_step_density_diffusion(kernel: Union[str, int], dim: int, h: float, delta: float, c: float) -> float:
+    """sph_time_step_density_diffusion.
+
+    The longest step in which density diffusion makes no new extreme: h / (S delta c), with S = h^2 sum_j 2
+    V_j |F_ij| in the limit of many neighbours. In 2D S = 4 pi h^2 W(0), 7 for the C2 kernel of Wendland.
+    Twice that step is the limit of stability. With delta = 0.1 it is longer than that of sound
+    (sph_time_step_sound). Where nothing limits the step the answer is 1/SPHI_TINY. Needs h > 0, delta >= 0
+    and c >= 0.
+    """
+    return _number("time_step_density_diffusion", kernel, dim, h, delta, c)
+
+
+def shift_strength_skillen(h: float, speed: float, dt: float, factor: float) -> float:
+    """sph_shift_strength_skillen.
+
+    A h |v| dt of Skillen et al.; speed = |v|, factor = A, 1 ... 6.
+    """
+    return _number("shift_strength_skillen", h, speed, dt, factor)
+
+
+def shift_strength_sun(h: float, speed: float, dt: float, length: float) -> float:
+    """sph_shift_strength_sun.
+
+    dt v_max (2 h)^2 / (2 length) of Sun et al.; speed = v_max, the largest speed of the flow. In the paper
+    length = h; TrixiParticles takes 2 dx, because the shift then scales with the spacing. At h = 2 dx they
+    are the same. Needs length > 0.
+    """
+    return _number("shift_strength_sun", h, speed, dt, length)
+
+
+def shift_rate_pair(f_i: float, f_j: float, along_i: float, along_j: float) -> float:
+    """sph_shift_rate_pair.
+
+    What j adds to the rate of a field f that is seen from a particle with the velocity v + u instead of v, u
+    being the velocity of shifting: f_i (u_i - u_j) . V_j grad_i W_ij + (f_i u_i + f_j u_j) . V_j grad_i W_ij,
+    which are -f div u and div(f u): their sum is u . grad f. along_i = V_j u_i . grad_i W_ij, and along_j the
+    same for u_j. Sun et al. 2019.
+    """
+    return _number("shift_rate_pair", f_i, f_j, along_i, along_j)
+
+
 def conductivity_speed(P_i: float, P_j: float, per_rho: float) -> float:
     """sph_conductivity_speed.
 
@@ -1564,6 +1952,10 @@ __all__ = [
     "time_step_sound",
     "time_step_force",
     "time_step_viscous_nu",
+    "time_step_density_diffusion",
+    "shift_strength_skillen",
+    "shift_strength_sun",
+    "shift_rate_pair",
     "conductivity_speed",
     "cleaning_sigma",
     "resistivity_switch",
