@@ -2845,7 +2845,7 @@ SPH_FN int sph_solve_fit(int dim, const sph_fit *s, sph_real h, sph_fit_rows *ro
     sph_real scale[4], y[4 * 4];
     sphi_lu lu;
     int i, j;
-    SPH_ASSERT(h > SPH_R(0));
+    SPH_ASSERT(SPHI_IS_DIM(dim) && h > SPH_R(0));
     /* The transposed matrix: a row of the fit is a column of it. */
     lu.a[0][0] = s->w1;
     lu.a[1][0] = s->wx;
