@@ -96,22 +96,33 @@
  *   Laplacians     sph_laplacian_weight_brookshaw
  *                  sph_laplacian_brookshaw(k, dim, cloud, f, out)    sum_j 2 V_j (f_i - f_j) F_ij
  *                  sph_laplacian_rows_brookshaw(k, dim, cloud, out)
- *   second         sph_test_weights_cspm  sph_test_weights_wls  sph_moments_zero  sph_moments_add
- *   derivatives    sph_moments_add_value  sph_jet_laplacian  sph_solve_cspm  sph_solve_block
+ *   second         sph_test_weights_cspm  sph_test_weights_fatehi_manzari  sph_test_weights_wls
+ *   derivatives    sph_moments_zero  sph_moments_add  sph_moments_add_value  sph_jet_laplacian
+ *                  sph_solve_cspm  sph_solve_block
  *                  sph_coefficients_weight  sph_coefficients_cspm  sph_coefficients_block
  *                  sph_derivatives_cspm(k, dim, cloud, f, options, out)   gradient, Hessian, Laplacian
  *                  sph_derivatives_icspm(k, dim, cloud, f, options, out)  exact for quadratics
+ *                  sph_derivatives_fatehi_manzari(k, dim, cloud, f, options, out)  likewise; keeps signs
  *                  sph_derivatives_wls(k, dim, cloud, f, options, out)    likewise, by least squares: robust
  *                  sph_derivatives_rows_cspm(k, dim, cloud, d, out)  rows of a combination d of derivatives
  *                  sph_derivatives_rows_icspm(k, dim, cloud, d, out) with the factor kappa
- *                  sph_derivatives_rows_wls(k, dim, cloud, d, out)
+ *                  sph_derivatives_rows_fatehi_manzari  sph_derivatives_rows_wls
  *                  sph_boundary_weight_bim
  *                  sph_second_derivative_bim(k, cloud, f, left, right, out)   1D, with boundary integrals
  *                  sph_second_derivative_rows_bim(k, cloud, left, right, out)
+ *   linear fits    (values and gradients at probes, mirror points, particles of another code)
+ *                  sph_test_weights_liu  sph_fit_zero  sph_fit_add  sph_fit_add_value  sph_solve_fit
+ *                  sph_fit_shepard  sph_fit_weight  sph_fit_value  sph_fit_extend
+ *                  sph_interpolate_mls(k, dim, targets_of, sources, f, options, out)
+ *                      moving least squares: exact for linear fields
+ *                  sph_interpolate_liu(k, dim, targets_of, sources, f, options, out)    of mDBC walls
+ *                  sph_interpolate_rows_mls(k, dim, targets_of, sources, options, out)  the same as rows
+ *                  sph_interpolate_rows_liu
  *   elliptic       (div(m grad u), m a number of each particle)
- *   operator       sph_elliptic_gradient_pair  sph_elliptic_gradient_vector  sph_elliptic_projection
- *                  sph_mobility_pair  sph_elliptic_weight  sph_elliptic_moments_radial
- *                  sph_elliptic_inverse_times  sph_elliptic_invert  sph_sym_eigenvalues
+ *   operator       sph_elliptic_gradient_pair  sph_elliptic_gradient_pair_basic_degiuli_ban
+ *                  sph_elliptic_gradient_vector  sph_elliptic_projection  sph_mobility_pair
+ *                  sph_elliptic_weight  sph_elliptic_moments_radial  sph_elliptic_inverse_times
+ *                  sph_elliptic_invert  sph_sym_eigenvalues
  *                  sph_elliptic_brookshaw(k, dim, cloud, m, options, u, out)
  *                      sum_j V_j (m_i + m_j) (u_i - u_j) F_ij
  *                  sph_elliptic_brookshaw_corrected(k, dim, cloud, m, options, u, out)   times tr C / dim
@@ -119,9 +130,12 @@
  *                      exact for linear u and constant m
  *                  sph_elliptic_msph(k, dim, cloud, m, options, u, out)
  *                      the same numbers for radial gradients
+ *                  sph_elliptic_basic_degiuli_ban(k, dim, cloud, m, options, u, out)
+ *                      without derivatives of the kernel; exact for |x|^2
  *                  sph_elliptic_rows_brookshaw(k, dim, cloud, m, options, out)
  *                      rows (meshless transmissibilities)
  *                  sph_elliptic_rows_brookshaw_corrected  sph_elliptic_rows_schwaiger  sph_elliptic_rows_msph
+ *                  sph_elliptic_rows_basic_degiuli_ban
  *                  sph_elliptic_diagnose(k, dim, cloud, options, out)
  *                      signs, moments, free-surface indicator
  *                  sph_elliptic_rows_anisotropic(k, dim, cloud, mobility, out)  div(M grad u), M diagonal
@@ -136,11 +150,12 @@
  *   fluid          sph_pressure_pair_monaghan  sph_pressure_pair_colagrossi  sph_pressure_pair_hu_adams
  *                  sph_viscosity_pair_monaghan  sph_viscosity_pair_linear  sph_signal_speed
  *                  sph_viscosity_signal  sph_viscosity_pair_signal  sph_viscosity_mu_pair_morris
- *                  sph_viscosity_mu_pair_monaghan_cleary  sph_kernel_f_apart  sph_density_rate_pair_mass
- *                  sph_density_rate_pair_volume
+ *                  sph_viscosity_mu_pair_monaghan_cleary  sph_viscosity_mu_pair_espanol_revenga
+ *                  sph_kernel_f_apart  sph_density_rate_pair_mass  sph_density_rate_pair_volume
  *                  sph_fluid_pair_monaghan  sph_fluid_pair_colagrossi  sph_fluid_pair_hu_adams
  *                  sph_velocity_pair_xsph  sph_wall_pair_adami  sph_wall_pressure  sph_wall_fluid_velocity
- *                  sph_wall_velocity_no_slip  sph_wall_velocity_free_slip
+ *                  sph_wall_row_weight  sph_wall_mirror  sph_wall_velocity_no_slip
+ *                  sph_wall_velocity_free_slip
  *                  sph_pressure_tait  sph_density_tait  sph_sound_speed_tait
  *                  sph_time_step_sound  sph_time_step_force  sph_time_step_viscous_nu
  *                  sph_density_number(k, dim, cloud, m, out)         m_i sum_j W_ij
@@ -148,8 +163,14 @@
  *                  sph_fluid_rates_colagrossi, sph_fluid_rates_hu_adams   where the density jumps
  *                  sph_viscosity_mu_morris(k, dim, cloud, fluid, mu, acceleration)   physical viscosity
  *                  sph_viscosity_mu_monaghan_cleary(k, dim, cloud, fluid, mu, acceleration)
+ *                  sph_viscosity_mu_espanol_revenga(k, dim, cloud, fluid, mu, acceleration)
+ *                      with shear and bulk viscosity
  *                  sph_velocity_xsph(k, dim, cloud, fluid, epsilon, change)
  *                  sph_wall_adami(k, dim, cloud, wall, out)          pressure and velocity of wall particles
+ *                  sph_wall_rows_adami(k, dim, cloud, wall, out, source)
+ *                      the same pressure as rows of a matrix
+ *                  sph_wall_rows_eliminate(dim, cloud, wall, rows, source)
+ *                      rows of the fluid without unknowns of the wall
  *   liquids        sph_density_difference_molteni  sph_density_difference_antuono
  *                  sph_density_difference_fourtakas  sph_density_slope  sph_density_diffusion_weight
  *                  sph_time_step_density_diffusion
@@ -891,6 +912,13 @@ SPH_FN sph_cloud sph_cloud_checked(int dim, sph_cloud cloud)
         error = sphi_check_finite("volume", cloud.volume, cloud.points.n, SPH_ERROR_VALUE);
     cloud.checked = error < 0 ? error : !error;
     return cloud;
+}
+
+/* Whether a state means that there is no answer. */
+SPH_FN int sphi_unanswered(int state)
+{
+    return state == SPH_TOO_FEW || state == SPH_SINGULAR || state == SPH_NOT_AVAILABLE ||
+           state == SPH_NOT_FINITE;
 }
 
 /* The reason why a system was singular: SPH_TOO_FEW if fewer than `needed` neighbours are inside the support
@@ -1687,8 +1715,8 @@ SPH_FN sph_index sph_laplacian_rows_brookshaw(sph_kernel k, int dim, sph_cloud c
 
 /* ================================================================ second derivatives
  *
- * One system serves CSPM, ICSPM and weighted least squares (WLS). With e = (x_j - x_i) / h = -x_ij / h and
- * df = f_j - f_i, Taylor's series
+ * One system serves CSPM, ICSPM, Fatehi & Manzari and weighted least squares (WLS). With e = (x_j - x_i) / h
+ * = -x_ij / h and df = f_j - f_i, Taylor's series
  *     df = e . (h grad f) + e_a e_b (h^2/2 d_a d_b f) + ...
  * is summed against dim test functions g e_a, and dim (dim + 1) / 2 test functions w e_a e_b with a <= b:
  *     [ K  B ] [ h grad f ]   [ sum g e df   ]        K = sum g e e,  B = sum g e ee,
@@ -1699,24 +1727,30 @@ SPH_FN sph_index sph_laplacian_rows_brookshaw(sph_kernel k, int dim, sph_cloud c
  *           In 1D these are (3.5) and (5.15) of the ICSPM paper.
  *   ICSPM   The same test functions, but both rows are solved together. In 1D this is (5.17) of the ICSPM
  *           paper: hess = hess_CSPM / kappa with kappa = 1 - A B / (K M).
+ *   Fatehi-Manzari   g = -V_j F_ij and w = -V_j F_ij / r^2, solved as ICSPM. Their Laplacian is the trace of
+ *           this Hessian: e (x) grad W (f_i - f_j) / r, which they sum, is F x_ij x_ij / r^2 (f_i - f_j).
  *   WLS     g = w = V_j W_ij. The system is that of a weighted least-squares fit of a quadratic (moving least
  *           squares at the particle).
  *
- * Sources. CSPM: Chen, Beraun & Carney 1999, IJNME 46, 231. "ICSPM paper": Korzilius, Schilders & Anthonissen
- * 2017, J. Appl. Math. Phys. 5, 168, in 1D. In more dimensions ICSPM is its natural extension with the matrix
- * kappa = 1 - M^-1 A K^-1 B, which is exactly the kappa of the paper in 1D.
+ * Sources. CSPM: Chen, Beraun & Carney 1999, IJNME 46, 231. Fatehi & Manzari 2011, Comput. Math. Appl. 61,
+ * 482; that their scheme is this system is shown in tests/test_laplacians.c. "ICSPM paper": Korzilius,
+ * Schilders & Anthonissen 2017, J. Appl. Math. Phys. 5, 168, in 1D. In more dimensions ICSPM is its natural
+ * extension with the matrix kappa = 1 - M^-1 A K^-1 B, which is exactly the kappa of the paper in 1D.
  * Misprints of the ICSPM paper that are corrected here: (4.14) and (5.17) print kappa with a plus sign; the
  * list under (5.17) prints W instead of W' in <f'>; section II prints dW/dy, which is -dW/dx.
  * tests/test_derivatives.c shows that the printed forms fail.
  *
  * Exact for   CSPM gradient: linear fields. CSPM Hessian: quadratic fields, in the interior of symmetric
- *             clouds only. ICSPM and WLS: quadratic fields, for any positions and volumes.
+ *             clouds only. The others: quadratic fields, for any positions and volumes.
  * Errors      In the interior of a regular cloud: all O(h^2). At a boundary: CSPM gradient O(h) and Hessian
- *             O(1), ICSPM and WLS gradient O(h^2) and Hessian O(h).
+ *             O(1), the others gradient O(h^2) and Hessian O(h). In disorder the Hessian of CSPM has O(1),
+ *             that of the others O(h).
+ * Signs       The weights w = V_j W_ij / r^2 make most rows of CSPM and ICSPM non-monotone in disorder; those
+ *             of Fatehi-Manzari and WLS are monotone in the interior (tests/test_laplacians.c has figures).
  * kappa       det(kappa) is 1 in the interior and negative for one-sided neighbours, so that it is 0
  *             somewhere in between: in 1D, with wendland-c4-1d, at 0.30 h from the end of the domain. There
- *             ICSPM amplifies rounding and truncation errors. Its conditioning shows this; WLS, whose matrix
- *             is definite, is the fallback.
+ *             ICSPM amplifies rounding and truncation errors, and so does Fatehi-Manzari at its own such
+ *             places. Their conditioning shows this; WLS, whose matrix is definite, is the fallback.
  */
 
 /* The weights g and w of the test functions. */
@@ -1733,11 +1767,29 @@ SPH_FN sph_test_weights sph_test_weights_cspm(sph_kernel k, int dim, sph_real q,
     t.w = V_j * sphi_over_q(sph_kernel_shape(k, dim, q), q * q);
     return t;
 }
+/* The weights of Fatehi & Manzari, g = -V_j F_ij and w = -V_j F_ij / r^2, likewise. At q = 0, w is 0. Needs
+   q >= 0. */
+SPH_FN sph_test_weights sph_test_weights_fatehi_manzari(sph_kernel k, int dim, sph_real q, sph_real V_j)
+{
+    sph_test_weights t;
+    t.g = -V_j * sph_kernel_shape_f(k, dim, q);
+    t.w = sphi_over_q(t.g, q * q);
+    return t;
+}
 /* The weights of WLS, g = w = V_j W_ij, likewise. Needs q >= 0. */
 SPH_FN sph_test_weights sph_test_weights_wls(sph_kernel k, int dim, sph_real q, sph_real V_j)
 {
     sph_test_weights t;
     t.g = t.w = V_j * sph_kernel_shape(k, dim, q);
+    return t;
+}
+/* The weights of Liu & Liu for a linear fit (see linear fits), g = -V_j F_ij and w = V_j W_ij, likewise.
+   Needs q >= 0. */
+SPH_FN sph_test_weights sph_test_weights_liu(sph_kernel k, int dim, sph_real q, sph_real V_j)
+{
+    sph_test_weights t;
+    t.g = -V_j * sph_kernel_shape_f(k, dim, q);
+    t.w = V_j * sph_kernel_shape(k, dim, q);
     return t;
 }
 
@@ -1794,7 +1846,8 @@ SPH_FN sph_moments sph_moments_zero(void)
 #define SPHI_ADD(from, name, formula) \
     if (dim >= from) s->name += formula;
 /* Adds what a neighbour contributes to the matrix: g e e, g e ee, w ee e and w ee ee. e is (x_j - x_i) / h_i;
-   t comes from sph_test_weights_cspm (for CSPM and ICSPM) or sph_test_weights_wls. */
+   t comes from sph_test_weights_cspm (for CSPM and ICSPM), sph_test_weights_fatehi_manzari or
+   sph_test_weights_wls. */
 SPH_FN void sph_moments_add(int dim, sph_moments *s, sph_vec e, sph_test_weights t)
 {
     const sph_real x = e.x, y = e.y, z = e.z, g = t.g, w = t.w;
@@ -2077,10 +2130,10 @@ SPH_FN int sph_solve_cspm(int dim, const sph_moments *m, sph_real h, sph_jet *je
     return SPH_OK;
 }
 
-/* Gradient and Hessian by ICSPM or WLS: the solution of the whole system, whose moments decide which of the
-   two it is. Returns SPH_OK, or SPH_SINGULAR and then writes nothing. *conditioning is kappa in 1D, and
-   sign(det kappa) / |kappa^-1| in general: ICSPM multiplies the errors of CSPM by 1 / |conditioning|. The
-   pointer may be null. */
+/* Gradient and Hessian by ICSPM, Fatehi-Manzari or WLS: the solution of the whole system, whose moments
+   decide which of them it is. Returns SPH_OK, or SPH_SINGULAR and then writes nothing. *conditioning is kappa
+   in 1D, and sign(det kappa) / |kappa^-1| in general: ICSPM multiplies the errors of CSPM by 1 /
+   |conditioning|. The pointer may be null. */
 SPH_FN int sph_solve_block(int dim, const sph_moments *m, sph_real h, sph_jet *jet, sph_real *conditioning)
 {
     const int nd = sphi_dimensions(dim), nh = sphi_unknowns(dim);
@@ -2173,12 +2226,12 @@ SPH_FN int sph_coefficients_cspm(int dim, const sph_moments *m, sph_real h, sph_
     return SPH_OK;
 }
 
-/* The row of the operator op by ICSPM (icspm = 1) or WLS (icspm = 0). Returns SPH_OK, or SPH_SINGULAR and
-   then writes nothing. *conditioning is that of sph_solve_block.
-   An ICSPM row is never divided by kappa. It is scaled to the size of the CSPM row, and the factor goes to
-   the right-hand side. In 1D the row is the CSPM row and the factor is kappa, as published. In general the
-   factor is such that |M^T second| is the same as in CSPM. So row and factor stay finite where kappa is
-   singular: the factor is 0 there, and the row gives 0 for all quadratic fields, as it must. */
+/* The row of the operator op by ICSPM or Fatehi-Manzari (icspm = 1), or by WLS (icspm = 0). Returns SPH_OK,
+   or SPH_SINGULAR and then writes nothing. *conditioning is that of sph_solve_block. An ICSPM row is never
+   divided by kappa. It is scaled to the size of the CSPM row, and the factor goes to the right-hand side. In
+   1D the row is the CSPM row and the factor is kappa, as published. In general the factor is such that |M^T
+   second| is the same as in CSPM. So row and factor stay finite where kappa is singular: the factor is 0
+   there, and the row gives 0 for all quadratic fields, as it must. */
 SPH_FN int sph_coefficients_block(int dim, int icspm, const sph_moments *m, sph_real h, sph_jet op,
                                   sph_coefficients *c, sph_real *conditioning)
 {
@@ -2236,9 +2289,11 @@ SPH_FN int sphi_jet_finite(int dim, sph_jet j)
 }
 /* -------- second derivatives: sweeps */
 
-enum { SPHI_CSPM, SPHI_ICSPM, SPHI_WLS };
+enum { SPHI_CSPM, SPHI_ICSPM, SPHI_FATEHI_MANZARI, SPHI_WLS, SPHI_LIU };
 SPH_FN sph_test_weights sphi_test_weights(int method, sph_kernel k, int dim, sph_real q, sph_real V_j)
 {
+    if (method == SPHI_FATEHI_MANZARI) return sph_test_weights_fatehi_manzari(k, dim, q, V_j);
+    if (method == SPHI_LIU) return sph_test_weights_liu(k, dim, q, V_j);
     return method == SPHI_WLS ? sph_test_weights_wls(k, dim, q, V_j) : sph_test_weights_cspm(k, dim, q, V_j);
 }
 
@@ -2381,7 +2436,7 @@ SPH_FN int sphi_solve(int method, int dim, const sph_moments *m, sph_real h, sph
 typedef struct sph_derivatives_options {
     /* A target whose |conditioning| is smaller is SPH_ILL_CONDITIONED; >= 0. 0: no target is. */
     sph_real conditioning_min;
-    /* For ICSPM. 1: targets that are singular or ill-conditioned get the values of WLS. */
+    /* For ICSPM and Fatehi-Manzari. 1: targets that are singular or ill-conditioned get the values of WLS. */
     int fallback_wls;
 } sph_derivatives_options;
 
@@ -2390,7 +2445,7 @@ SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_cloud c
 {
     const size_t stride = sphi_stride(out.stride);
     const sph_real conditioning_min = options.conditioning_min;
-    const int fallback_wls = method == SPHI_ICSPM && options.fallback_wls;
+    const int fallback_wls = method != SPHI_CSPM && method != SPHI_WLS && options.fallback_wls;
     const int want_conditioning = out.conditioning || conditioning_min > SPH_R(0);
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, failed = 0;
@@ -2476,6 +2531,22 @@ SPH_FN sph_index sph_derivatives_icspm(sph_kernel k, int dim, sph_cloud cloud, s
     return sphi_derivatives(SPHI_ICSPM, k, dim, cloud, f, options, out);
 }
 
+/* Gradient, Hessian and Laplacian by Fatehi & Manzari 2011, Comput. Math. Appl. 61, 482: with
+   B = -(sum V_j x_ij grad W)^-1 and <grad f> = sum V_j (f_j - f_i) B grad W,
+       <lap f>_i = Bh : sum_j 2 V_j e grad W ((f_i - f_j) / r - e . <grad f>),   e = x_ij / r,
+       Bh : [sum V_j r e e e grad W + (sum V_j e e grad W) . B . (sum V_j x_ij x_ij grad W)] = -1 (unit
+       matrix),
+   computed as the trace of the Hessian of the block system (see the chapter's opening; the paper has the
+   Laplacian only). Exact for quadratic fields. In disordered clouds it is as accurate in the interior as WLS
+   and keeps the signs of the weights, which ICSPM does not; at a boundary single particles come near
+   det(kappa) = 0. conditioning, conditioning_min, fallback_wls and the status are as for ICSPM: with
+   conditioning_min = 0 a particle with a large error there is SPH_OK. */
+SPH_FN sph_index sph_derivatives_fatehi_manzari(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
+                                                sph_derivatives_options options, sph_derivatives_out out)
+{
+    return sphi_derivatives(SPHI_FATEHI_MANZARI, k, dim, cloud, f, options, out);
+}
+
 /* Gradient, Hessian and Laplacian by weighted least squares, the robust sibling of ICSPM. They are exact for
    quadratic fields. Where kernel and volumes are not negative, the matrix is definite wherever the neighbours
    determine a quadratic field, and conditioning, which is that of ICSPM, is in [0, 1]. conditioning_min, and
@@ -2510,7 +2581,7 @@ SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_clo
                      &m);
         state = method == SPHI_CSPM
                     ? sph_coefficients_cspm(dim, &m, h_i, d, &c, out.conditioning ? &conditioning : 0)
-                    : sph_coefficients_block(dim, method == SPHI_ICSPM, &m, h_i, d, &c,
+                    : sph_coefficients_block(dim, method != SPHI_WLS, &m, h_i, d, &c,
                                              out.conditioning ? &conditioning : 0);
         if (state)
             state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i,
@@ -2572,6 +2643,13 @@ SPH_FN sph_index sph_derivatives_rows_icspm(sph_kernel k, int dim, sph_cloud clo
                                             sph_rows_out out)
 {
     return sphi_derivative_rows(SPHI_ICSPM, k, dim, cloud, d, out);
+}
+/* The same by Fatehi & Manzari, exact for quadratic fields, with a factor as for ICSPM: the row of the paper
+   is row[p] / factor[i]. */
+SPH_FN sph_index sph_derivatives_rows_fatehi_manzari(sph_kernel k, int dim, sph_cloud cloud, sph_jet d,
+                                                     sph_rows_out out)
+{
+    return sphi_derivative_rows(SPHI_FATEHI_MANZARI, k, dim, cloud, d, out);
 }
 /* The same by WLS, exact for quadratic fields, with factor 1. */
 SPH_FN sph_index sph_derivatives_rows_wls(sph_kernel k, int dim, sph_cloud cloud, sph_jet d, sph_rows_out out)
@@ -2691,6 +2769,418 @@ SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_cloud cloud, s
     return failed;
 }
 
+/* ================================================================ linear fits
+ *
+ * Value and gradient of a field at points that need not be particles: probes, gauges, mirror points of walls,
+ * new particles, the particles of another code. With e = (x_j - x) / h, from the target x to a source j,
+ *     f_j = f + e . (h grad f) + ...
+ * is summed against the test functions w and g e_a:
+ *     [ sum w        sum w e_b     ] [ f         ]   [ sum w f_j     ]
+ *     [ sum g e_a    sum g e_a e_b ] [ h d_b f   ] = [ sum g e_a f_j ].
+ *   MLS   g = w = V_j W: moving least squares, a weighted fit of a linear field. Definite wherever the
+ *         neighbours determine a linear field. Lancaster & Salkauskas 1981, Math. Comput. 37, 141.
+ *   Liu   w = V_j W and g = -V_j F, that is, the test functions W and grad W. Liu & Liu 2006, Appl. Numer.
+ *         Math. 56, 19. Walls by mirror points (mDBC) use it: English et al. 2022, Comput. Part. Mech. 9,
+ *         911.
+ * Exact for linear fields, with any cloud and volumes, also outside of the cloud; the error is O(h^2). Values
+ * are differences from that of one neighbour, so that a constant is reproduced without rounding.
+ *
+ * The fallback is Shepard's mean sum w f_j / sum w with the gradient 0 (SPH_FELL_BACK): where fewer than
+ * dim + 1 neighbours are inside the support, where they lie on a line or in a plane, or where the
+ * conditioning is below the least that is asked for. Without a neighbour inside the support, all is 0
+ * (SPH_TOO_FEW).
+ *
+ * Targets and sources are two clouds. The lists come from a search with SPH_LIST_FOREIGN:
+ *     sph_query query = sph_query_of(probes, SPH_GATHER, radius, SPH_LIST_FOREIGN);
+ * A source with the volume 0 does not count: so a cloud of fluid and walls is asked for its fluid alone. Both
+ * clouds may be the same points; a list then holds the point itself with SPH_LIST_SELF only.
+ */
+
+/* The sums, as those of the second derivatives. */
+/* clang-format off */
+#define SPHI_SUMS_FIT_W(X) X(1, w1, w) X(1, wx, w * x) X(2, wy, w * y) X(3, wz, w * z)
+#define SPHI_SUMS_FIT_G(X) \
+    X(1, gx, g * x) X(1, gxx, g * x * x) X(2, gy, g * y) X(2, gxy, g * x * y) X(2, gyy, g * y * y) \
+    X(3, gz, g * z) X(3, gxz, g * x * z) X(3, gyz, g * y * z) X(3, gzz, g * z * z)
+#define SPHI_SUMS_FIT_VALUE(X) \
+    X(1, wf, w * df) X(1, gfx, g * df * x) X(2, gfy, g * df * y) X(3, gfz, g * df * z)
+/* clang-format on */
+
+/* The sums of one target: gxy is sum g e_x e_y, and so on. wf, gfx, ... are the right-hand side. */
+typedef struct sph_fit {
+    SPHI_SUMS_FIT_W(SPHI_FIELD)
+    SPHI_SUMS_FIT_G(SPHI_FIELD)
+    SPHI_SUMS_FIT_VALUE(SPHI_FIELD)
+} sph_fit;
+
+/* All sums are 0. */
+SPH_FN sph_fit sph_fit_zero(void)
+{
+    sph_fit s;
+    SPHI_SUMS_FIT_W(SPHI_ZERO)
+    SPHI_SUMS_FIT_G(SPHI_ZERO)
+    SPHI_SUMS_FIT_VALUE(SPHI_ZERO)
+    return s;
+}
+/* Adds what a neighbour contributes to the matrix: w, w e, g e and g e e. e is (x_j - x) / h; t comes from
+   sph_test_weights_wls (for MLS) or sph_test_weights_liu. */
+SPH_FN void sph_fit_add(int dim, sph_fit *s, sph_vec e, sph_test_weights t)
+{
+    const sph_real x = e.x, y = e.y, z = e.z, g = t.g, w = t.w;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
+    SPHI_SUMS_FIT_W(SPHI_ADD)
+    SPHI_SUMS_FIT_G(SPHI_ADD)
+}
+/* Adds what a neighbour contributes to the right-hand side: w df and g e df. df is the value f_j, or its
+   difference from a number that is added to the value of the fit. */
+SPH_FN void sph_fit_add_value(int dim, sph_fit *s, sph_vec e, sph_test_weights t, sph_real df)
+{
+    const sph_real x = e.x, y = e.y, z = e.z, g = t.g, w = t.w;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
+    SPHI_SUMS_FIT_VALUE(SPHI_ADD)
+}
+
+/* The coefficients of a row: the weight of f_j is w level + g linear . e. */
+typedef struct sph_fit_row {
+    sph_real level;
+    sph_vec linear;
+} sph_fit_row;
+/* The rows of the value and of the derivatives d_x f, d_y f, d_z f. Those beyond dim are 0. */
+typedef struct sph_fit_rows {
+    sph_fit_row value, x, y, z;
+} sph_fit_rows;
+
+SPH_FN sph_fit_row sphi_fit_row(int dim, const sph_real *scale, const sph_real *y, int columns, sph_real by)
+{
+    sph_fit_row r;
+    r.level = by * scale[0] * y[0];
+    r.linear.x = by * scale[1] * y[columns];
+    r.linear.y = dim > 1 ? by * scale[2] * y[2 * columns] : SPH_R(0);
+    r.linear.z = dim > 2 ? by * scale[3] * y[3 * columns] : SPH_R(0);
+    return r;
+}
+/* The rows of a linear fit. Returns SPH_OK, or SPH_SINGULAR and then writes nothing. *conditioning is the
+   smallest pivot of the matrix scaled to a unit diagonal (1 good, 0 singular); the pointer may be null. */
+SPH_FN int sph_solve_fit(int dim, const sph_fit *s, sph_real h, sph_fit_rows *rows, sph_real *conditioning)
+{
+    const int n = sphi_dimensions(dim) + 1;
+    sph_real scale[4], y[4 * 4];
+    sphi_lu lu;
+    int i, j;
+    SPH_ASSERT(SPHI_IS_DIM(dim) && h > SPH_R(0));
+    /* The transposed matrix: a row of the fit is a column of it. */
+    lu.a[0][0] = s->w1;
+    lu.a[1][0] = s->wx;
+    lu.a[0][1] = s->gx;
+    lu.a[1][1] = s->gxx;
+    if (dim > 1) {
+        lu.a[2][0] = s->wy;
+        lu.a[0][2] = s->gy;
+        lu.a[1][2] = lu.a[2][1] = s->gxy;
+        lu.a[2][2] = s->gyy;
+    }
+    if (dim > 2) {
+        lu.a[3][0] = s->wz;
+        lu.a[0][3] = s->gz;
+        lu.a[1][3] = lu.a[3][1] = s->gxz;
+        lu.a[2][3] = lu.a[3][2] = s->gyz;
+        lu.a[3][3] = s->gzz;
+    }
+    for (i = 0; i < n; i++) {
+        if (!(lu.a[i][i] > SPH_R(0))) return SPH_SINGULAR;
+        scale[i] = SPH_R(1) / SPHI_SQRT(lu.a[i][i]);
+    }
+    for (i = 0; i < n; i++)
+        for (j = 0; j < n; j++) {
+            lu.a[i][j] *= scale[i] * scale[j];
+            y[i * n + j] = i == j ? scale[j] : SPH_R(0);
+        }
+    sphi_lu_factor(n, &lu);
+    if (!(lu.pivot_min > SPHI_PIVOT_MIN)) return SPH_SINGULAR;
+    sphi_lu_solve_columns(n, &lu, n, y);
+    rows->value = sphi_fit_row(dim, scale, y, n, SPH_R(1));
+    rows->x = sphi_fit_row(dim, scale, y + 1, n, SPH_R(1) / h);
+    rows->y = sphi_fit_row(dim, scale, y + (dim > 1 ? 2 : 0), n, dim > 1 ? SPH_R(1) / h : SPH_R(0));
+    rows->z = sphi_fit_row(dim, scale, y + (dim > 2 ? 3 : 0), n, dim > 2 ? SPH_R(1) / h : SPH_R(0));
+    if (conditioning) *conditioning = lu.pivot_min;
+    return SPH_OK;
+}
+/* No weight for anyone. */
+SPH_FN sph_fit_rows sphi_fit_none(void)
+{
+    sph_fit_rows rows;
+    rows.x.level = rows.x.linear.x = rows.x.linear.y = rows.x.linear.z = SPH_R(0);
+    rows.value = rows.y = rows.z = rows.x;
+    return rows;
+}
+/* The rows of Shepard's mean: each value has the weight w / sum w, and the gradient is 0. Needs sum w > 0. */
+SPH_FN sph_fit_rows sph_fit_shepard(const sph_fit *s)
+{
+    sph_fit_rows rows = sphi_fit_none();
+    SPH_ASSERT(s->w1 > SPH_R(0));
+    rows.value.level = SPH_R(1) / s->w1;
+    return rows;
+}
+/* The weight of f_j in the row, of the neighbour at e = (x_j - x) / h whose test weights are t. */
+SPH_FN sph_real sph_fit_weight(int dim, sph_fit_row row, sph_vec e, sph_test_weights t)
+{
+    SPH_ASSERT(SPHI_IS_DIM(dim));
+    return t.w * row.level + t.g * sph_dot(dim, row.linear, e);
+}
+/* The row applied to the values whose sums are in s. */
+SPH_FN sph_real sph_fit_value(int dim, sph_fit_row row, const sph_fit *s)
+{
+    sph_real value = row.level * s->wf + row.linear.x * s->gfx;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
+    if (dim > 1) value += row.linear.y * s->gfy;
+    if (dim > 2) value += row.linear.z * s->gfz;
+    return value;
+}
+/* f + away . grad f, the field at the distance `away` from where it has this value and gradient: at a wall
+   particle x_w from its mirror point x_g, away = x_w - x_g (mDBC). */
+SPH_FN sph_real sph_fit_extend(int dim, sph_real value, sph_vec gradient, sph_vec away)
+{
+    return value + sph_dot(dim, away, gradient);
+}
+
+/* -------- linear fits: sweeps */
+
+/* The sources of a fit: points, and the volumes that weigh them. */
+typedef struct sph_sources {
+    sph_points points;
+    sph_scalars volume;
+} sph_sources;
+typedef struct sph_interpolation_options {
+    /* A target whose conditioning is smaller gets Shepard's mean; >= 0. 0: only singular ones do. 0.001 keeps
+       a fit from extrapolating far with neighbours that are nearly on a line. */
+    sph_real conditioning_min;
+} sph_interpolation_options;
+/* Where value and gradient go. What is null is not wanted. status holds an sph_status of each target, and is
+   contiguous. */
+typedef struct sph_interpolation_out {
+    SPH_GLOBAL sph_real *value, *gx, *gy, *gz, *conditioning;
+    size_t stride;
+    SPH_GLOBAL unsigned char *status;
+} sph_interpolation_out;
+/* Where rows go: one weight for each entry of the list, for the value and for each component of the gradient,
+   contiguous: f = sum_p value[p] f_j, grad f = sum_p (x[p], y[p], z[p]) f_j. What is null is not wanted. The
+   stride is that of conditioning. */
+typedef struct sph_interpolation_rows_out {
+    SPH_GLOBAL sph_real *value, *x, *y, *z, *conditioning;
+    size_t stride;
+    SPH_GLOBAL unsigned char *status;
+} sph_interpolation_rows_out;
+
+SPH_FN int sphi_check_fit(sph_kernel k, int dim, sph_cloud targets_of, sph_sources sources,
+                          sph_interpolation_options options)
+{
+    sph_real largest = SPH_R(0);
+    int error = sphi_check_frame(dim, targets_of);
+    if (error >= 0 && sphi_check_kernel(k)) return SPH_ERROR_KERNEL;
+    if (!error && sources.points.n < 0) error = sphi_refuse("sources.n", -1, SPH_ERROR_COUNT);
+    if (!error && sources.points.n > 0) error = sphi_check_arrays(dim, sources.points);
+    if (!error && !targets_of.h.p) error = sphi_refuse("h", -1, SPH_ERROR_NULL);
+    if (!error && sources.points.n > 0 && !sources.volume.p)
+        error = sphi_refuse("volume", -1, SPH_ERROR_NULL);
+    if (!error) error = sphi_check_h("h", targets_of.h, targets_of.points.n, &largest);
+    if (!error && sources.points.n > 0)
+        error = sphi_check_finite("volume", sources.volume, sources.points.n, SPH_ERROR_VALUE);
+    if (!error) error = sphi_check_positions(dim, targets_of.points);
+    if (!error && sources.points.n > 0) error = sphi_check_positions(dim, sources.points);
+    largest *= sph_kernel_support_ratio(k);
+    targets_of.points.box = sources.points.box;
+    if (!error) error = sphi_check_box(dim, targets_of.points, largest, 0);
+    if (!error) error = sphi_check_box(dim, sources.points, largest, 0);
+    if (!error)
+        error = sphi_check_entries(targets_of.first, targets_of.last, targets_of.list, sources.points.n, 1);
+    if (!error && (!sphi_finite(options.conditioning_min) || options.conditioning_min < SPH_R(0)))
+        error = sphi_refuse("conditioning_min", -1, SPH_ERROR_VALUE);
+    return error;
+}
+
+/* The sums of target i, as sph_fit_add and sph_fit_add_value make them. The last tile stays in t. The values
+   are those of f less *reference, the value of a neighbour that counts. */
+SPH_FN void sphi_fit_sums(int method, sph_kernel k, int dim, int with_f, sph_index i, sph_cloud targets_of,
+                          sph_sources sources, sph_scalars f, sph_real *reference, sphi_tile *t, sph_fit *m)
+{
+    const sph_vec x_i = sphi_point(dim, targets_of.points, i);
+    const sph_real h_i = sphi_at(targets_of.h, i);
+    const sph_list list = targets_of.list;
+    const sph_index end = list.start[i + 1];
+#if SPHI_VECTOR_SIZE
+    const sphi_lanes zero = {0};
+#else
+    const sphi_lanes zero = 0;
+#endif
+    sph_index left;
+    int l, c;
+    *m = sph_fit_zero();
+    *reference = SPH_R(0);
+    for (left = list.start[i]; with_f && left < end; left++)
+        if (sphi_at(sources.volume, list.index[left]) != SPH_R(0)) {
+            *reference = sphi_at(f, list.index[left]);
+            break;
+        }
+    for (left = end - list.start[i]; left > 0; left -= SPHI_TILE) {
+        const int n = left < SPHI_TILE ? (int)left : (int)SPHI_TILE;
+        sphi_tile_gather(method, k, dim, with_f, t, x_i, h_i, *reference, sources.points, sources.volume, f,
+                         list.index + (end - left), n);
+        SPHI_TILE_SUM(SPHI_SUMS_FIT_W)
+        SPHI_TILE_SUM(SPHI_SUMS_FIT_G)
+        if (with_f) SPHI_TILE_SUM(SPHI_SUMS_FIT_VALUE)
+    }
+}
+/* The rows of a target, or those of the fallback, and its status. */
+SPH_FN int sphi_fit_solve(int dim, const sph_fit *s, sph_real h, sph_real conditioning_min,
+                          sph_fit_rows *rows, sph_real *conditioning)
+{
+    *rows = sphi_fit_none();
+    *conditioning = SPH_R(0);
+    if (sph_solve_fit(dim, s, h, rows, conditioning) == SPH_OK && *conditioning >= conditioning_min)
+        return SPH_OK;
+    if (!(s->w1 > SPH_R(0))) return sphi_finite(s->w1) ? SPH_TOO_FEW : SPH_NOT_FINITE;
+    *rows = sph_fit_shepard(s);
+    return SPH_FELL_BACK;
+}
+
+SPH_FN sph_index sphi_interpolate(int method, sph_kernel k, int dim, sph_cloud targets_of,
+                                  sph_sources sources, sph_scalars f, sph_interpolation_options options,
+                                  sph_interpolation_out out)
+{
+    const size_t stride = sphi_stride(out.stride);
+    int error = sphi_check_fit(k, dim, targets_of, sources, options);
+    sph_index i, failed = 0;
+    if (!error && sources.points.n > 0) error = sphi_check_field("f", f, sources.points.n);
+    if (error) return sphi_answer_of(error);
+    for (i = targets_of.first; i < targets_of.last; i++) {
+        sphi_tile t;
+        sph_fit s;
+        sph_fit_rows rows;
+        sph_real conditioning, value = SPH_R(0);
+        sph_vec g = {SPH_R(0), SPH_R(0), SPH_R(0)};
+        int state;
+        sphi_fit_sums(method, k, dim, 1, i, targets_of, sources, f, &value, &t, &s);
+        state =
+            sphi_fit_solve(dim, &s, sphi_at(targets_of.h, i), options.conditioning_min, &rows, &conditioning);
+        if (!sphi_unanswered(state)) {
+            value += sph_fit_value(dim, rows.value, &s);
+            g.x = sph_fit_value(dim, rows.x, &s);
+            if (dim > 1) g.y = sph_fit_value(dim, rows.y, &s);
+            if (dim > 2) g.z = sph_fit_value(dim, rows.z, &s);
+            if (!sphi_finite(value) || !sphi_finite(g.x) || !sphi_finite(g.y) || !sphi_finite(g.z))
+                state = SPH_NOT_FINITE;
+        }
+        if (sphi_unanswered(state)) value = g.x = g.y = g.z = SPH_R(0);
+        sphi_put(out.value, stride, i, value);
+        sphi_put(out.gx, stride, i, g.x);
+        if (dim > 1) sphi_put(out.gy, stride, i, g.y);
+        if (dim > 2) sphi_put(out.gz, stride, i, g.z);
+        sphi_put(out.conditioning, stride, i, conditioning);
+        if (out.status) out.status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* Value and gradient of f at the targets of another cloud, by moving least squares (see the chapter's
+   opening): exact for linear fields, error O(h^2), any cloud. Of targets_of, the points, lists, h and range
+   are read: lists hold every source with r < support of the target (SPH_GATHER with SPH_LIST_FOREIGN). f has
+   one value for each source. The box is that of the sources. conditioning is that of sph_solve_fit. The
+   states of targets are SPH_OK, SPH_FELL_BACK (Shepard's mean, gradient 0), SPH_TOO_FEW (nothing inside the
+   support) and SPH_NOT_FINITE; for the last two all is 0. Returns the number of targets that are not SPH_OK,
+   or a negative sph_error. */
+SPH_FN sph_index sph_interpolate_mls(sph_kernel k, int dim, sph_cloud targets_of, sph_sources sources,
+                                     sph_scalars f, sph_interpolation_options options,
+                                     sph_interpolation_out out)
+{
+    return sphi_interpolate(SPHI_WLS, k, dim, targets_of, sources, f, options, out);
+}
+/* The same by Liu & Liu's test functions W and grad W, as walls by mirror points (mDBC) do it: the targets
+   are the mirror points, and sph_fit_extend carries value and gradient from there to the wall particles. mDBC
+   falls back where the determinant is below 0.001: its conditioning_min. */
+SPH_FN sph_index sph_interpolate_liu(sph_kernel k, int dim, sph_cloud targets_of, sph_sources sources,
+                                     sph_scalars f, sph_interpolation_options options,
+                                     sph_interpolation_out out)
+{
+    return sphi_interpolate(SPHI_LIU, k, dim, targets_of, sources, f, options, out);
+}
+
+SPH_FN sph_index sphi_interpolate_rows(int method, sph_kernel k, int dim, sph_cloud targets_of,
+                                       sph_sources sources, sph_interpolation_options options,
+                                       sph_interpolation_rows_out out)
+{
+    const sph_list list = targets_of.list;
+    int error = sphi_check_fit(k, dim, targets_of, sources, options);
+    sph_index i, p, failed = 0;
+    if (error) return sphi_answer_of(error);
+    for (i = targets_of.first; i < targets_of.last; i++) {
+        const sph_vec x_i = sphi_point(dim, targets_of.points, i);
+        const sph_real h_i = sphi_at(targets_of.h, i);
+        const sph_index end = list.start[i + 1];
+        const int many = end - list.start[i] > SPHI_TILE; /* Then the first tiles are gone. */
+        sphi_tile t;
+        sph_fit s;
+        sph_fit_rows rows;
+        sph_real conditioning, none, sum = SPH_R(0);
+        sph_index left;
+        int state, c;
+        sphi_fit_sums(method, k, dim, 0, i, targets_of, sources, sources.volume, &none, &t, &s);
+        state = sphi_fit_solve(dim, &s, h_i, options.conditioning_min, &rows, &conditioning);
+        for (left = sphi_unanswered(state) ? 0 : end - list.start[i]; left > 0; left -= SPHI_TILE) {
+            const int n = left < SPHI_TILE ? (int)left : (int)SPHI_TILE;
+            const sph_index at = end - left;
+            if (many)
+                sphi_tile_gather(method, k, dim, 0, &t, x_i, h_i, SPH_R(0), sources.points, sources.volume,
+                                 sources.volume, list.index + at, n);
+            for (c = 0; c < n; c++) {
+                sph_vec e;
+                sph_test_weights tw;
+                sph_real weight, x, y = SPH_R(0), z = SPH_R(0);
+                e.x = t.x[c];
+                e.y = dim > 1 ? t.y[c] : SPH_R(0);
+                e.z = dim > 2 ? t.z[c] : SPH_R(0);
+                tw.g = t.g[c];
+                tw.w = t.w[c];
+                weight = sph_fit_weight(dim, rows.value, e, tw);
+                x = sph_fit_weight(dim, rows.x, e, tw);
+                if (dim > 1) y = sph_fit_weight(dim, rows.y, e, tw);
+                if (dim > 2) z = sph_fit_weight(dim, rows.z, e, tw);
+                sum += SPHI_ABS(weight) + SPHI_ABS(x) + SPHI_ABS(y) + SPHI_ABS(z);
+                if (out.value) out.value[at + c] = weight;
+                if (out.x) out.x[at + c] = x;
+                if (dim > 1 && out.y) out.y[at + c] = y;
+                if (dim > 2 && out.z) out.z[at + c] = z;
+            }
+        }
+        if (!sphi_finite(sum)) state = SPH_NOT_FINITE;
+        for (p = sphi_unanswered(state) ? list.start[i] : end; p < end; p++) {
+            if (out.value) out.value[p] = SPH_R(0);
+            if (out.x) out.x[p] = SPH_R(0);
+            if (dim > 1 && out.y) out.y[p] = SPH_R(0);
+            if (dim > 2 && out.z) out.z[p] = SPH_R(0);
+        }
+        sphi_put(out.conditioning, sphi_stride(out.stride), i, conditioning);
+        if (out.status) out.status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+/* The value and gradient of sph_interpolate_mls as rows, for many fields of the same particles, and for
+   matrices: f = sum_p value[p] f_j, grad f = sum_p (x[p], y[p], z[p]) f_j, p along the list of the target.
+   The rows of the value have the sum 1, those of the gradient 0. The rows of a target that is SPH_TOO_FEW or
+   SPH_NOT_FINITE are 0. */
+SPH_FN sph_index sph_interpolate_rows_mls(sph_kernel k, int dim, sph_cloud targets_of, sph_sources sources,
+                                          sph_interpolation_options options, sph_interpolation_rows_out out)
+{
+    return sphi_interpolate_rows(SPHI_WLS, k, dim, targets_of, sources, options, out);
+}
+/* Those of sph_interpolate_liu. */
+SPH_FN sph_index sph_interpolate_rows_liu(sph_kernel k, int dim, sph_cloud targets_of, sph_sources sources,
+                                          sph_interpolation_options options, sph_interpolation_rows_out out)
+{
+    return sphi_interpolate_rows(SPHI_LIU, k, dim, targets_of, sources, options, out);
+}
+
 /* ================================================================ elliptic operator
  *
  * L u = div(m grad u) as a sum of two-point fluxes. m is the mobility (conductivity, permeability,
@@ -2704,20 +3194,25 @@ SPH_FN sph_index sph_second_derivative_rows_bim(sph_kernel k, sph_cloud cloud, s
  *     corrected Brookshaw   scale = tr K^-1 / dim        xi = 0
  *     Schwaiger             scale = tr Gamma^-1 / dim    xi = K^-1 N
  *     M-SPH                 scale = tr Gamma^-1 / dim    xi = K^-1 N~
+ *     Basic-Degiuli-Ban     scale = dim / tr Gamma*      xi = K^-1 N~,   with g = W e in all of them
  * On request M-SPH takes Gamma* = Gamma - sum V_j (xi . g) e e^T in the place of Gamma
  * (options.gamma_star).
  *
  * Sources: Lukyanov & Vuik 2020, arXiv:1711.11351, (27), (51), (52), (69) for the four schemes, and (24),
  * (53), (55), (65), (71) for the moments. T_ij is their meshless transmissibility (90). Brookshaw 1985,
- * Proc. ASA 6, 207. Schwaiger 2008, IJNME 75, 647.
+ * Proc. ASA 6, 207. Schwaiger 2008, IJNME 75, 647. Basic, Degiuli & Ban 2018, JCP 354, 269: theirs is
+ *     lap u = 2 dim sum W (u_j - u_i) (1 - e . C o) / sum W |e|^2 (1 - e . C o),  o = sum W e,
+ *     C = (sum W e e^T)^-1,
+ * for particles of equal volume. Here volumes weigh W, and m_i + m_j takes the place of the factor 2.
  *
  * Exact for:
  *   Brookshaw            constants only.
  *   corrected Brookshaw  linear fields where N = 0.
  *   Schwaiger, M-SPH     with constant m: linear fields at every particle, for any positions and volumes;
  *                        in the interior of lattices also xx, xy, yy and cubic fields.
+ *   Basic-Degiuli-Ban    the same, and |x|^2 at every particle.
  * Only the trace of the second derivatives is normalised (nearly: see options.trace). In disorder, the
- * pointwise errors of all four are therefore O(1). At a boundary they are O(1) for the last two and O(1/h)
+ * pointwise errors of all five are therefore O(1). At a boundary they are O(1) for the last three and O(1/h)
  * for the first two.
  * Signs: no eigenvalue of L has a positive real part where all T >= 0, that is, where 1 - xi . e > 0 ((92),
  * (93); sph_elliptic_diagnose tells). The equation (1) of the paper is -L u - g.
@@ -2782,6 +3277,14 @@ SPH_FN sph_kernel_gradient sph_elliptic_gradient_pair(int gradient, sph_wf v, sp
         g.rest = sph_scale(-v.w / (s.nu * s.nu), s.gradient);
     } else if (gradient == (int)SPH_GRADIENT_SHEPARD_DIFFUSE) g.radial /= s.nu;
     else if (gradient == (int)SPH_GRADIENT_SHEPARD_FULL) g.radial *= (SPH_R(1) - v.w * V_j / s.nu) / s.nu;
+    return g;
+}
+/* g = W e, which takes the place of a gradient in the scheme of Basic, Degiuli & Ban. */
+SPH_FN sph_kernel_gradient sph_elliptic_gradient_pair_basic_degiuli_ban(sph_real w)
+{
+    sph_kernel_gradient g;
+    g.radial = w;
+    g.rest.x = g.rest.y = g.rest.z = SPH_R(0);
     return g;
 }
 /* g as a vector. */
@@ -2983,12 +3486,12 @@ SPH_FN sph_real sphi_mean_h(int uniform, sph_scalars h, sph_real h_i, sph_index 
 }
 
 /* What the loops over the neighbours of one particle have in common. uniform: 1 if all particles
-   have the same h. */
+   have the same h. weight_only: 1 if g = W e takes the place of the gradient. */
 typedef struct sphi_elliptic {
     sph_cloud cloud;
     sph_scalars m;
     sph_elliptic_options options;
-    int uniform;
+    int uniform, weight_only;
 } sphi_elliptic;
 
 SPH_FN int sphi_elliptic_check(sph_kernel k, int dim, const sphi_elliptic *a)
@@ -3049,9 +3552,14 @@ SPH_FN sphi_elliptic_pair sphi_elliptic_pair_of(sph_kernel k, int dim, const sph
     sphi_elliptic_pair c;
     c.e = sphi_separation(dim, a->cloud.points, sphi_point(dim, a->cloud.points, j), x_i);
     c.V_j = sphi_at(a->cloud.volume, j);
-    c.g = sph_elliptic_gradient_pair(
-        a->options.gradient,
-        sph_kernel_wf(k, dim, sph_length(dim, c.e), sphi_mean_h(a->uniform, a->cloud.h, h_i, j)), c.V_j, s);
+    if (a->weight_only)
+        c.g = sph_elliptic_gradient_pair_basic_degiuli_ban(
+            sph_kernel_w(k, dim, sph_length(dim, c.e), sphi_mean_h(a->uniform, a->cloud.h, h_i, j)));
+    else
+        c.g = sph_elliptic_gradient_pair(
+            a->options.gradient,
+            sph_kernel_wf(k, dim, sph_length(dim, c.e), sphi_mean_h(a->uniform, a->cloud.h, h_i, j)), c.V_j,
+            s);
     return c;
 }
 
@@ -3150,7 +3658,13 @@ SPH_FN sph_sym sphi_elliptic_gamma_star(sph_kernel k, int dim, const sphi_ellipt
     return gamma;
 }
 
-enum { SPHI_ELLIPTIC_BROOKSHAW, SPHI_ELLIPTIC_CORRECTED, SPHI_ELLIPTIC_SCHWAIGER, SPHI_ELLIPTIC_MSPH };
+enum {
+    SPHI_ELLIPTIC_BROOKSHAW,
+    SPHI_ELLIPTIC_CORRECTED,
+    SPHI_ELLIPTIC_SCHWAIGER,
+    SPHI_ELLIPTIC_MSPH,
+    SPHI_ELLIPTIC_BASIC
+};
 
 /* scale, xi and conditioning of a particle. With SPH_TOO_FEW and SPH_SINGULAR scale and xi are 0. Its
    moments are written, too, except for Brookshaw's scheme, which has none. */
@@ -3214,12 +3728,6 @@ SPH_FN sph_real sphi_elliptic_potential(const sphi_elliptic *a, sph_index i)
     return a->options.mean == (int)SPH_MOBILITY_UPWIND ? sphi_at(a->options.potential, i) : SPH_R(0);
 }
 
-SPH_FN int sphi_unanswered(int state)
-{
-    return state == SPH_TOO_FEW || state == SPH_SINGULAR || state == SPH_NOT_AVAILABLE ||
-           state == SPH_NOT_FINITE;
-}
-
 SPH_FN sph_index sphi_elliptic_apply(int scheme, sph_kernel k, int dim, const sphi_elliptic *a, sph_scalars u,
                                      sph_scalar_out out)
 {
@@ -3279,6 +3787,18 @@ SPH_FN sphi_elliptic sphi_elliptic_of(sph_cloud cloud, sph_scalars m, sph_ellipt
     a.m = m;
     a.options = options;
     a.uniform = uniform;
+    a.weight_only = 0;
+    return a;
+}
+/* The same for a scheme. */
+SPH_FN sphi_elliptic sphi_elliptic_scheme(int scheme, sph_cloud cloud, sph_scalars m,
+                                          sph_elliptic_options options, int uniform)
+{
+    sphi_elliptic a = sphi_elliptic_of(cloud, m, options, uniform);
+    if (scheme == SPHI_ELLIPTIC_BASIC) {
+        a.options.gradient = (int)SPH_GRADIENT_DIFFUSE; /* radial, without nu */
+        a.options.trace = a.weight_only = 1;
+    }
     return a;
 }
 /* The two kinds of sweeps: to a result, or to rows. Each loop is compiled twice: once for one h, and once
@@ -3286,8 +3806,8 @@ SPH_FN sphi_elliptic sphi_elliptic_of(sph_cloud cloud, sph_scalars m, sph_ellipt
 SPH_FN sph_index sphi_elliptic_sweep(int scheme, sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                      sph_elliptic_options options, sph_scalars u, sph_scalar_out out)
 {
-    const sphi_elliptic one = sphi_elliptic_of(cloud, m, options, 1),
-                        own = sphi_elliptic_of(cloud, m, options, 0);
+    const sphi_elliptic one = sphi_elliptic_scheme(scheme, cloud, m, options, 1),
+                        own = sphi_elliptic_scheme(scheme, cloud, m, options, 0);
     int error = sphi_elliptic_check(k, dim, &own);
     if (!error) error = sphi_check_field("u", u, cloud.points.n);
     if (!error && options.source.p)
@@ -3300,8 +3820,8 @@ SPH_FN sph_index sphi_elliptic_sweep(int scheme, sph_kernel k, int dim, sph_clou
 SPH_FN sph_index sphi_elliptic_rows(int scheme, sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                     sph_elliptic_options options, sph_rows_out out)
 {
-    const sphi_elliptic one = sphi_elliptic_of(cloud, m, options, 1),
-                        own = sphi_elliptic_of(cloud, m, options, 0);
+    const sphi_elliptic one = sphi_elliptic_scheme(scheme, cloud, m, options, 1),
+                        own = sphi_elliptic_scheme(scheme, cloud, m, options, 0);
     int error = sphi_elliptic_check(k, dim, &own);
     if (!error && !out.row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
@@ -3309,7 +3829,7 @@ SPH_FN sph_index sphi_elliptic_rows(int scheme, sph_kernel k, int dim, sph_cloud
                           : sphi_elliptic_row(scheme, k, dim, &one, out);
 }
 
-/* div(m grad u)_i + source_i by the four schemes. The chapter's opening has formulas,
+/* div(m grad u)_i + source_i by the five schemes. The chapter's opening has formulas,
    sources and exactness.
      h        one for all particles, or one for each. A pair uses (h_i + h_j) / 2, so that the list must
               hold every j with r < support ratio * (h_i + h_j) / 2 (SPH_MEAN).
@@ -3357,6 +3877,17 @@ SPH_FN sph_index sph_elliptic_msph(sph_kernel k, int dim, sph_cloud cloud, sph_s
 {
     return sphi_elliptic_sweep(SPHI_ELLIPTIC_MSPH, k, dim, cloud, m, options, u, out);
 }
+/* The same by Basic, Degiuli & Ban 2018, JCP 354, 269: exact for linear u and for |x|^2 where m is constant,
+   and for no other quadratic field at a boundary. It needs no derivative of the kernel. options.gradient,
+   gamma_star and trace are not read: the scale is always dim / tr Gamma*. Where tr Gamma* is below a tenth of
+   tr Gamma, as at one-sided particles, their denominator is small or negative; the scale is then
+   tr Gamma^-1 / dim, and the particle is SPH_FELL_BACK. */
+SPH_FN sph_index sph_elliptic_basic_degiuli_ban(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
+                                                sph_elliptic_options options, sph_scalars u,
+                                                sph_scalar_out out)
+{
+    return sphi_elliptic_sweep(SPHI_ELLIPTIC_BASIC, k, dim, cloud, m, options, u, out);
+}
 /* The rows of sph_elliptic_brookshaw (meshless transmissibilities), without its source. */
 SPH_FN sph_index sph_elliptic_rows_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                              sph_elliptic_options options, sph_rows_out out)
@@ -3380,6 +3911,13 @@ SPH_FN sph_index sph_elliptic_rows_msph(sph_kernel k, int dim, sph_cloud cloud, 
                                         sph_elliptic_options options, sph_rows_out out)
 {
     return sphi_elliptic_rows(SPHI_ELLIPTIC_MSPH, k, dim, cloud, m, options, out);
+}
+
+/* The rows of sph_elliptic_basic_degiuli_ban. */
+SPH_FN sph_index sph_elliptic_rows_basic_degiuli_ban(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
+                                                     sph_elliptic_options options, sph_rows_out out)
+{
+    return sphi_elliptic_rows(SPHI_ELLIPTIC_BASIC, k, dim, cloud, m, options, out);
 }
 
 /* What the neighbourhood of a particle promises for M-SPH with the gradient of the options. Each array has
@@ -4070,6 +4608,41 @@ SPH_FN sph_real sph_viscosity_mu_pair_monaghan_cleary(int dim, sph_fluid_side i,
            (e.r * e.r + eta * eta * e.h * e.h + SPHI_TINY) * f_ij;
 }
 
+/* The bulk viscosities (dynamic) of the two particles of a pair. */
+typedef struct sph_bulk_pair {
+    sph_real i, j;
+} sph_bulk_pair;
+/* The coefficients of a viscous force of a pair: a_i = sum_j m_j (along_v v_ij + along_x x_ij). */
+typedef struct sph_viscosity_force {
+    sph_real along_v, along_x;
+} sph_viscosity_force;
+/* Physical viscosity of Espanol & Revenga, with shear and bulk viscosity: the coefficients
+       along_v = (2 mu - b) F r^2 / (rho_i rho_j (r^2 + eta^2 h^2)),
+       along_x = (dim + 2) b vx F / (rho_i rho_j (r^2 + eta^2 h^2)),   b = zeta + (1 - 2 / dim) mu
+   of div(mu (grad v + (grad v)^T - (2 / dim) div v) + zeta div v) / rho in dim dimensions. mu and zeta are
+   the harmonic means of the two particles. Exact for linear v in the interior of a lattice; in disorder for
+   constant ones only. Momentum is conserved; angular momentum too where 2 mu = b, and the force is then that
+   of Monaghan & Cleary. For b = 0 (in 2D zeta = 0) it is Morris's with the harmonic mean. Kinetic energy
+   falls in every pair if 2 mu >= b, that is, zeta <= (1 + 2 / dim) mu (and, in 1D, always). Espanol & Revenga
+   2003, Phys. Rev. E 67, 026705; Monaghan 2005, section 4. mu_i and mu_j are i.mu and j.mu. Of the pair e,
+   vx, r and h are read. f_ij comes from sph_kernel_f_apart. Needs rho > 0, mu >= 0 and zeta >= 0 on both
+   sides. */
+SPH_FN sph_viscosity_force sph_viscosity_mu_pair_espanol_revenga(int dim, sph_fluid_side i, sph_fluid_side j,
+                                                                 sph_bulk_pair zeta, sph_encounter e,
+                                                                 sph_real f_ij, sph_real eta)
+{
+    const int harmonic = (int)SPH_MOBILITY_HARMONIC;
+    const sph_real shear2 = sph_mobility_pair(harmonic, i.mu, j.mu, SPH_R(0)), /* twice the means */
+                   bulk2 = sph_mobility_pair(harmonic, zeta.i, zeta.j, SPH_R(0)),
+                   b = SPH_R(0.5) * (bulk2 + (SPH_R(1) - SPH_R(2) / SPH_R(dim)) * shear2),
+                   common = f_ij / (i.rho * j.rho * (e.r * e.r + eta * eta * e.h * e.h + SPHI_TINY));
+    sph_viscosity_force c;
+    SPH_ASSERT(SPHI_IS_DIM(dim) && SPHI_ARE_VISCOUS(i, j, e));
+    c.along_v = (shear2 - b) * common * e.r * e.r;
+    c.along_x = SPH_R(dim + 2) * b * common * e.vx;
+    return c;
+}
+
 /* F of a pair, but 0 for particles that coincide (closer than 1e-12 h): their direction consists of
    rounding errors. It is written with copysign, because a comparison would keep loops from vectorising. */
 SPH_FN sph_real sph_kernel_f_apart(sph_kernel k, int dim, sph_real r, sph_real h)
@@ -4175,6 +4748,24 @@ SPH_FN sph_vec sph_wall_fluid_velocity(sph_wall_sums s)
     mean.z = s.v.z / s.weight;
     return mean;
 }
+/* The weight of p_j in the row p_w - sum p_j W / sum W of a wall particle, whose sums are s. w_ij is W of
+   this neighbour, as it was given to sph_wall_pair_adami. Needs weight > 0. */
+SPH_FN sph_real sph_wall_row_weight(sph_real w_ij, sph_wall_sums s)
+{
+    SPH_ASSERT(s.weight > SPH_R(0));
+    return -w_ij / s.weight;
+}
+/* The mirror image of x in the plane through `at` with the normal n: x - 2 ((x - at) . n) n / n^2. The length
+   of n does not matter, if its square is in the range of numbers. If n^2 = 0, it is x. A wall particle x_w
+   has its mirror point in the fluid, where sph_interpolate_liu or _mls gives a value that sph_fit_extend
+   carries back (mDBC). A fluid particle x_j has a mirror particle behind the wall: its pressure is what
+   sph_wall_pair_adami(dim, j, v_j, x_ij, gravity, 1) gives as p, x_ij pointing from x_j to its image, and its
+   velocity one of the next two functions with v_j for the mean. */
+SPH_FN sph_vec sph_wall_mirror(int dim, sph_vec x, sph_vec at, sph_vec normal)
+{
+    const sph_real nn = sph_dot(dim, normal, normal), along = sph_dot(dim, sph_subtract(dim, x, at), normal);
+    return sph_subtract(dim, x, sph_scale(nn > SPH_R(0) ? SPH_R(2) * along / nn : SPH_R(0), normal));
+}
 /* The velocity of a wall particle with no slip, (23): 2 u - mean. u (`wall`) is the wall's own velocity,
    mean comes from sph_wall_fluid_velocity. */
 SPH_FN sph_vec sph_wall_velocity_no_slip(int dim, sph_vec mean, sph_vec wall)
@@ -4186,9 +4777,7 @@ SPH_FN sph_vec sph_wall_velocity_no_slip(int dim, sph_vec mean, sph_vec wall)
    its square is in the range of numbers. If n^2 = 0, it is the mean. */
 SPH_FN sph_vec sph_wall_velocity_free_slip(int dim, sph_vec mean, sph_vec wall, sph_vec normal)
 {
-    const sph_real nn = sph_dot(dim, normal, normal),
-                   along = sph_dot(dim, sph_subtract(dim, mean, wall), normal);
-    return sph_subtract(dim, mean, sph_scale(nn > SPH_R(0) ? SPH_R(2) * along / nn : SPH_R(0), normal));
+    return sph_wall_mirror(dim, mean, wall, normal); /* the same formula for velocities */
 }
 
 /* p = p0 + rho0 c^2 / gamma ((rho / rho0)^gamma - 1), the equation of state that is called after Tait, in
@@ -4430,10 +5019,16 @@ SPH_FN sph_index sph_fluid_rates_hu_adams(sph_kernel k, int dim, sph_cloud cloud
     return sphi_fluid_rates(SPHI_HU_ADAMS, k, dim, cloud, fluid, out);
 }
 
-enum { SPHI_MORRIS, SPHI_MONAGHAN_CLEARY };
+/* Dynamic viscosities of each particle, neither negative: mu (shear) and zeta (bulk). */
+typedef struct sph_shear_bulk {
+    sph_scalars shear, bulk;
+} sph_shear_bulk;
+
+enum { SPHI_MORRIS, SPHI_MONAGHAN_CLEARY, SPHI_ESPANOL_REVENGA };
 SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
-                              sph_scalars mu, sph_vector_out a)
+                              sph_shear_bulk viscosities, sph_vector_out a)
 {
+    const sph_scalars mu = viscosities.shear, bulk = viscosities.bulk;
     const sph_scalars m = fluid.m, rho = fluid.rho;
     const sph_vectors v = fluid.v;
     const sph_real eta = sphi_softening(fluid.eta);
@@ -4441,6 +5036,8 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, 
     sph_index i, p, failed = 0;
     if (!error) error = sphi_check_positive("rho", rho, cloud.points.n);
     if (!error) error = sphi_check_not_negative("mu", mu, cloud.points.n);
+    if (!error && form == SPHI_ESPANOL_REVENGA)
+        error = sphi_check_not_negative("mu.bulk", bulk, cloud.points.n);
     if (!error) error = sphi_check_vectors("v", dim, v, cloud.points.n);
     if (!error) error = sphi_check_out("a", dim, a);
     if (!error && !sphi_finite(fluid.eta)) error = sphi_refuse("fluid.eta", -1, SPH_ERROR_VALUE);
@@ -4449,6 +5046,7 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, 
         const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, v, i);
         const sph_real h_i = sphi_at(cloud.h, i);
         const sph_fluid_side own = sphi_fluid_side(SPHI_READ_RHO + SPHI_READ_MU, &fluid, mu, i);
+        const sph_real bulk_i = form == SPHI_ESPANOL_REVENGA ? sphi_at(bulk, i) : SPH_R(0);
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0);
         sph_vec sum;
         SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], ax, ay, az) {
@@ -4459,19 +5057,33 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, 
                            f_ij = sph_kernel_f_apart(k, dim, r, h_ij), m_j = sphi_at(m, j);
             const sph_fluid_side other = sphi_fluid_side(SPHI_READ_RHO + SPHI_READ_MU, &fluid, mu, j);
             sph_encounter e;
-            sph_real b;
-            sph_vec along;
+            sph_viscosity_force b;
             e.c = e.rho = SPH_R(0);
             e.vx = sph_dot(dim, v_ij, x_ij);
             e.r = r;
             e.h = h_ij;
-            b = m_j * (form == SPHI_MORRIS
-                           ? sph_viscosity_mu_pair_morris(own, other, e, f_ij, eta)
-                           : sph_viscosity_mu_pair_monaghan_cleary(dim, own, other, e, f_ij, eta));
-            along = form == SPHI_MORRIS ? v_ij : x_ij;
-            ax += b * along.x;
-            if (dim > 1) ay += b * along.y;
-            if (dim > 2) az += b * along.z;
+            b.along_v = b.along_x = SPH_R(0);
+            if (form == SPHI_MORRIS) b.along_v = sph_viscosity_mu_pair_morris(own, other, e, f_ij, eta);
+            else if (form == SPHI_MONAGHAN_CLEARY)
+                b.along_x = sph_viscosity_mu_pair_monaghan_cleary(dim, own, other, e, f_ij, eta);
+            else {
+                sph_bulk_pair zeta;
+                zeta.i = bulk_i;
+                zeta.j = sphi_at(bulk, j);
+                b = sph_viscosity_mu_pair_espanol_revenga(dim, own, other, zeta, e, f_ij, eta);
+            }
+            b.along_v *= m_j;
+            b.along_x *= m_j;
+            if (form != SPHI_MONAGHAN_CLEARY) {
+                ax += b.along_v * v_ij.x;
+                if (dim > 1) ay += b.along_v * v_ij.y;
+                if (dim > 2) az += b.along_v * v_ij.z;
+            }
+            if (form != SPHI_MORRIS) {
+                ax += b.along_x * x_ij.x;
+                if (dim > 1) ay += b.along_x * x_ij.y;
+                if (dim > 2) az += b.along_x * x_ij.z;
+            }
         }
         sum.x = ax;
         sum.y = ay;
@@ -4480,6 +5092,13 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, 
     }
     return failed;
 }
+SPH_FN sph_shear_bulk sphi_shear_alone(sph_scalars mu)
+{
+    sph_shear_bulk viscosities;
+    viscosities.shear = mu;
+    viscosities.bulk = sph_scalars_none();
+    return viscosities;
+}
 /* a_i = (1 / rho) div(mu grad v), physical viscosity by sph_viscosity_mu_pair_morris. mu is the dynamic
    viscosity (nu rho) of each particle, and not negative. Of fluid, the members m, rho, v and eta are read.
    Pairs closer than 1e-12 h exert no force on each other. Returns the number of targets whose result
@@ -4487,7 +5106,7 @@ SPH_FN sph_index sphi_viscous(int form, sph_kernel k, int dim, sph_cloud cloud, 
 SPH_FN sph_index sph_viscosity_mu_morris(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                          sph_scalars mu, sph_vector_out acceleration)
 {
-    return sphi_viscous(SPHI_MORRIS, k, dim, cloud, fluid, mu, acceleration);
+    return sphi_viscous(SPHI_MORRIS, k, dim, cloud, fluid, sphi_shear_alone(mu), acceleration);
 }
 /* The same by sph_viscosity_mu_pair_monaghan_cleary. It also conserves angular momentum. But on a square
    lattice that nothing has disturbed it depends on the direction: with the cubic spline and h = 1.2 dx a
@@ -4498,7 +5117,14 @@ SPH_FN sph_index sph_viscosity_mu_morris(sph_kernel k, int dim, sph_cloud cloud,
 SPH_FN sph_index sph_viscosity_mu_monaghan_cleary(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                                   sph_scalars mu, sph_vector_out acceleration)
 {
-    return sphi_viscous(SPHI_MONAGHAN_CLEARY, k, dim, cloud, fluid, mu, acceleration);
+    return sphi_viscous(SPHI_MONAGHAN_CLEARY, k, dim, cloud, fluid, sphi_shear_alone(mu), acceleration);
+}
+/* The acceleration by shear and bulk viscosity, by sph_viscosity_mu_pair_espanol_revenga: see there for the
+   stress tensor, and for which zeta the kinetic energy can only fall. Else as the two above. */
+SPH_FN sph_index sph_viscosity_mu_espanol_revenga(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                                  sph_shear_bulk mu, sph_vector_out acceleration)
+{
+    return sphi_viscous(SPHI_ESPANOL_REVENGA, k, dim, cloud, fluid, mu, acceleration);
 }
 
 /* What XSPH adds to the velocity that moves a particle: epsilon sum_j 2 m_j / (rho_i + rho_j) (v_j - v_i)
@@ -4631,6 +5257,122 @@ SPH_FN sph_index sph_wall_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall
             state = SPH_NOT_FINITE;
         if (out.status) out.status[i] = (unsigned char)state;
         failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* Scans what the rows of walls read: share, rho and gravity. */
+SPH_FN int sphi_check_wall_rows(int dim, sph_cloud cloud, sph_wall wall, SPH_GLOBAL sph_real *row,
+                                sph_scalar_out source)
+{
+    int error = sphi_check_field("share", wall.share, cloud.points.n);
+    if (!error) error = sphi_check_field("rho", wall.rho, cloud.points.n);
+    if (!error && !row) error = sphi_refuse("row", -1, SPH_ERROR_NULL);
+    if (!error && !source.p) error = sphi_refuse("source", -1, SPH_ERROR_NULL);
+    if (!error && !sphi_finite(sph_dot(dim, wall.gravity, wall.gravity)))
+        error = sphi_refuse("wall.gravity", -1, SPH_ERROR_VALUE);
+    return error;
+}
+/* What j adds to the sums of a wall particle if its pressure is not known yet: p is then that of gravity. */
+SPH_FN sph_wall_sums sphi_wall_pair_unknown(int dim, sph_real rho_j, sph_vec x_ij, sph_vec gravity,
+                                            sph_real w)
+{
+    const sph_vec none = {SPH_R(0), SPH_R(0), SPH_R(0)};
+    sph_fluid_side other;
+    other.m = other.mu = other.p = SPH_R(0);
+    other.rho = rho_j;
+    return sph_wall_pair_adami(dim, other, none, x_ij, gravity, w);
+}
+
+/* The pressure of sph_wall_adami as rows of a matrix for pressures that are not known yet (projection). The
+   targets are the wall particles w:
+       p_w - sum p_j W / sum W = sum rho_j (g - a_w) . x_wj W / sum W,
+   row[p] = -W / sum W for neighbours that are fluid and 0 for others, diagonal = 1, and the right-hand side
+   is source. These rows are exact where p - rho g . x is constant, thus for fluid at rest. Of wall, share,
+   rho and gravity are read. Without fluid inside the support the row is p_w = 0, with SPH_TOO_FEW. A pair
+   uses (h_i + h_j) / 2 (lists by SPH_MEAN). Adami, Hu & Adams 2012, JCP 231, 7057, (27). The status of out is
+   written, that of source is not. Returns the number of targets that are not SPH_OK, or a negative sph_error.
+   */
+SPH_FN sph_index sph_wall_rows_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall wall, sph_rows_out out,
+                                     sph_scalar_out source)
+{
+    SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
+    int error = sphi_check_sweep(k, dim, cloud, "share", wall.share);
+    sph_index i, q, failed = 0;
+    if (!error) error = sphi_check_wall_rows(dim, cloud, wall, row, source);
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        const sph_index end = cloud.list.start[i + 1];
+        sph_real weight = SPH_R(0), pressure = SPH_R(0);
+        sph_wall_sums sums;
+        int state = SPH_OK;
+        SPH_SUM(q, cloud.list.start[i], end, weight, pressure) {
+            const sph_index j = cloud.list.index[q];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_wall_sums c = sphi_wall_pair_unknown(
+                dim, sphi_at(wall.rho, j), x_ij, wall.gravity,
+                sphi_at(wall.share, j) *
+                    sph_kernel_w(k, dim, sph_length(dim, x_ij), sphi_mean_h(0, cloud.h, h_i, j)));
+            row[q] = c.weight;
+            weight += c.weight;
+            pressure += c.p;
+        }
+        sums.weight = weight;
+        sums.p = pressure;
+        sums.v.x = sums.v.y = sums.v.z = SPH_R(0);
+        if (!(weight > SPH_R(0))) state = SPH_TOO_FEW;
+        for (q = cloud.list.start[i]; q < end; q++)
+            row[q] = state ? SPH_R(0) : sph_wall_row_weight(row[q], sums);
+        pressure = state ? SPH_R(0) : sph_wall_pressure(sums);
+        if (sphi_row_finite(row, cloud.list.start[i], end) || !sphi_finite(pressure)) state = SPH_NOT_FINITE;
+        if (state == SPH_NOT_FINITE)
+            for (q = cloud.list.start[i]; q < end; q++) row[q] = SPH_R(0);
+        source.p[(size_t)i * sphi_stride(source.stride)] = state ? SPH_R(0) : pressure;
+        sphi_put(out.diagonal, sphi_stride(out.stride), i, SPH_R(1));
+        sphi_row_answer(out, cloud.list, i, 0, SPH_R(1), state);
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* Takes the unknowns of the wall out of the rows of the fluid, sum_p row[p] (p_j - p_i) = b_i. The pressure
+   of each wall neighbour w (share = 0) is that of the condition at the wall, dp/dn = rho (g - a_w) . n, from
+   the particle i itself: p_w = p_i + rho_i (g - a_w) . x_wi, the formula of sph_wall_adami for i alone. So
+       sum over fluid of row[p] (p_j - p_i) = b_i + source_i, source_i = -sum over wall of row[p] (p_w - p_i).
+   rows.row is read and written: entries of wall neighbours become 0. rows.diagonal, if it is there, becomes
+   -sum_p row[p] again. rows.factor, conditioning and status stay as they are. Exact for fluid at rest, if the
+   rows are exact for linear fields; the signs of the rows, and so their monotony, are kept. Any other
+   condition dp/dn is passed as gravity with rho = 1. Of wall, share, rho and gravity are read. A row whose
+   result is not finite becomes 0. Returns the number of such rows, or a negative sph_error. */
+SPH_FN sph_index sph_wall_rows_eliminate(int dim, sph_cloud cloud, sph_wall wall, sph_rows_out rows,
+                                         sph_scalar_out source)
+{
+    SPH_GLOBAL sph_real *const row = rows.row;
+    int error = sphi_check_list(dim, cloud, SPH_R(0));
+    sph_index i, q, failed = 0;
+    if (!error) error = sphi_check_wall_rows(dim, cloud, wall, row, source);
+    if (!error) error = sphi_check_rows(cloud, row, sph_scalars_none());
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real rho_i = sphi_at(wall.rho, i);
+        sph_real sum = SPH_R(0), diagonal = SPH_R(0);
+        int lost;
+        for (q = cloud.list.start[i]; q < cloud.list.start[i + 1]; q++) {
+            const sph_index j = cloud.list.index[q];
+            if (sphi_at(wall.share, j) == SPH_R(0)) {
+                const sph_vec x_ji =
+                    sphi_separation(dim, cloud.points, sphi_point(dim, cloud.points, j), x_i);
+                sum -= sphi_wall_pair_unknown(dim, rho_i, x_ji, wall.gravity, row[q]).p;
+                row[q] = SPH_R(0);
+            } else diagonal -= row[q];
+        }
+        lost = !sphi_finite(sum) || !sphi_finite(diagonal);
+        for (q = cloud.list.start[i]; lost && q < cloud.list.start[i + 1]; q++) row[q] = SPH_R(0);
+        sphi_put(rows.diagonal, sphi_stride(rows.stride), i, lost ? SPH_R(0) : diagonal);
+        failed += sphi_answer(source, i, lost ? SPH_R(0) : sum, lost ? (int)SPH_NOT_FINITE : (int)SPH_OK);
     }
     return failed;
 }

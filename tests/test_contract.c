@@ -174,6 +174,55 @@ static sph_cloud others_with_list(const world *w)
     const sph_scalars none = sph_scalars_none();
     return sph_cloud_range(sph_cloud_of(others_of(w), list_of(w), none, none), w->first, w->last);
 }
+static sph_cloud foreign_of(const world *w)
+{
+    sph_cloud c = others_with_list(w);
+    c.h = scalars_of(w, H);
+    return c;
+}
+static sph_sources sources_of(const world *w)
+{
+    sph_sources s;
+    s.points = points_of(w);
+    s.volume = scalars_of(w, V);
+    return s;
+}
+static sph_interpolation_options interpolation_options_of(const world *w)
+{
+    sph_interpolation_options o;
+    o.conditioning_min = SPH_R(w->number[LEAST]);
+    return o;
+}
+static sph_interpolation_out interpolation_of(const world *w)
+{
+    sph_interpolation_out o;
+    o.value = real_of(w, S0);
+    o.gx = real_of(w, O0);
+    o.gy = real_of(w, O1);
+    o.gz = real_of(w, O2);
+    o.conditioning = real_of(w, S1);
+    o.stride = w->out_stride;
+    o.status = (unsigned char *)w->a[STATUS];
+    return o;
+}
+static sph_interpolation_rows_out interpolation_rows_of(const world *w)
+{
+    sph_interpolation_rows_out o = {0};
+    o.x = real_of(w, R0);
+    o.y = real_of(w, R1);
+    o.z = real_of(w, R2);
+    o.conditioning = real_of(w, S1);
+    o.stride = w->out_stride;
+    o.status = (unsigned char *)w->a[STATUS];
+    return o;
+}
+static sph_shear_bulk shear_bulk_of(const world *w)
+{
+    sph_shear_bulk mu;
+    mu.shear = scalars_of(w, MX);
+    mu.bulk = scalars_of(w, C);
+    return mu;
+}
 static sph_fluid fluid_of(const world *w)
 {
     sph_fluid f;
@@ -388,20 +437,28 @@ CALL(laplacian_brookshaw, RANGE, A(F), scalar_out_of(w))
 CALL(laplacian_rows_brookshaw, RANGE, row_out_of(w))
 CALL(derivatives_cspm, RANGE, A(F), derivatives_options_of(w), derivative_out_of(w))
 CALL(derivatives_icspm, RANGE, A(F), derivatives_options_of(w), derivative_out_of(w))
+CALL(derivatives_fatehi_manzari, RANGE, A(F), derivatives_options_of(w), derivative_out_of(w))
 CALL(derivatives_wls, RANGE, A(F), derivatives_options_of(w), derivative_out_of(w))
 CALL(derivatives_rows_cspm, RANGE, jet_of(w), row_out_of(w))
 CALL(derivatives_rows_icspm, RANGE, jet_of(w), row_out_of(w))
+CALL(derivatives_rows_fatehi_manzari, RANGE, jet_of(w), row_out_of(w))
 CALL(derivatives_rows_wls, RANGE, jet_of(w), row_out_of(w))
+CALL(interpolate_mls, w->k, w->dim, foreign_of(w), sources_of(w), A(F), interpolation_options_of(w), interpolation_of(w))
+CALL(interpolate_liu, w->k, w->dim, foreign_of(w), sources_of(w), A(F), interpolation_options_of(w), interpolation_of(w))
+CALL(interpolate_rows_mls, w->k, w->dim, foreign_of(w), sources_of(w), interpolation_options_of(w), interpolation_rows_of(w))
+CALL(interpolate_rows_liu, w->k, w->dim, foreign_of(w), sources_of(w), interpolation_options_of(w), interpolation_rows_of(w))
 CALL(second_derivative_bim, RANGE_ONE, A(F), w->left, w->right, scalar_out_of(w))
 CALL(second_derivative_rows_bim, RANGE_ONE, w->left, w->right, row_out_of(w))
 CALL(elliptic_brookshaw, RANGE, A(MX), options_with_source(w), A(F), scalar_out_of(w))
 CALL(elliptic_brookshaw_corrected, RANGE, A(MX), options_with_source(w), A(F), scalar_out_of(w))
 CALL(elliptic_schwaiger, RANGE, A(MX), options_with_source(w), A(F), scalar_out_of(w))
 CALL(elliptic_msph, RANGE, A(MX), options_with_source(w), A(F), scalar_out_of(w))
+CALL(elliptic_basic_degiuli_ban, RANGE, A(MX), options_with_source(w), A(F), scalar_out_of(w))
 CALL(elliptic_rows_brookshaw, RANGE, A(MX), options_of(w), row_out_of(w))
 CALL(elliptic_rows_brookshaw_corrected, RANGE, A(MX), options_of(w), row_out_of(w))
 CALL(elliptic_rows_schwaiger, RANGE, A(MX), options_of(w), row_out_of(w))
 CALL(elliptic_rows_msph, RANGE, A(MX), options_of(w), row_out_of(w))
+CALL(elliptic_rows_basic_degiuli_ban, RANGE, A(MX), options_of(w), row_out_of(w))
 CALL(elliptic_rows_anisotropic, RANGE, diagonal_of(w, MX), row_out_of(w))
 CALL(elliptic_rows_boundary, RANGE, A(MX), options_of(w), boundary_of(w), row_out_of(w))
 CALL(rows_apply, cloud_of(w), R(ROW), A(DIAGONAL), A(F), scalar_out_of(w))
@@ -417,6 +474,7 @@ CALL(fluid_rates_riemann, RANGE, fluid_of(w), riemann_options_of(w), fluid_out_o
 CALL(density_number, RANGE, A(M), scalar_out_of(w))
 CALL(viscosity_mu_morris, RANGE, fluid_of(w), A(MX), vector_out_of(w, O0))
 CALL(viscosity_mu_monaghan_cleary, RANGE, fluid_of(w), A(MX), vector_out_of(w, O0))
+CALL(viscosity_mu_espanol_revenga, RANGE, fluid_of(w), shear_bulk_of(w), vector_out_of(w, O0))
 CALL(velocity_xsph, RANGE, fluid_of(w), X(PARAMETER_C), vector_out_of(w, O0))
 CALL(density_diffusion_molteni, RANGE, still_of(w), diffusion_of(w, 0.0, w->number[CH]), scalar_out_of(w))
 CALL(density_diffusion_antuono, RANGE, still_of(w), diffusion_of(w, 0.0, w->number[CH]), scalar_out_of(w))
@@ -520,6 +578,26 @@ static sph_index call_transport_adami(const world *w)
     o.stress = vector_out_of(w, O3);
     o.status = STATE;
     return sph_transport_adami(RANGE, still_of(w), vectors_of(w, BX), X(PARAMETER_A), o);
+}
+static sph_wall rows_wall_of(const world *w)
+{
+    sph_wall s = {0};
+    s.share = A(M);
+    s.rho = A(U);
+    s.gravity = along_x(w->number[GRAVITY]);
+    return s;
+}
+static sph_index call_wall_rows_adami(const world *w)
+{
+    sph_rows_out rows = row_out_of(w);
+    rows.diagonal = R(S3); /* 1, also where there is no answer */
+    return sph_wall_rows_adami(RANGE, rows_wall_of(w), rows, sph_scalar_out_strided(R(S0), w->out_stride, 0));
+}
+static sph_index call_wall_rows_eliminate(const world *w)
+{
+    sph_rows_out rows = row_out_of(w);
+    rows.row = R(ROW);
+    return sph_wall_rows_eliminate(LIST, rows_wall_of(w), rows, sph_scalar_out_strided(R(S3), w->out_stride, STATE));
 }
 static sph_index call_elliptic_diagnose(const world *w)
 {
@@ -636,20 +714,28 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(laplacian_rows_brookshaw, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, 0),
     FUNCTION(derivatives_cspm, SMOOTHED, ALL, VOLUMES | BIT(F), 0, 0, DERIVATIVES, N(LEAST)),
     FUNCTION(derivatives_icspm, SMOOTHED, ALL, VOLUMES | BIT(F), 0, 0, DERIVATIVES, N(LEAST)),
+    FUNCTION(derivatives_fatehi_manzari, SMOOTHED, ALL, VOLUMES | BIT(F), 0, 0, DERIVATIVES, N(LEAST)),
     FUNCTION(derivatives_wls, SMOOTHED, ALL, VOLUMES | BIT(F), 0, 0, DERIVATIVES, N(LEAST)),
     FUNCTION(derivatives_rows_cspm, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, N(OPERATOR)),
     FUNCTION(derivatives_rows_icspm, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, N(OPERATOR)),
+    FUNCTION(derivatives_rows_fatehi_manzari, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, N(OPERATOR)),
     FUNCTION(derivatives_rows_wls, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, N(OPERATOR)),
+    FUNCTION(interpolate_mls, SMOOTHED, ALL, POSITIONS | ROWS_OF | BIT(H) | BIT(V) | BIT(F), 0, 0, XYZ(O0) | BIT(S0) | BIT(S1) | BIT(STATUS), N(LEAST)),
+    FUNCTION(interpolate_liu, SMOOTHED, ALL, POSITIONS | ROWS_OF | BIT(H) | BIT(V) | BIT(F), 0, 0, XYZ(O0) | BIT(S0) | BIT(S1) | BIT(STATUS), N(LEAST)),
+    FUNCTION(interpolate_rows_mls, SMOOTHED, ALL, POSITIONS | ROWS_OF | BIT(H) | BIT(V), 0, 0, XYZ(R0) | BIT(S1) | BIT(STATUS), N(LEAST)),
+    FUNCTION(interpolate_rows_liu, SMOOTHED, ALL, POSITIONS | ROWS_OF | BIT(H) | BIT(V), 0, 0, XYZ(R0) | BIT(S1) | BIT(STATUS), N(LEAST)),
     FUNCTION(second_derivative_bim, KERNEL | TARGETS | COUNTED | ENDS, 1, VOLUMES | BIT(F), 0, BIT(S0), BIT(STATUS), 0),
     FUNCTION(second_derivative_rows_bim, KERNEL | TARGETS | COUNTED | ENDS, 1, VOLUMES, 0, BIT(R0), ROW_EXTRAS, 0),
     FUNCTION(elliptic_brookshaw, SMOOTHED, ALL, VOLUMES | BIT(MX) | BIT(F), BIT(U), BIT(S0), BIT(STATUS), CHOICE),
     FUNCTION(elliptic_brookshaw_corrected, SMOOTHED, ALL, VOLUMES | BIT(MX) | BIT(F), BIT(U), BIT(S0), BIT(STATUS), CHOICE),
     FUNCTION(elliptic_schwaiger, SMOOTHED, ALL, VOLUMES | BIT(MX) | BIT(F), BIT(U), BIT(S0), BIT(STATUS), CHOICE),
     FUNCTION(elliptic_msph, SMOOTHED, ALL, VOLUMES | BIT(MX) | BIT(F), BIT(U), BIT(S0), BIT(STATUS), CHOICE),
+    FUNCTION(elliptic_basic_degiuli_ban, SMOOTHED, ALL, VOLUMES | BIT(MX) | BIT(F), BIT(U), BIT(S0), BIT(STATUS), N(MEAN) | N(CONDITIONING)),
     FUNCTION(elliptic_rows_brookshaw, SMOOTHED, ALL, VOLUMES | BIT(MX), 0, BIT(R0), ROW_EXTRAS, CHOICE),
     FUNCTION(elliptic_rows_brookshaw_corrected, SMOOTHED, ALL, VOLUMES | BIT(MX), 0, BIT(R0), ROW_EXTRAS, CHOICE),
     FUNCTION(elliptic_rows_schwaiger, SMOOTHED, ALL, VOLUMES | BIT(MX), 0, BIT(R0), ROW_EXTRAS, CHOICE),
     FUNCTION(elliptic_rows_msph, SMOOTHED, ALL, VOLUMES | BIT(MX), 0, BIT(R0), ROW_EXTRAS, CHOICE),
+    FUNCTION(elliptic_rows_basic_degiuli_ban, SMOOTHED, ALL, VOLUMES | BIT(MX), 0, BIT(R0), ROW_EXTRAS, N(MEAN) | N(CONDITIONING)),
     FUNCTION(elliptic_rows_anisotropic, SMOOTHED, ALL, VOLUMES | XYZ(MX), 0, BIT(R0), ROW_EXTRAS, 0),
     FUNCTION(elliptic_rows_boundary, SMOOTHED, ALL, VOLUMES | BIT(MX) | XYZ(BX) | BIT(F) | BIT(U), 0, BIT(R0) | BIT(S0), BIT(S1) | BIT(S2) | BIT(STATUS), CHOICE),
     FUNCTION(elliptic_diagnose, SMOOTHED | KEEPS, ALL, VOLUMES, 0, 0, XYZ(S0) | XYZ(S3) | BIT(S6) | BIT(S7) | BIT(STATUS), N(GRADIENT) | N(CONDITIONING)),
@@ -666,6 +752,7 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(density_number, SMOOTHED, ALL, MASSES, 0, BIT(S0), BIT(STATUS), 0),
     FUNCTION(viscosity_mu_morris, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(MX) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
     FUNCTION(viscosity_mu_monaghan_cleary, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(MX) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
+    FUNCTION(viscosity_mu_espanol_revenga, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(MX) | BIT(C) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
     FUNCTION(velocity_xsph, SMOOTHED, ALL, MASSES | BIT(RHO) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
     FUNCTION(wall_adami, SMOOTHED | KEEPS, ALL, MASSES | BIT(U) | BIT(P) | XYZ(VX) | XYZ(BX), BIT(MX), BIT(S0) | XYZ(O0), BIT(STATUS), N(GRAVITY)),
     FUNCTION(density_diffusion_molteni, SMOOTHED, ALL, MASSES | BIT(RHO), BIT(VX) | BIT(U), BIT(S0), BIT(STATUS), N(PARAMETER_A) | N(CH)),
@@ -677,6 +764,8 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(shift_displacement, SMOOTHED, ALL, VOLUMES | BIT(U) | XYZ(BX), BIT(F), XYZ(O0), 0, N(PARAMETER_A) | N(PARAMETER_B) | N(RATIO)),
     FUNCTION(shift_rates, SMOOTHED | PARTS, ALL, MASSES | BIT(RHO) | XYZ(VX) | XYZ(BX), 0, XYZ(O0), BIT(S0) | BIT(STATUS), 0),
     FUNCTION(transport_adami, SMOOTHED | HEAVY | PARTS, ALL, MASSES | BIT(RHO) | XYZ(VX) | XYZ(BX), 0, XYZ(O0) | XYZ(O3), BIT(STATUS), N(PARAMETER_A)),
+    FUNCTION(wall_rows_adami, SMOOTHED | KEEPS, ALL, MASSES | BIT(U), 0, BIT(R0) | BIT(S0), BIT(S1) | BIT(S2) | BIT(S3) | BIT(STATUS), N(GRAVITY)),
+    FUNCTION(wall_rows_eliminate, LISTED, ALL, LIST_OF | BIT(M) | BIT(U) | BIT(ROW), 0, BIT(ROW) | BIT(S3), BIT(S0) | BIT(STATUS), N(GRAVITY)),
     FUNCTION(collision_sequential, LISTED | OPAQUE | TOTALS, ALL, COLLIDERS, 0, XYZ(VX), BIT(REPORT),
              N(DISTANCE) | N(RESTITUTION)),
     FUNCTION(collision_count, LISTED | COUNTS, ALL, COLLIDERS, 0, BIT(I0), 0, N(DISTANCE)),
@@ -1122,6 +1211,11 @@ static const char *argument_of(const function *f, int a)
                  {"sph_shift_rates", XYZ(BX), "shift"},
                  {"sph_transport", XYZ(BX), "transport"},
                  {"sph_wall_adami", BIT(M), "share"},
+                 {"sph_wall_rows_adami", BIT(M), "share"},
+                 {"sph_wall_rows_adami", BIT(U), "rho"},
+                 {"sph_wall_rows_eliminate", BIT(M), "share"},
+                 {"sph_wall_rows_eliminate", BIT(U), "rho"},
+                 {"sph_viscosity_mu_espanol_revenga", BIT(C), "mu.bulk"},
                  {"sph_wall_adami", BIT(U), "rho"},
                  {"sph_wall_adami", XYZ(BX), "velocity"},
                  {"sph_wall_adami", XYZ(MX), "normal"},
@@ -1473,7 +1567,7 @@ static void free_region(const function *f, const world *w, int a, size_t *from, 
     else if ((a == I1 || a == R0) && f->has & OPAQUE) *to = (size_t)w->number[CAPACITY] * item;
     else if (f->has & OPAQUE || arrays[a].room == ROWS) return;
     else if (arrays[a].room == EACH && !(f->has & RAW)) *from = (size_t)w->first * item, *to = (size_t)w->last * item;
-    else if (arrays[a].room == ROOM) *from = (size_t)start[w->first] * item, *to = (size_t)start[w->last] * item;
+    else if (arrays[a].room == ROOM || arrays[a].room == PAIR) *from = (size_t)start[w->first] * item, *to = (size_t)start[w->last] * item;
 }
 
 /* Outputs: finite, written, 0 where there is no answer; status: as many failures as answered. */

@@ -174,6 +174,16 @@ OPERATOR(elliptic_schwaiger,
 OPERATOR(elliptic_msph, sph_elliptic_msph(SWEEP, at(w, MU), (sph_elliptic_options){0}, at(w, F), SCALAR_OUT))
 OPERATOR(viscous_morris, sph_viscosity_mu_morris(SWEEP, fluid(w), at(w, MU), into(w, 0)))
 OPERATOR(viscous_cleary, sph_viscosity_mu_monaghan_cleary(SWEEP, fluid(w), at(w, MU), into(w, 0)))
+static sph_index elliptic_basic(world *w, sph_index first, sph_index last)
+{
+    const sph_index fell = sph_elliptic_basic_degiuli_ban(SWEEP, at(w, MU), (sph_elliptic_options){0}, at(w, F), SCALAR_OUT);
+    return fell < 0 ? fell : 0; /* at the boundary the scale falls back: that is an answer, too */
+}
+static sph_index viscous_espanol(world *w, sph_index first, sph_index last)
+{
+    const sph_shear_bulk mu = {at(w, MU), at(w, U)};
+    return sph_viscosity_mu_espanol_revenga(SWEEP, fluid(w), mu, into(w, 0));
+}
 OPERATOR(xsph, sph_velocity_xsph(SWEEP, fluid(w), SPH_R(0.5), into(w, 0)))
 static sph_diffusion diffusion(const world *w)
 {
@@ -230,6 +240,23 @@ OPERATOR(gradient_cspm, sph_gradient_cspm(SWEEP, at(w, F), derivatives_into(w)))
 OPERATOR(derivatives_cspm, sph_derivatives_cspm(SWEEP, at(w, F), (sph_derivatives_options){0}, derivatives_into(w)))
 OPERATOR(derivatives_icspm, sph_derivatives_icspm(SWEEP, at(w, F), (sph_derivatives_options){0}, derivatives_into(w)))
 OPERATOR(derivatives_wls, sph_derivatives_wls(SWEEP, at(w, F), (sph_derivatives_options){0}, derivatives_into(w)))
+
+OPERATOR(derivatives_fatehi, sph_derivatives_fatehi_manzari(SWEEP, at(w, F), (sph_derivatives_options){0}, derivatives_into(w)))
+static sph_index fit_of(world *w, sph_index first, sph_index last, int liu)
+{
+    sph_cloud c = FRAME;
+    const sph_sources s = {c.points, c.volume};
+    const sph_interpolation_options o = {0};
+    sph_interpolation_out out = {0};
+    out.value = OUT(3);
+    out.gx = OUT(0);
+    out.gy = OUT(1);
+    out.gz = OUT(2);
+    out.status = w->status;
+    return liu ? sph_interpolate_liu(KERNEL, w->c.dim, c, s, at(w, F), o, out) : sph_interpolate_mls(KERNEL, w->c.dim, c, s, at(w, F), o, out);
+}
+OPERATOR(fit_mls, fit_of(w, first, last, 0))
+OPERATOR(fit_liu, fit_of(w, first, last, 1))
 
 static sph_index msph_rows(world *w, sph_index first, sph_index last)
 {
@@ -350,6 +377,11 @@ static const operation operations[] = {
     {"fluid_rates_riemann", fluid_riemann, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
     {"viscous_mu_morris", viscous_morris, ALL, 1, {{VECTOR, 0, -2, -1}}},
     {"viscous_mu_monaghan_cleary", viscous_cleary, ALL, 1, {{VECTOR, 0, -2, -1}}},
+    {"viscous_mu_espanol_revenga", viscous_espanol, ALL, 1, {{VECTOR, 0, -2, -1}}},
+    {"elliptic_basic_degiuli_ban", elliptic_basic, ALL, 20, {{SCALAR, 0, -2, 0}}},
+    {"derivatives_fatehi_manzari", derivatives_fatehi, ALL, 4000, {{VECTOR, 0, -1, 0}, {SYMMETRIC, 3, -2, 0}, {SCALAR, 9, -2, 0}}},
+    {"interpolate_mls", fit_mls, ALL, 20, {{VECTOR, 0, -1, 0}, {SCALAR, 3, 0, 0}}},
+    {"interpolate_liu", fit_liu, ALL, 20, {{VECTOR, 0, -1, 0}, {SCALAR, 3, 0, 0}}},
     {"velocity_xsph", xsph, ALL, 1, {{VECTOR, 0, 0, -1}}},
     {"wall_adami", wall, ALL, 1, {{VECTOR, 0, 0, 0}, {SCALAR, 3, 0, 0}}},
     {"wall_adami-free-slip", wall_slips, ALL, 1, {{VECTOR, 0, 0, 0}, {SCALAR, 3, 0, 0}}},

@@ -44,6 +44,9 @@ static void assertion(void)
 #define NUMBERS_sph_kernel_gradient 4
 #define NUMBERS_sph_elliptic_moments 21
 #define NUMBERS_sph_fluid_change 5
+#define NUMBERS_sph_viscosity_force 2
+#define NUMBERS_sph_fit ((int)(sizeof(sph_fit) / sizeof(sph_real)))
+#define NUMBERS_sph_fit_rows 16
 #define NUMBERS_sph_wall_sums 5
 #define NUMBERS_sph_transport_change 6
 #define NUMBERS_sph_riemann_side 3
@@ -251,6 +254,24 @@ static sph_moments cross(int dim, sph_test_weights (*of)(sph_kernel, int, sph_re
     return m;
 }
 
+/* the sums of a linear fit on the same cross */
+static sph_fit fit_cross(int dim)
+{
+    sph_fit m = sph_fit_zero();
+    int c;
+    for (c = 0; c < (dim == 1 ? 3 : dim == 2 ? 9 : 27); c++) {
+        const sph_vec e = vec(SPH_R(0.5 * (c % 3 - 1)), SPH_R(dim > 1 ? 0.5 * (c / 3 % 3 - 1) : 0),
+                              SPH_R(dim > 2 ? 0.5 * (c / 9 - 1) : 0));
+        sph_fit_add(dim, &m, e, sph_test_weights_wls(k0, dim, sph_length(3, e), one));
+    }
+    return m;
+}
+static sph_bulk_pair bulk(sph_real zeta_i, sph_real zeta_j)
+{
+    const sph_bulk_pair b = {zeta_i, zeta_j};
+    return b;
+}
+
 /* ---- the table */
 
 static void kernels(void)
@@ -415,6 +436,8 @@ static void vectors_and_systems(void)
     sph_moments m;
     sph_jet jet = sph_jet_laplacian(3);
     sph_coefficients c = no_coefficients;
+    sph_fit fit;
+    sph_fit_rows fit_rows;
     sph_elliptic_inverse inverse;
     sph_elliptic_moments em;
     sph_sym s;
@@ -478,6 +501,13 @@ static void vectors_and_systems(void)
     FUNCTION(sph_test_weights_wls)
     ALLOWED(sph_test_weights, sph_test_weights_wls(k0, 3, zero, one))
     FORBIDDEN(sph_test_weights_wls(k0, 3, -small_number, one))
+    FUNCTION(sph_test_weights_fatehi_manzari)
+    ALLOWED(sph_test_weights, sph_test_weights_fatehi_manzari(k0, 3, zero, one))
+    ALLOWED(sph_test_weights, sph_test_weights_fatehi_manzari(k0, 3, SPH_R(1e9), one))
+    FORBIDDEN(sph_test_weights_fatehi_manzari(k0, 3, -small_number, one))
+    FUNCTION(sph_test_weights_liu)
+    ALLOWED(sph_test_weights, sph_test_weights_liu(k0, 3, zero, one))
+    FORBIDDEN(sph_test_weights_liu(k0, 3, -small_number, one))
     FUNCTION(sph_moments_zero)
     ALLOWED(sph_moments, sph_moments_zero())
     m = sph_moments_zero();
@@ -516,6 +546,40 @@ static void vectors_and_systems(void)
     FUNCTION(sph_coefficients_weight)
     ALLOWED(sph_real, sph_coefficients_weight(3, c, nothing, weights))
     FORBIDDEN(sph_coefficients_weight(0, c, nothing, weights))
+    FUNCTION(sph_fit_zero)
+    ALLOWED(sph_fit, sph_fit_zero())
+    fit = sph_fit_zero();
+    FUNCTION(sph_fit_add)
+    ALLOWED(sph_fit, (sph_fit_add(3, &fit, nothing, weights), fit))
+    FORBIDDEN((sph_fit_add(0, &fit, nothing, weights), 0))
+    FUNCTION(sph_fit_add_value)
+    ALLOWED(sph_fit, (sph_fit_add_value(3, &fit, nothing, weights, large), fit))
+    FORBIDDEN((sph_fit_add_value(4, &fit, nothing, weights, one), 0))
+    FUNCTION(sph_solve_fit)
+    fit = sph_fit_zero();
+    ALLOWED_STATE(SPH_SINGULAR, sph_solve_fit(3, &fit, one, &fit_rows, 0))
+    for (dim = 1; dim <= 3; dim++) {
+        fit = fit_cross(dim);
+        x = SPH_R(0.01);
+        ALLOWED_STATE(SPH_OK, sph_solve_fit(dim, &fit, x, &fit_rows, 0))
+        ALLOWED(sph_fit_rows, fit_rows)
+        FORBIDDEN_LENGTH(x, sph_solve_fit(dim, &fit, x, &fit_rows, 0))
+    }
+    FORBIDDEN(sph_solve_fit(0, &fit, one, &fit_rows, 0))
+    FORBIDDEN(sph_solve_fit(4, &fit, one, &fit_rows, 0))
+    FUNCTION(sph_fit_shepard)
+    ALLOWED(sph_fit_rows, sph_fit_shepard(&fit))
+    fit = sph_fit_zero();
+    FORBIDDEN(sph_fit_shepard(&fit))
+    FUNCTION(sph_fit_weight)
+    ALLOWED(sph_real, sph_fit_weight(3, fit_rows.value, nothing, weights))
+    FORBIDDEN(sph_fit_weight(0, fit_rows.value, nothing, weights))
+    FUNCTION(sph_fit_value)
+    ALLOWED(sph_real, sph_fit_value(3, fit_rows.value, &fit))
+    FORBIDDEN(sph_fit_value(4, fit_rows.value, &fit))
+    FUNCTION(sph_fit_extend)
+    ALLOWED(sph_real, sph_fit_extend(3, large, nothing, nothing))
+    FORBIDDEN(sph_fit_extend(0, one, nothing, nothing))
     FUNCTION(sph_boundary_weight_bim)
     ALLOWED(sph_real, sph_boundary_weight_bim(k0, SPH_R(1e-3), one, one))
     ALLOWED(sph_real, sph_boundary_weight_bim(k0, -large, -one, large))
@@ -525,6 +589,8 @@ static void vectors_and_systems(void)
     FORBIDDEN(sph_boundary_weight_bim(k0, one, SPH_R(2), one))
     FORBIDDEN_LENGTH(x, sph_boundary_weight_bim(k0, one, one, x))
 
+    FUNCTION(sph_elliptic_gradient_pair_basic_degiuli_ban)
+    ALLOWED(sph_kernel_gradient, sph_elliptic_gradient_pair_basic_degiuli_ban(large))
     FUNCTION(sph_elliptic_gradient_pair)
     ALLOWED(sph_kernel_gradient,
             sph_elliptic_gradient_pair(SPH_GRADIENT_DIFFUSE, wf(zero, zero), one, shepard(zero)))
@@ -649,6 +715,18 @@ static void fluids(void)
     FORBIDDEN_LENGTH(e.h, call)
     FUNCTION(sph_viscosity_mu_pair_morris)
     PHYSICAL(sph_viscosity_mu_pair_morris(i, j, e, -one, zero))
+    FUNCTION(sph_viscosity_mu_pair_espanol_revenga)
+    i = fluid(one, one, zero, zero);
+    j = fluid(one, one, zero, one);
+    ALLOWED(sph_viscosity_force,
+            sph_viscosity_mu_pair_espanol_revenga(3, i, j, bulk(zero, zero), meeting(one, one, one, one, one), -one, zero))
+    FORBIDDEN_BELOW_0(x, sph_viscosity_mu_pair_espanol_revenga(3, i, j, bulk(x, one), meeting(one, one, one, one, one), -one, zero))
+    FORBIDDEN_BELOW_0(i.mu, sph_viscosity_mu_pair_espanol_revenga(3, i, j, bulk(one, one), meeting(one, one, one, one, one), -one, zero))
+    i = fluid(one, one, zero, one);
+    FORBIDDEN_BELOW_0(x, sph_viscosity_mu_pair_espanol_revenga(3, i, j, bulk(one, x), meeting(one, one, one, one, one), -one, zero))
+    FORBIDDEN_LENGTH(i.rho, sph_viscosity_mu_pair_espanol_revenga(3, i, j, bulk(one, one), meeting(one, one, one, one, one), -one, zero))
+    i = fluid(one, one, zero, one);
+    FORBIDDEN(sph_viscosity_mu_pair_espanol_revenga(0, i, j, bulk(one, one), meeting(one, one, one, one, one), -one, zero))
     FUNCTION(sph_viscosity_mu_pair_monaghan_cleary)
     PHYSICAL(sph_viscosity_mu_pair_monaghan_cleary(3, i, j, e, -one, zero))
     FORBIDDEN(sph_viscosity_mu_pair_monaghan_cleary(0, i, j, meeting(one, one, one, one, one), -one, zero))
@@ -708,6 +786,12 @@ static void fluids(void)
     FUNCTION(sph_wall_fluid_velocity)
     ALLOWED(sph_vec, sph_wall_fluid_velocity(wall_sums(small_number)))
     FORBIDDEN_LENGTH(x, sph_wall_fluid_velocity(wall_sums(x)))
+    FUNCTION(sph_wall_row_weight)
+    ALLOWED(sph_real, sph_wall_row_weight(zero, wall_sums(small_number)))
+    FORBIDDEN_LENGTH(x, sph_wall_row_weight(one, wall_sums(x)))
+    FUNCTION(sph_wall_mirror)
+    ALLOWED(sph_vec, sph_wall_mirror(3, nothing, nothing, nothing))
+    FORBIDDEN(sph_wall_mirror(0, nothing, nothing, nothing))
     FUNCTION(sph_wall_velocity_no_slip)
     ALLOWED(sph_vec, sph_wall_velocity_no_slip(3, nothing, nothing))
     FORBIDDEN(sph_wall_velocity_no_slip(0, nothing, nothing))

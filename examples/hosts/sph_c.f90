@@ -283,8 +283,39 @@ module sph_c
     type, bind(c) :: sph_derivatives_options
         ! A target whose |conditioning| is smaller is SPH_ILL_CONDITIONED; >= 0. 0: no target is.
         real(sph_real) :: conditioning_min = 0.0_sph_real
-        ! For ICSPM. 1: targets that are singular or ill-conditioned get the values of WLS.
+        ! For ICSPM and Fatehi-Manzari. 1: targets that are singular or ill-conditioned get the values of WLS.
         integer(c_int) :: fallback_wls = 0
+    end type
+
+    ! The sources of a fit: points, and the volumes that weigh them.
+    type, bind(c) :: sph_sources
+        type(sph_points) :: points
+        type(sph_scalars) :: volume
+    end type
+
+    type, bind(c) :: sph_interpolation_options
+        ! A target whose conditioning is smaller gets Shepard's mean; >= 0. 0: only singular ones do. 0.001
+        ! keeps a fit from extrapolating far with neighbours that are nearly on a line.
+        real(sph_real) :: conditioning_min = 0.0_sph_real
+    end type
+
+    ! Where value and gradient go. What is null is not wanted. status holds an sph_status of each target, and
+    ! is contiguous.
+    type, bind(c) :: sph_interpolation_out
+        type(c_ptr) :: value = c_null_ptr, gx = c_null_ptr, gy = c_null_ptr, gz = c_null_ptr, conditioning = &
+            c_null_ptr
+        integer(c_size_t) :: stride = 0
+        type(c_ptr) :: status = c_null_ptr
+    end type
+
+    ! Where rows go: one weight for each entry of the list, for the value and for each component of the
+    ! gradient, contiguous: f = sum_p value[p] f_j, grad f = sum_p (x[p], y[p], z[p]) f_j. What is null is not
+    ! wanted. The stride is that of conditioning.
+    type, bind(c) :: sph_interpolation_rows_out
+        type(c_ptr) :: value = c_null_ptr, x = c_null_ptr, y = c_null_ptr, z = c_null_ptr, conditioning = &
+            c_null_ptr
+        integer(c_size_t) :: stride = 0
+        type(c_ptr) :: status = c_null_ptr
     end type
 
     ! Options of the elliptic sweeps. All zeros are the defaults: gradient (15), arithmetic means, Gamma.
@@ -381,6 +412,11 @@ module sph_c
         type(c_ptr) :: rate = c_null_ptr, heating = c_null_ptr
         integer(c_size_t) :: stride = 0
         type(c_ptr) :: status = c_null_ptr
+    end type
+
+    ! Dynamic viscosities of each particle, neither negative: mu (shear) and zeta (bulk).
+    type, bind(c) :: sph_shear_bulk
+        type(sph_scalars) :: shear, bulk
     end type
 
     ! The fluid and the wall. One number for each particle, all sources.
@@ -977,6 +1013,17 @@ module sph_c
             type(sph_derivatives_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
+        ! likewise; keeps signs
+        function sph_derivatives_fatehi_manzari(kernel, dim, cloud, f, options, out) &
+            bind(c, name='sph_shim_derivatives_fatehi_manzari') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_scalars), intent(in) :: f
+            type(sph_derivatives_options), intent(in) :: options
+            type(sph_derivatives_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
         ! likewise, by least squares: robust
         function sph_derivatives_wls(kernel, dim, cloud, f, options, out) &
             bind(c, name='sph_shim_derivatives_wls') result(answer)
@@ -1001,6 +1048,15 @@ module sph_c
         ! with the factor kappa
         function sph_derivatives_rows_icspm(kernel, dim, cloud, d, out) &
             bind(c, name='sph_shim_derivatives_rows_icspm') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_jet), intent(in) :: d
+            type(sph_rows_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        function sph_derivatives_rows_fatehi_manzari(kernel, dim, cloud, d, out) &
+            bind(c, name='sph_shim_derivatives_rows_fatehi_manzari') result(answer)
             import
             integer(c_int), value :: kernel, dim
             type(sph_cloud), intent(in) :: cloud
@@ -1042,6 +1098,51 @@ module sph_c
             type(sph_cloud), intent(in) :: cloud
             integer(sph_index), value :: left, right
             type(sph_rows_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! moving least squares: exact for linear fields
+        function sph_interpolate_mls(kernel, dim, targets_of, sources, f, options, out) &
+            bind(c, name='sph_shim_interpolate_mls') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: targets_of
+            type(sph_sources), intent(in) :: sources
+            type(sph_scalars), intent(in) :: f
+            type(sph_interpolation_options), intent(in) :: options
+            type(sph_interpolation_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! of mDBC walls
+        function sph_interpolate_liu(kernel, dim, targets_of, sources, f, options, out) &
+            bind(c, name='sph_shim_interpolate_liu') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: targets_of
+            type(sph_sources), intent(in) :: sources
+            type(sph_scalars), intent(in) :: f
+            type(sph_interpolation_options), intent(in) :: options
+            type(sph_interpolation_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! the same as rows
+        function sph_interpolate_rows_mls(kernel, dim, targets_of, sources, options, out) &
+            bind(c, name='sph_shim_interpolate_rows_mls') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: targets_of
+            type(sph_sources), intent(in) :: sources
+            type(sph_interpolation_options), intent(in) :: options
+            type(sph_interpolation_rows_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        function sph_interpolate_rows_liu(kernel, dim, targets_of, sources, options, out) &
+            bind(c, name='sph_shim_interpolate_rows_liu') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: targets_of
+            type(sph_sources), intent(in) :: sources
+            type(sph_interpolation_options), intent(in) :: options
+            type(sph_interpolation_rows_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
         pure function sph_mobility_pair(mean, m_i, m_j, upstream) &
@@ -1099,6 +1200,18 @@ module sph_c
             type(sph_scalar_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
+        ! without derivatives of the kernel; exact for |x|^2
+        function sph_elliptic_basic_degiuli_ban(kernel, dim, cloud, m, options, u, out) &
+            bind(c, name='sph_shim_elliptic_basic_degiuli_ban') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_scalars), intent(in) :: m
+            type(sph_elliptic_options), intent(in) :: options
+            type(sph_scalars), intent(in) :: u
+            type(sph_scalar_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
         ! rows (meshless transmissibilities)
         function sph_elliptic_rows_brookshaw(kernel, dim, cloud, m, options, out) &
             bind(c, name='sph_shim_elliptic_rows_brookshaw') result(answer)
@@ -1132,6 +1245,16 @@ module sph_c
         end function
         function sph_elliptic_rows_msph(kernel, dim, cloud, m, options, out) &
             bind(c, name='sph_shim_elliptic_rows_msph') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_scalars), intent(in) :: m
+            type(sph_elliptic_options), intent(in) :: options
+            type(sph_rows_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        function sph_elliptic_rows_basic_degiuli_ban(kernel, dim, cloud, m, options, out) &
+            bind(c, name='sph_shim_elliptic_rows_basic_degiuli_ban') result(answer)
             import
             integer(c_int), value :: kernel, dim
             type(sph_cloud), intent(in) :: cloud
@@ -1323,6 +1446,17 @@ module sph_c
             type(sph_vector_out), intent(in) :: acceleration
             integer(sph_index) :: answer
         end function
+        ! with shear and bulk viscosity
+        function sph_viscosity_mu_espanol_revenga(kernel, dim, cloud, fluid, mu, acceleration) &
+            bind(c, name='sph_shim_viscosity_mu_espanol_revenga') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_fluid), intent(in) :: fluid
+            type(sph_shear_bulk), intent(in) :: mu
+            type(sph_vector_out), intent(in) :: acceleration
+            integer(sph_index) :: answer
+        end function
         function sph_velocity_xsph(kernel, dim, cloud, fluid, epsilon, change) &
             bind(c, name='sph_shim_velocity_xsph') result(answer)
             import
@@ -1341,6 +1475,28 @@ module sph_c
             type(sph_cloud), intent(in) :: cloud
             type(sph_wall), intent(in) :: wall
             type(sph_wall_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! the same pressure as rows of a matrix
+        function sph_wall_rows_adami(kernel, dim, cloud, wall, out, source) &
+            bind(c, name='sph_shim_wall_rows_adami') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_wall), intent(in) :: wall
+            type(sph_rows_out), intent(in) :: out
+            type(sph_scalar_out), intent(in) :: source
+            integer(sph_index) :: answer
+        end function
+        ! rows of the fluid without unknowns of the wall
+        function sph_wall_rows_eliminate(dim, cloud, wall, rows, source) &
+            bind(c, name='sph_shim_wall_rows_eliminate') result(answer)
+            import
+            integer(c_int), value :: dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_wall), intent(in) :: wall
+            type(sph_rows_out), intent(in) :: rows
+            type(sph_scalar_out), intent(in) :: source
             integer(sph_index) :: answer
         end function
         pure function sph_time_step_density_diffusion(kernel, dim, h, delta, c) &
@@ -1827,6 +1983,10 @@ contains
         type(sph_density_out) :: sph_density_out_here
         type(sph_jet) :: sph_jet_here
         type(sph_derivatives_options) :: sph_derivatives_options_here
+        type(sph_sources) :: sph_sources_here
+        type(sph_interpolation_options) :: sph_interpolation_options_here
+        type(sph_interpolation_out) :: sph_interpolation_out_here
+        type(sph_interpolation_rows_out) :: sph_interpolation_rows_out_here
         type(sph_elliptic_options) :: sph_elliptic_options_here
         type(sph_elliptic_report) :: sph_elliptic_report_here
         type(sph_diagonal) :: sph_diagonal_here
@@ -1835,6 +1995,7 @@ contains
         type(sph_tait) :: sph_tait_here
         type(sph_fluid) :: sph_fluid_here
         type(sph_fluid_out) :: sph_fluid_out_here
+        type(sph_shear_bulk) :: sph_shear_bulk_here
         type(sph_wall) :: sph_wall_here
         type(sph_wall_out) :: sph_wall_out_here
         type(sph_diffusion) :: sph_diffusion_here
@@ -1890,6 +2051,14 @@ contains
             c_struct_size('sph_jet'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_derivatives_options_here) == &
             c_struct_size('sph_derivatives_options'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_sources_here) == &
+            c_struct_size('sph_sources'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_interpolation_options_here) == &
+            c_struct_size('sph_interpolation_options'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_interpolation_out_here) == &
+            c_struct_size('sph_interpolation_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_interpolation_rows_out_here) == &
+            c_struct_size('sph_interpolation_rows_out'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_elliptic_options_here) == &
             c_struct_size('sph_elliptic_options'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_elliptic_report_here) == &
@@ -1906,6 +2075,8 @@ contains
             c_struct_size('sph_fluid'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_fluid_out_here) == &
             c_struct_size('sph_fluid_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_shear_bulk_here) == &
+            c_struct_size('sph_shear_bulk'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_wall_here) == &
             c_struct_size('sph_wall'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_wall_out_here) == &

@@ -66,6 +66,20 @@ exports.structs = {
     sph_derivatives_options: [
         ["conditioning_min", "sph_real", 1], ["fallback_wls", "int", 1],
     ],
+    sph_sources: [
+        ["points", "sph_points", 1], ["volume", "sph_scalars", 1],
+    ],
+    sph_interpolation_options: [
+        ["conditioning_min", "sph_real", 1],
+    ],
+    sph_interpolation_out: [
+        ["value", "pointer", 1], ["gx", "pointer", 1], ["gy", "pointer", 1], ["gz", "pointer", 1],
+        ["conditioning", "pointer", 1], ["stride", "size_t", 1], ["status", "pointer", 1],
+    ],
+    sph_interpolation_rows_out: [
+        ["value", "pointer", 1], ["x", "pointer", 1], ["y", "pointer", 1], ["z", "pointer", 1],
+        ["conditioning", "pointer", 1], ["stride", "size_t", 1], ["status", "pointer", 1],
+    ],
     sph_elliptic_options: [
         ["gradient", "int", 1], ["mean", "int", 1], ["gamma_star", "int", 1], ["trace", "int", 1],
         ["conditioning_min", "sph_real", 1], ["potential", "sph_scalars", 1], ["source", "sph_scalars", 1],
@@ -97,6 +111,9 @@ exports.structs = {
     sph_fluid_out: [
         ["acceleration", "sph_vector_out", 1], ["rate", "pointer", 1], ["heating", "pointer", 1],
         ["stride", "size_t", 1], ["status", "pointer", 1],
+    ],
+    sph_shear_bulk: [
+        ["shear", "sph_scalars", 1], ["bulk", "sph_scalars", 1],
     ],
     sph_wall: [
         ["share", "sph_scalars", 1], ["rho", "sph_scalars", 1], ["p", "sph_scalars", 1],

@@ -285,6 +285,20 @@ sph_index sph_shim_derivatives_icspm(int kernel, int dim, const sph_cloud *cloud
 #undef SWEEP
 
 #define SWEEP(K, D) \
+    sph_derivatives_fatehi_manzari(K, D, *cloud, GIVEN(sph_scalars, f), \
+                                   GIVEN(sph_derivatives_options, options), GIVEN(sph_derivatives_out, out))
+sph_index sph_shim_derivatives_fatehi_manzari(int kernel, int dim, const sph_cloud *cloud,
+                                              const sph_scalars *f, const sph_derivatives_options *options,
+                                              const sph_derivatives_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
     sph_derivatives_wls(K, D, *cloud, GIVEN(sph_scalars, f), GIVEN(sph_derivatives_options, options), \
                         GIVEN(sph_derivatives_out, out))
 sph_index sph_shim_derivatives_wls(int kernel, int dim, const sph_cloud *cloud, const sph_scalars *f,
@@ -313,6 +327,18 @@ sph_index sph_shim_derivatives_rows_cspm(int kernel, int dim, const sph_cloud *c
     sph_derivatives_rows_icspm(K, D, *cloud, GIVEN(sph_jet, d), GIVEN(sph_rows_out, out))
 sph_index sph_shim_derivatives_rows_icspm(int kernel, int dim, const sph_cloud *cloud, const sph_jet *d,
                                           const sph_rows_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_derivatives_rows_fatehi_manzari(K, D, *cloud, GIVEN(sph_jet, d), GIVEN(sph_rows_out, out))
+sph_index sph_shim_derivatives_rows_fatehi_manzari(int kernel, int dim, const sph_cloud *cloud,
+                                                   const sph_jet *d, const sph_rows_out *out)
 {
     sph_index answer = SPH_ERROR_KERNEL;
     if (!cloud) return missing("cloud");
@@ -357,6 +383,64 @@ sph_index sph_shim_second_derivative_rows_bim(int kernel, const sph_cloud *cloud
     sph_index answer = SPH_ERROR_KERNEL;
     if (!cloud) return missing("cloud");
     EVERY_KERNEL
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_interpolate_mls(K, D, *targets_of, GIVEN(sph_sources, sources), GIVEN(sph_scalars, f), \
+                        GIVEN(sph_interpolation_options, options), GIVEN(sph_interpolation_out, out))
+sph_index sph_shim_interpolate_mls(int kernel, int dim, const sph_cloud *targets_of,
+                                   const sph_sources *sources, const sph_scalars *f,
+                                   const sph_interpolation_options *options, const sph_interpolation_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!targets_of) return missing("targets_of");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_interpolate_liu(K, D, *targets_of, GIVEN(sph_sources, sources), GIVEN(sph_scalars, f), \
+                        GIVEN(sph_interpolation_options, options), GIVEN(sph_interpolation_out, out))
+sph_index sph_shim_interpolate_liu(int kernel, int dim, const sph_cloud *targets_of,
+                                   const sph_sources *sources, const sph_scalars *f,
+                                   const sph_interpolation_options *options, const sph_interpolation_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!targets_of) return missing("targets_of");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_interpolate_rows_mls(K, D, *targets_of, GIVEN(sph_sources, sources), \
+                             GIVEN(sph_interpolation_options, options), \
+                             GIVEN(sph_interpolation_rows_out, out))
+sph_index sph_shim_interpolate_rows_mls(int kernel, int dim, const sph_cloud *targets_of,
+                                        const sph_sources *sources, const sph_interpolation_options *options,
+                                        const sph_interpolation_rows_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!targets_of) return missing("targets_of");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_interpolate_rows_liu(K, D, *targets_of, GIVEN(sph_sources, sources), \
+                             GIVEN(sph_interpolation_options, options), \
+                             GIVEN(sph_interpolation_rows_out, out))
+sph_index sph_shim_interpolate_rows_liu(int kernel, int dim, const sph_cloud *targets_of,
+                                        const sph_sources *sources, const sph_interpolation_options *options,
+                                        const sph_interpolation_rows_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!targets_of) return missing("targets_of");
+    EVERY_KERNEL_AND_DIM
     return answer;
 }
 #undef SWEEP
@@ -423,6 +507,21 @@ sph_index sph_shim_elliptic_msph(int kernel, int dim, const sph_cloud *cloud, co
 #undef SWEEP
 
 #define SWEEP(K, D) \
+    sph_elliptic_basic_degiuli_ban(K, D, *cloud, GIVEN(sph_scalars, m), \
+                                   GIVEN(sph_elliptic_options, options), GIVEN(sph_scalars, u), \
+                                   GIVEN(sph_scalar_out, out))
+sph_index sph_shim_elliptic_basic_degiuli_ban(int kernel, int dim, const sph_cloud *cloud,
+                                              const sph_scalars *m, const sph_elliptic_options *options,
+                                              const sph_scalars *u, const sph_scalar_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
     sph_elliptic_rows_brookshaw(K, D, *cloud, GIVEN(sph_scalars, m), GIVEN(sph_elliptic_options, options), \
                                 GIVEN(sph_rows_out, out))
 sph_index sph_shim_elliptic_rows_brookshaw(int kernel, int dim, const sph_cloud *cloud, const sph_scalars *m,
@@ -480,6 +579,20 @@ sph_index sph_shim_elliptic_rows_msph(int kernel, int dim, const sph_cloud *clou
     sph_index answer = SPH_ERROR_KERNEL;
     if (!cloud) return missing("cloud");
     if (IS_CONSTANT(kernel)) return folded_elliptic_rows_msph(kernel, dim, cloud, m, options, out);
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_elliptic_rows_basic_degiuli_ban(K, D, *cloud, GIVEN(sph_scalars, m), \
+                                        GIVEN(sph_elliptic_options, options), GIVEN(sph_rows_out, out))
+sph_index sph_shim_elliptic_rows_basic_degiuli_ban(int kernel, int dim, const sph_cloud *cloud,
+                                                   const sph_scalars *m, const sph_elliptic_options *options,
+                                                   const sph_rows_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
     EVERY_KERNEL_AND_DIM
     return answer;
 }
@@ -680,6 +793,20 @@ sph_index sph_shim_viscosity_mu_monaghan_cleary(int kernel, int dim, const sph_c
 #undef SWEEP
 
 #define SWEEP(K, D) \
+    sph_viscosity_mu_espanol_revenga(K, D, *cloud, GIVEN(sph_fluid, fluid), GIVEN(sph_shear_bulk, mu), \
+                                     GIVEN(sph_vector_out, acceleration))
+sph_index sph_shim_viscosity_mu_espanol_revenga(int kernel, int dim, const sph_cloud *cloud,
+                                                const sph_fluid *fluid, const sph_shear_bulk *mu,
+                                                const sph_vector_out *acceleration)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
     sph_velocity_xsph(K, D, *cloud, GIVEN(sph_fluid, fluid), epsilon, GIVEN(sph_vector_out, change))
 sph_index sph_shim_velocity_xsph(int kernel, int dim, const sph_cloud *cloud, const sph_fluid *fluid,
                                  sph_real epsilon, const sph_vector_out *change)
@@ -699,6 +826,32 @@ sph_index sph_shim_wall_adami(int kernel, int dim, const sph_cloud *cloud, const
     sph_index answer = SPH_ERROR_KERNEL;
     if (!cloud) return missing("cloud");
     EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_wall_rows_adami(K, D, *cloud, GIVEN(sph_wall, wall), GIVEN(sph_rows_out, out), \
+                        GIVEN(sph_scalar_out, source))
+sph_index sph_shim_wall_rows_adami(int kernel, int dim, const sph_cloud *cloud, const sph_wall *wall,
+                                   const sph_rows_out *out, const sph_scalar_out *source)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(D) \
+    sph_wall_rows_eliminate(D, *cloud, GIVEN(sph_wall, wall), GIVEN(sph_rows_out, rows), \
+                            GIVEN(sph_scalar_out, source))
+sph_index sph_shim_wall_rows_eliminate(int dim, const sph_cloud *cloud, const sph_wall *wall,
+                                       const sph_rows_out *rows, const sph_scalar_out *source)
+{
+    sph_index answer = SPH_ERROR_DIM;
+    if (!cloud) return missing("cloud");
+    EVERY_DIM
     return answer;
 }
 #undef SWEEP
@@ -1221,6 +1374,10 @@ size_t sph_shim_struct_size(const char *name)
     if (!strcmp(name, "sph_density_out")) return sizeof(sph_density_out);
     if (!strcmp(name, "sph_jet")) return sizeof(sph_jet);
     if (!strcmp(name, "sph_derivatives_options")) return sizeof(sph_derivatives_options);
+    if (!strcmp(name, "sph_sources")) return sizeof(sph_sources);
+    if (!strcmp(name, "sph_interpolation_options")) return sizeof(sph_interpolation_options);
+    if (!strcmp(name, "sph_interpolation_out")) return sizeof(sph_interpolation_out);
+    if (!strcmp(name, "sph_interpolation_rows_out")) return sizeof(sph_interpolation_rows_out);
     if (!strcmp(name, "sph_elliptic_options")) return sizeof(sph_elliptic_options);
     if (!strcmp(name, "sph_elliptic_report")) return sizeof(sph_elliptic_report);
     if (!strcmp(name, "sph_diagonal")) return sizeof(sph_diagonal);
@@ -1229,6 +1386,7 @@ size_t sph_shim_struct_size(const char *name)
     if (!strcmp(name, "sph_tait")) return sizeof(sph_tait);
     if (!strcmp(name, "sph_fluid")) return sizeof(sph_fluid);
     if (!strcmp(name, "sph_fluid_out")) return sizeof(sph_fluid_out);
+    if (!strcmp(name, "sph_shear_bulk")) return sizeof(sph_shear_bulk);
     if (!strcmp(name, "sph_wall")) return sizeof(sph_wall);
     if (!strcmp(name, "sph_wall_out")) return sizeof(sph_wall_out);
     if (!strcmp(name, "sph_diffusion")) return sizeof(sph_diffusion);

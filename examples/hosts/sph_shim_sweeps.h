@@ -91,6 +91,10 @@ SPH_SHIM_EXPORT sph_index sph_shim_derivatives_icspm(int kernel, int dim, const 
                                                      const sph_scalars *f,
                                                      const sph_derivatives_options *options,
                                                      const sph_derivatives_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_derivatives_fatehi_manzari(int kernel, int dim, const sph_cloud *cloud,
+                                                              const sph_scalars *f,
+                                                              const sph_derivatives_options *options,
+                                                              const sph_derivatives_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_derivatives_wls(int kernel, int dim, const sph_cloud *cloud,
                                                    const sph_scalars *f,
                                                    const sph_derivatives_options *options,
@@ -99,6 +103,9 @@ SPH_SHIM_EXPORT sph_index sph_shim_derivatives_rows_cspm(int kernel, int dim, co
                                                          const sph_jet *d, const sph_rows_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_derivatives_rows_icspm(int kernel, int dim, const sph_cloud *cloud,
                                                           const sph_jet *d, const sph_rows_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_derivatives_rows_fatehi_manzari(int kernel, int dim,
+                                                                   const sph_cloud *cloud, const sph_jet *d,
+                                                                   const sph_rows_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_derivatives_rows_wls(int kernel, int dim, const sph_cloud *cloud,
                                                         const sph_jet *d, const sph_rows_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_second_derivative_bim(int kernel, const sph_cloud *cloud,
@@ -107,6 +114,22 @@ SPH_SHIM_EXPORT sph_index sph_shim_second_derivative_bim(int kernel, const sph_c
 SPH_SHIM_EXPORT sph_index sph_shim_second_derivative_rows_bim(int kernel, const sph_cloud *cloud,
                                                               sph_index left, sph_index right,
                                                               const sph_rows_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_interpolate_mls(int kernel, int dim, const sph_cloud *targets_of,
+                                                   const sph_sources *sources, const sph_scalars *f,
+                                                   const sph_interpolation_options *options,
+                                                   const sph_interpolation_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_interpolate_liu(int kernel, int dim, const sph_cloud *targets_of,
+                                                   const sph_sources *sources, const sph_scalars *f,
+                                                   const sph_interpolation_options *options,
+                                                   const sph_interpolation_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_interpolate_rows_mls(int kernel, int dim, const sph_cloud *targets_of,
+                                                        const sph_sources *sources,
+                                                        const sph_interpolation_options *options,
+                                                        const sph_interpolation_rows_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_interpolate_rows_liu(int kernel, int dim, const sph_cloud *targets_of,
+                                                        const sph_sources *sources,
+                                                        const sph_interpolation_options *options,
+                                                        const sph_interpolation_rows_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_elliptic_brookshaw(int kernel, int dim, const sph_cloud *cloud,
                                                       const sph_scalars *m,
                                                       const sph_elliptic_options *options,
@@ -123,6 +146,11 @@ SPH_SHIM_EXPORT sph_index sph_shim_elliptic_schwaiger(int kernel, int dim, const
 SPH_SHIM_EXPORT sph_index sph_shim_elliptic_msph(int kernel, int dim, const sph_cloud *cloud,
                                                  const sph_scalars *m, const sph_elliptic_options *options,
                                                  const sph_scalars *u, const sph_scalar_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_elliptic_basic_degiuli_ban(int kernel, int dim, const sph_cloud *cloud,
+                                                              const sph_scalars *m,
+                                                              const sph_elliptic_options *options,
+                                                              const sph_scalars *u,
+                                                              const sph_scalar_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_elliptic_rows_brookshaw(int kernel, int dim, const sph_cloud *cloud,
                                                            const sph_scalars *m,
                                                            const sph_elliptic_options *options,
@@ -140,6 +168,11 @@ SPH_SHIM_EXPORT sph_index sph_shim_elliptic_rows_msph(int kernel, int dim, const
                                                       const sph_scalars *m,
                                                       const sph_elliptic_options *options,
                                                       const sph_rows_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_elliptic_rows_basic_degiuli_ban(int kernel, int dim,
+                                                                   const sph_cloud *cloud,
+                                                                   const sph_scalars *m,
+                                                                   const sph_elliptic_options *options,
+                                                                   const sph_rows_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_elliptic_diagnose(int kernel, int dim, const sph_cloud *cloud,
                                                      const sph_elliptic_options *options,
                                                      const sph_elliptic_report *out);
@@ -177,11 +210,21 @@ SPH_SHIM_EXPORT sph_index sph_shim_viscosity_mu_morris(int kernel, int dim, cons
 SPH_SHIM_EXPORT sph_index sph_shim_viscosity_mu_monaghan_cleary(int kernel, int dim, const sph_cloud *cloud,
                                                                 const sph_fluid *fluid, const sph_scalars *mu,
                                                                 const sph_vector_out *acceleration);
+SPH_SHIM_EXPORT sph_index sph_shim_viscosity_mu_espanol_revenga(int kernel, int dim, const sph_cloud *cloud,
+                                                                const sph_fluid *fluid,
+                                                                const sph_shear_bulk *mu,
+                                                                const sph_vector_out *acceleration);
 SPH_SHIM_EXPORT sph_index sph_shim_velocity_xsph(int kernel, int dim, const sph_cloud *cloud,
                                                  const sph_fluid *fluid, sph_real epsilon,
                                                  const sph_vector_out *change);
 SPH_SHIM_EXPORT sph_index sph_shim_wall_adami(int kernel, int dim, const sph_cloud *cloud,
                                               const sph_wall *wall, const sph_wall_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_wall_rows_adami(int kernel, int dim, const sph_cloud *cloud,
+                                                   const sph_wall *wall, const sph_rows_out *out,
+                                                   const sph_scalar_out *source);
+SPH_SHIM_EXPORT sph_index sph_shim_wall_rows_eliminate(int dim, const sph_cloud *cloud, const sph_wall *wall,
+                                                       const sph_rows_out *rows,
+                                                       const sph_scalar_out *source);
 SPH_SHIM_EXPORT sph_index sph_shim_density_diffusion_molteni(int kernel, int dim, const sph_cloud *cloud,
                                                              const sph_fluid *fluid,
                                                              const sph_diffusion *diffusion,

@@ -263,6 +263,43 @@ class sph_derivatives_options(Structure):
     ]
 
 
+class sph_sources(Structure):
+    _fields_ = [
+        ("points", sph_points),
+        ("volume", sph_scalars),
+    ]
+
+
+class sph_interpolation_options(Structure):
+    _fields_ = [
+        ("conditioning_min", c_double),
+    ]
+
+
+class sph_interpolation_out(Structure):
+    _fields_ = [
+        ("value", c_void_p),
+        ("gx", c_void_p),
+        ("gy", c_void_p),
+        ("gz", c_void_p),
+        ("conditioning", c_void_p),
+        ("stride", c_size_t),
+        ("status", c_void_p),
+    ]
+
+
+class sph_interpolation_rows_out(Structure):
+    _fields_ = [
+        ("value", c_void_p),
+        ("x", c_void_p),
+        ("y", c_void_p),
+        ("z", c_void_p),
+        ("conditioning", c_void_p),
+        ("stride", c_size_t),
+        ("status", c_void_p),
+    ]
+
+
 class sph_elliptic_options(Structure):
     _fields_ = [
         ("gradient", c_int),
@@ -345,6 +382,13 @@ class sph_fluid_out(Structure):
         ("heating", c_void_p),
         ("stride", c_size_t),
         ("status", c_void_p),
+    ]
+
+
+class sph_shear_bulk(Structure):
+    _fields_ = [
+        ("shear", sph_scalars),
+        ("bulk", sph_scalars),
     ]
 
 
@@ -579,6 +623,10 @@ STRUCTS = [
     sph_density_out,
     sph_jet,
     sph_derivatives_options,
+    sph_sources,
+    sph_interpolation_options,
+    sph_interpolation_out,
+    sph_interpolation_rows_out,
     sph_elliptic_options,
     sph_elliptic_report,
     sph_diagonal,
@@ -587,6 +635,7 @@ STRUCTS = [
     sph_tait,
     sph_fluid,
     sph_fluid_out,
+    sph_shear_bulk,
     sph_wall,
     sph_wall_out,
     sph_diffusion,
@@ -729,6 +778,14 @@ FUNCTIONS = {
         ("options", sph_derivatives_options),
         ("out", sph_derivatives_out),
     ]),
+    "derivatives_fatehi_manzari": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("f", sph_scalars),
+        ("options", sph_derivatives_options),
+        ("out", sph_derivatives_out),
+    ]),
     "derivatives_wls": (c_int32, [
         ("kernel", c_int),
         ("dim", c_int),
@@ -745,6 +802,13 @@ FUNCTIONS = {
         ("out", sph_rows_out),
     ]),
     "derivatives_rows_icspm": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("d", sph_jet),
+        ("out", sph_rows_out),
+    ]),
+    "derivatives_rows_fatehi_manzari": (c_int32, [
         ("kernel", c_int),
         ("dim", c_int),
         ("cloud", sph_cloud),
@@ -778,6 +842,40 @@ FUNCTIONS = {
         ("left", c_int32),
         ("right", c_int32),
         ("out", sph_rows_out),
+    ]),
+    "interpolate_mls": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("targets_of", sph_cloud),
+        ("sources", sph_sources),
+        ("f", sph_scalars),
+        ("options", sph_interpolation_options),
+        ("out", sph_interpolation_out),
+    ]),
+    "interpolate_liu": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("targets_of", sph_cloud),
+        ("sources", sph_sources),
+        ("f", sph_scalars),
+        ("options", sph_interpolation_options),
+        ("out", sph_interpolation_out),
+    ]),
+    "interpolate_rows_mls": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("targets_of", sph_cloud),
+        ("sources", sph_sources),
+        ("options", sph_interpolation_options),
+        ("out", sph_interpolation_rows_out),
+    ]),
+    "interpolate_rows_liu": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("targets_of", sph_cloud),
+        ("sources", sph_sources),
+        ("options", sph_interpolation_options),
+        ("out", sph_interpolation_rows_out),
     ]),
     "mobility_pair": (c_double, [
         ("mean", c_int),
@@ -821,6 +919,15 @@ FUNCTIONS = {
         ("u", sph_scalars),
         ("out", sph_scalar_out),
     ]),
+    "elliptic_basic_degiuli_ban": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("m", sph_scalars),
+        ("options", sph_elliptic_options),
+        ("u", sph_scalars),
+        ("out", sph_scalar_out),
+    ]),
     "elliptic_rows_brookshaw": (c_int32, [
         ("kernel", c_int),
         ("dim", c_int),
@@ -846,6 +953,14 @@ FUNCTIONS = {
         ("out", sph_rows_out),
     ]),
     "elliptic_rows_msph": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("m", sph_scalars),
+        ("options", sph_elliptic_options),
+        ("out", sph_rows_out),
+    ]),
+    "elliptic_rows_basic_degiuli_ban": (c_int32, [
         ("kernel", c_int),
         ("dim", c_int),
         ("cloud", sph_cloud),
@@ -958,6 +1073,14 @@ FUNCTIONS = {
         ("mu", sph_scalars),
         ("acceleration", sph_vector_out),
     ]),
+    "viscosity_mu_espanol_revenga": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("fluid", sph_fluid),
+        ("mu", sph_shear_bulk),
+        ("acceleration", sph_vector_out),
+    ]),
     "velocity_xsph": (c_int32, [
         ("kernel", c_int),
         ("dim", c_int),
@@ -972,6 +1095,21 @@ FUNCTIONS = {
         ("cloud", sph_cloud),
         ("wall", sph_wall),
         ("out", sph_wall_out),
+    ]),
+    "wall_rows_adami": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("wall", sph_wall),
+        ("out", sph_rows_out),
+        ("source", sph_scalar_out),
+    ]),
+    "wall_rows_eliminate": (c_int32, [
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("wall", sph_wall),
+        ("rows", sph_rows_out),
+        ("source", sph_scalar_out),
     ]),
     "time_step_density_diffusion": (c_double, [
         ("kernel", c_int),

@@ -153,7 +153,8 @@ class Operators:
 
         conditioning_min: A target whose |conditioning| is smaller is SPH_ILL_CONDITIONED; >= 0. 0: no target
         is.
-        fallback_wls: For ICSPM. 1: targets that are singular or ill-conditioned get the values of WLS.
+        fallback_wls: For ICSPM and Fatehi-Manzari. 1: targets that are singular or ill-conditioned get the
+        values of WLS.
         """
         return self._call("derivatives_cspm", locals())
 
@@ -171,9 +172,35 @@ class Operators:
 
         conditioning_min: A target whose |conditioning| is smaller is SPH_ILL_CONDITIONED; >= 0. 0: no target
         is.
-        fallback_wls: For ICSPM. 1: targets that are singular or ill-conditioned get the values of WLS.
+        fallback_wls: For ICSPM and Fatehi-Manzari. 1: targets that are singular or ill-conditioned get the
+        values of WLS.
         """
         return self._call("derivatives_icspm", locals())
+
+    def derivatives_fatehi_manzari(
+        self,
+        f: Scalars,
+        conditioning_min: float = 0.0,
+        fallback_wls: int = 0,
+    ) -> Any:
+        """sph_derivatives_fatehi_manzari: likewise; keeps signs
+
+        Gradient, Hessian and Laplacian by Fatehi & Manzari 2011, Comput. Math. Appl. 61, 482: with B = -(sum
+        V_j x_ij grad W)^-1 and <grad f> = sum V_j (f_j - f_i) B grad W, <lap f>_i = Bh : sum_j 2 V_j e grad W
+        ((f_i - f_j) / r - e . <grad f>),   e = x_ij / r, Bh : [sum V_j r e e e grad W + (sum V_j e e grad W)
+        . B . (sum V_j x_ij x_ij grad W)] = -1 (unit matrix), computed as the trace of the Hessian of the
+        block system (see the chapter's opening; the paper has the Laplacian only). Exact for quadratic
+        fields. In disordered clouds it is as accurate in the interior as WLS and keeps the signs of the
+        weights, which ICSPM does not; at a boundary single particles come near det(kappa) = 0. conditioning,
+        conditioning_min, fallback_wls and the status are as for ICSPM: with conditioning_min = 0 a particle
+        with a large error there is SPH_OK.
+
+        conditioning_min: A target whose |conditioning| is smaller is SPH_ILL_CONDITIONED; >= 0. 0: no target
+        is.
+        fallback_wls: For ICSPM and Fatehi-Manzari. 1: targets that are singular or ill-conditioned get the
+        values of WLS.
+        """
+        return self._call("derivatives_fatehi_manzari", locals())
 
     def derivatives_wls(self, f: Scalars, conditioning_min: float = 0.0, fallback_wls: int = 0) -> Any:
         """sph_derivatives_wls: likewise, by least squares: robust
@@ -186,7 +213,8 @@ class Operators:
 
         conditioning_min: A target whose |conditioning| is smaller is SPH_ILL_CONDITIONED; >= 0. 0: no target
         is.
-        fallback_wls: For ICSPM. 1: targets that are singular or ill-conditioned get the values of WLS.
+        fallback_wls: For ICSPM and Fatehi-Manzari. 1: targets that are singular or ill-conditioned get the
+        values of WLS.
         """
         return self._call("derivatives_wls", locals())
 
@@ -210,6 +238,20 @@ class Operators:
         (What is the same: see derivatives_rows_cspm.)
         """
         return self._call("derivatives_rows_icspm", locals())
+
+    def derivatives_rows_fatehi_manzari(
+        self,
+        gradient: Sequence[float] = (),
+        hessian: Sequence[float] = (),
+    ) -> Any:
+        """sph_derivatives_rows_fatehi_manzari.
+
+        The same by Fatehi & Manzari, exact for quadratic fields, with a factor as for ICSPM: the row of the
+        paper is row[p] / factor[i].
+
+        (What is the same: see derivatives_rows_cspm.)
+        """
+        return self._call("derivatives_rows_fatehi_manzari", locals())
 
     def derivatives_rows_wls(self, gradient: Sequence[float] = (), hessian: Sequence[float] = ()) -> Any:
         """sph_derivatives_rows_wls.
@@ -244,6 +286,81 @@ class Operators:
         """
         return self._call("second_derivative_rows_bim", locals())
 
+    def interpolate_mls(
+        self,
+        f: Scalars,
+        points: Vectors = None,
+        volume: Scalars = None,
+        conditioning_min: float = 0.0,
+    ) -> Any:
+        """sph_interpolate_mls: moving least squares: exact for linear fields
+
+        Value and gradient of f at the targets of another cloud, by moving least squares (see the chapter's
+        opening): exact for linear fields, error O(h^2), any cloud. Of targets_of, the points, lists, h and
+        range are read: lists hold every source with r < support of the target (SPH_GATHER with
+        SPH_LIST_FOREIGN). f has one value for each source. The box is that of the sources. conditioning is
+        that of sph_solve_fit. The states of targets are SPH_OK, SPH_FELL_BACK (Shepard's mean, gradient 0),
+        SPH_TOO_FEW (nothing inside the support) and SPH_NOT_FINITE; for the last two all is 0. Returns the
+        number of targets that are not SPH_OK, or a negative sph_error.
+
+        conditioning_min: A target whose conditioning is smaller gets Shepard's mean; >= 0. 0: only singular
+        ones do. 0.001 keeps a fit from extrapolating far with neighbours that are nearly on a line.
+        """
+        return self._call("interpolate_mls", locals())
+
+    def interpolate_liu(
+        self,
+        f: Scalars,
+        points: Vectors = None,
+        volume: Scalars = None,
+        conditioning_min: float = 0.0,
+    ) -> Any:
+        """sph_interpolate_liu: of mDBC walls
+
+        The same by Liu & Liu's test functions W and grad W, as walls by mirror points (mDBC) do it: the
+        targets are the mirror points, and sph_fit_extend carries value and gradient from there to the wall
+        particles. mDBC falls back where the determinant is below 0.001: its conditioning_min.
+
+        (What is the same: see interpolate_mls.)
+
+        conditioning_min: A target whose conditioning is smaller gets Shepard's mean; >= 0. 0: only singular
+        ones do. 0.001 keeps a fit from extrapolating far with neighbours that are nearly on a line.
+        """
+        return self._call("interpolate_liu", locals())
+
+    def interpolate_rows_mls(
+        self,
+        points: Vectors = None,
+        volume: Scalars = None,
+        conditioning_min: float = 0.0,
+    ) -> Any:
+        """sph_interpolate_rows_mls: the same as rows
+
+        The value and gradient of sph_interpolate_mls as rows, for many fields of the same particles, and for
+        matrices: f = sum_p value[p] f_j, grad f = sum_p (x[p], y[p], z[p]) f_j, p along the list of the
+        target. The rows of the value have the sum 1, those of the gradient 0. The rows of a target that is
+        SPH_TOO_FEW or SPH_NOT_FINITE are 0.
+
+        conditioning_min: A target whose conditioning is smaller gets Shepard's mean; >= 0. 0: only singular
+        ones do. 0.001 keeps a fit from extrapolating far with neighbours that are nearly on a line.
+        """
+        return self._call("interpolate_rows_mls", locals())
+
+    def interpolate_rows_liu(
+        self,
+        points: Vectors = None,
+        volume: Scalars = None,
+        conditioning_min: float = 0.0,
+    ) -> Any:
+        """sph_interpolate_rows_liu.
+
+        Those of sph_interpolate_liu.
+
+        conditioning_min: A target whose conditioning is smaller gets Shepard's mean; >= 0. 0: only singular
+        ones do. 0.001 keeps a fit from extrapolating far with neighbours that are nearly on a line.
+        """
+        return self._call("interpolate_rows_liu", locals())
+
     def elliptic_brookshaw(
         self,
         m: Scalars,
@@ -258,7 +375,7 @@ class Operators:
     ) -> Array:
         """sph_elliptic_brookshaw: sum_j V_j (m_i + m_j) (u_i - u_j) F_ij
 
-        div(m grad u)_i + source_i by the four schemes. The chapter's opening has formulas, sources and
+        div(m grad u)_i + source_i by the five schemes. The chapter's opening has formulas, sources and
         exactness. h        one for all particles, or one for each. A pair uses (h_i + h_j) / 2, so that the
         list must hold every j with r < support ratio * (h_i + h_j) / 2 (SPH_MEAN). m        the mobility, not
         negative. options  all zeros are the defaults. options.source = sph_scalars_none() adds no source.
@@ -376,6 +493,39 @@ class Operators:
         """
         return self._call("elliptic_msph", locals())
 
+    def elliptic_basic_degiuli_ban(
+        self,
+        m: Scalars,
+        u: Scalars,
+        gradient: int = 0,
+        mean: int = 0,
+        gamma_star: int = 0,
+        trace: int = 0,
+        conditioning_min: float = 0.0,
+        potential: Scalars = None,
+        source: Scalars = None,
+    ) -> Array:
+        """sph_elliptic_basic_degiuli_ban: without derivatives of the kernel; exact for |x|^2
+
+        The same by Basic, Degiuli & Ban 2018, JCP 354, 269: exact for linear u and for |x|^2 where m is
+        constant, and for no other quadratic field at a boundary. It needs no derivative of the kernel.
+        options.gradient, gamma_star and trace are not read: the scale is always dim / tr Gamma*. Where tr
+        Gamma* is below a tenth of tr Gamma, as at one-sided particles, their denominator is small or
+        negative; the scale is then tr Gamma^-1 / dim, and the particle is SPH_FELL_BACK.
+
+        (What is the same: see elliptic_brookshaw.)
+
+        gradient: an sph_elliptic_gradient
+        mean: an sph_mobility_mean
+        gamma_star: For M-SPH only. 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK.
+        trace: For Schwaiger and M-SPH. 1: scale = dim / tr Gamma* where tr Gamma* is large enough, else
+        SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
+        conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
+        potential: read for SPH_MOBILITY_UPWIND only
+        source: is added to the result, if it is there; rows do not contain it
+        """
+        return self._call("elliptic_basic_degiuli_ban", locals())
+
     def elliptic_rows_brookshaw(
         self,
         m: Scalars,
@@ -479,6 +629,32 @@ class Operators:
         source: is added to the result, if it is there; rows do not contain it
         """
         return self._call("elliptic_rows_msph", locals())
+
+    def elliptic_rows_basic_degiuli_ban(
+        self,
+        m: Scalars,
+        gradient: int = 0,
+        mean: int = 0,
+        gamma_star: int = 0,
+        trace: int = 0,
+        conditioning_min: float = 0.0,
+        potential: Scalars = None,
+        source: Scalars = None,
+    ) -> Any:
+        """sph_elliptic_rows_basic_degiuli_ban.
+
+        The rows of sph_elliptic_basic_degiuli_ban.
+
+        gradient: an sph_elliptic_gradient
+        mean: an sph_mobility_mean
+        gamma_star: For M-SPH only. 1: Gamma* (71) where it is definite, else Gamma and SPH_FELL_BACK.
+        trace: For Schwaiger and M-SPH. 1: scale = dim / tr Gamma* where tr Gamma* is large enough, else
+        SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
+        conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
+        potential: read for SPH_MOBILITY_UPWIND only
+        source: is added to the result, if it is there; rows do not contain it
+        """
+        return self._call("elliptic_rows_basic_degiuli_ban", locals())
 
     def elliptic_diagnose(
         self,
@@ -784,6 +960,37 @@ class Operators:
         """
         return self._call("viscosity_mu_monaghan_cleary", locals())
 
+    def viscosity_mu_espanol_revenga(
+        self,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+        shear: Scalars = None,
+        bulk: Scalars = None,
+    ) -> Array:
+        """sph_viscosity_mu_espanol_revenga: with shear and bulk viscosity
+
+        The acceleration by shear and bulk viscosity, by sph_viscosity_mu_pair_espanol_revenga: see there for
+        the stress tensor, and for which zeta the kinetic energy can only fall. Else as the two above.
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        """
+        return self._call("viscosity_mu_espanol_revenga", locals())
+
     def velocity_xsph(
         self,
         epsilon: float,
@@ -850,6 +1057,76 @@ class Operators:
         gravity: g - a_w: gravity less the acceleration of the wall
         """
         return self._call("wall_adami", locals())
+
+    def wall_rows_adami(
+        self,
+        share: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        v: Vectors = None,
+        velocity: Vectors = None,
+        normal: Vectors = None,
+        gravity: Sequence[float] = (),
+    ) -> Any:
+        """sph_wall_rows_adami: the same pressure as rows of a matrix
+
+        The pressure of sph_wall_adami as rows of a matrix for pressures that are not known yet (projection).
+        The targets are the wall particles w: p_w - sum p_j W / sum W = sum rho_j (g - a_w) . x_wj W / sum W,
+        row[p] = -W / sum W for neighbours that are fluid and 0 for others, diagonal = 1, and the right-hand
+        side is source. These rows are exact where p - rho g . x is constant, thus for fluid at rest. Of wall,
+        share, rho and gravity are read. Without fluid inside the support the row is p_w = 0, with
+        SPH_TOO_FEW. A pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). Adami, Hu & Adams 2012, JCP 231, 7057,
+        (27). The status of out is written, that of source is not. Returns the number of targets that are not
+        SPH_OK, or a negative sph_error.
+
+        share: share: 1 for fluid particles, 0 for all others. rho and p: density and pressure of the fluid.
+        rho: share: 1 for fluid particles, 0 for all others. rho and p: density and pressure of the fluid.
+        p: share: 1 for fluid particles, 0 for all others. rho and p: density and pressure of the fluid.
+        v: v: velocity of the fluid. velocity: the wall's own velocity u. normal: normal of the wall, of any
+        length, for free slip; null arrays mean no slip.
+        velocity: v: velocity of the fluid. velocity: the wall's own velocity u. normal: normal of the wall,
+        of any length, for free slip; null arrays mean no slip.
+        normal: v: velocity of the fluid. velocity: the wall's own velocity u. normal: normal of the wall, of
+        any length, for free slip; null arrays mean no slip.
+        gravity: g - a_w: gravity less the acceleration of the wall
+        """
+        return self._call("wall_rows_adami", locals())
+
+    def wall_rows_eliminate(
+        self,
+        share: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        v: Vectors = None,
+        velocity: Vectors = None,
+        normal: Vectors = None,
+        gravity: Sequence[float] = (),
+    ) -> Any:
+        """sph_wall_rows_eliminate: rows of the fluid without unknowns of the wall
+
+        Takes the unknowns of the wall out of the rows of the fluid, sum_p row[p] (p_j - p_i) = b_i. The
+        pressure of each wall neighbour w (share = 0) is that of the condition at the wall, dp/dn = rho (g -
+        a_w) . n, from the particle i itself: p_w = p_i + rho_i (g - a_w) . x_wi, the formula of
+        sph_wall_adami for i alone. So sum over fluid of row[p] (p_j - p_i) = b_i + source_i, source_i = -sum
+        over wall of row[p] (p_w - p_i). rows.row is read and written: entries of wall neighbours become 0.
+        rows.diagonal, if it is there, becomes -sum_p row[p] again. rows.factor, conditioning and status stay
+        as they are. Exact for fluid at rest, if the rows are exact for linear fields; the signs of the rows,
+        and so their monotony, are kept. Any other condition dp/dn is passed as gravity with rho = 1. Of wall,
+        share, rho and gravity are read. A row whose result is not finite becomes 0. Returns the number of
+        such rows, or a negative sph_error.
+
+        share: share: 1 for fluid particles, 0 for all others. rho and p: density and pressure of the fluid.
+        rho: share: 1 for fluid particles, 0 for all others. rho and p: density and pressure of the fluid.
+        p: share: 1 for fluid particles, 0 for all others. rho and p: density and pressure of the fluid.
+        v: v: velocity of the fluid. velocity: the wall's own velocity u. normal: normal of the wall, of any
+        length, for free slip; null arrays mean no slip.
+        velocity: v: velocity of the fluid. velocity: the wall's own velocity u. normal: normal of the wall,
+        of any length, for free slip; null arrays mean no slip.
+        normal: v: velocity of the fluid. velocity: the wall's own velocity u. normal: normal of the wall, of
+        any length, for free slip; null arrays mean no slip.
+        gravity: g - a_w: gravity less the acceleration of the wall
+        """
+        return self._call("wall_rows_eliminate", locals())
 
     def density_diffusion_molteni(
         self,
