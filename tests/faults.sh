@@ -79,28 +79,6 @@ if [ -c /dev/full ] && [ -x "$bin/icspm_uniform" ]; then
     check "a full disk for figures" answers 2 "No space" "$bin/icspm_uniform" -out "$scratch" -figures "$scratch/full"
     check "no figure of that name" test ! -e "$scratch/full/icspm_fig2.csv"
 else skip "a full disk" "no /dev/full, or $bin/icspm_uniform is not built"; fi
-# the single-file examples: the old table stays where the disk is full, and where a limit kills the program within its first kilobytes
-one_copy="-DSPH_FN=static __attribute__((noinline, unused))"
-limited() { (ulimit -f 4 && exec "$@"); }
-for f in examples/*.c; do
-    name=$(basename "$f" .c)
-    table=$scratch/$name.csv
-    check "$name compiles" "$CC" -std=c99 -I. -O1 "$one_copy" "$f" -o "$scratch/$name" -lm
-    echo old > "$table"
-    limited "$scratch/$name" -o "$table" > "$scratch/output" 2>&1
-    check "$name, killed" test $? -gt 128 -a -s "$table.part" -a "$(cat "$table")" = old
-done
-for name in density_cloud hello_kernel host_lists; do
-    table=$scratch/$name.csv
-    rm -f "$table.part"
-    [ -c /dev/full ] || continue
-    ln -s /dev/full "$table.part"
-    check "$name, full disk" answers 2 "No space" "$scratch/$name" -o "$table"
-    check "$name, full disk: the old table" test "$(cat "$table")" = old -a ! -e "$table.part"
-    check "$name, full device" answers 2 "No space" "$scratch/$name" -o /dev/full
-    check "$name, full device: it stays" test -c /dev/full
-    check "$name, no folder" answers 2 "no/such" "$scratch/$name" -o no/such/file
-done
 forbidden= # a folder in which not even root may write, or one that was made so
 if [ -d /sys/kernel ]; then forbidden=/sys/kernel
 elif [ "$(id -u)" -ne 0 ]; then

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # The single-file examples: each is at most 200 lines, builds from the root without a warning with the very line of its opening comment, passes its self-check (-t), draws something,
-# writes a table (-o), finds nothing wrong with its cloud (EXAMINE 1), has help, and answers wrong use with a clear error and exit status 2. The gallery names each, with its picture and its line.
+# writes a table (-o), finds nothing wrong with its cloud (EXAMINE 1), has help, and answers wrong use with a clear error and exit status 2. Where the disk is full, or a limit kills it within its first
+# kilobytes, the old table stays. The gallery names each, with its picture and its line.
 . tests/check.sh
 
 build() { # the cc line with this compiler, warnings as errors, into the scratch directory
@@ -15,6 +16,7 @@ changed() { # name, what sed changes: builds that into the scratch directory, wi
     $CC -std=c99 -O1 "$one_copy" -I. -o "$scratch/$1-changed" "$scratch/$1-changed.c" -lm
 }
 quiet() { "$@" 2>&1 > /dev/null | { ! grep .; }; }
+limited() { (ulimit -f 4 && exec "$@"); }
 
 for source in examples/*.c; do
     name=$(basename "$source" .c)
@@ -36,11 +38,27 @@ for source in examples/*.c; do
     check "$name: a table" "$scratch/$name" -o "$scratch/$name.csv"
     check "$name: a table with numbers" test "$(wc -l < "$scratch/$name.csv")" -gt 100
     check "$name: a table without failed numbers" test "$(grep -c -i -e nan -e inf "$scratch/$name.csv")" -eq 0
+    table=$scratch/$name-old.csv
+    echo old > "$table"
+    limited "$scratch/$name" -o "$table" > "$scratch/output" 2>&1
+    check "$name: killed" test $? -gt 128 -a -s "$table.part" -a "$(cat "$table")" = old
     check "$name: something to see" answers 0 "[^ ]" "$scratch/$name"
     check "$name: lines of 80 characters" test "$(awk '{ gsub(/\033\[[0-9]*[A-Z]/, ""); if (length($0) > most) most = length($0) } END { print most + 0 }' "$scratch/output")" -le 80
     check "$name: the gallery has its line" grep -q -x -F "    $line" examples/README.md
     check "$name: the gallery has its picture" grep -q -F "(gallery/$name.png)" examples/README.md
     check "$name: a picture of at most 40 KB" test "$(wc -c < "examples/gallery/$name.png")" -le 40960
+done
+
+# all of them save alike (files.sh)
+for name in density_cloud hello_kernel host_lists; do
+    table=$scratch/$name-old.csv
+    rm -f "$table.part"
+    [ -c /dev/full ] || continue
+    ln -s /dev/full "$table.part"
+    check "$name: full disk" answers 2 "No space" "$scratch/$name" -o "$table"
+    check "$name: full disk: the old table" test "$(cat "$table")" = old -a ! -e "$table.part"
+    check "$name: full device" answers 2 "No space" "$scratch/$name" -o /dev/full
+    check "$name: full device: it stays" test -c /dev/full
 done
 
 check "a list that is too short: compiles" changed dam_break 's/sph_kernel_support_ratio(KERNEL) \* h/h/'

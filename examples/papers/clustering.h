@@ -37,6 +37,10 @@
 #define FLOW_PERIODIC 2 /* how many axes may be periodic, x first: those that cannot cost nothing */
 #endif
 
+#ifndef FLOW_FORM
+#define FLOW_FORM(f) ((f)->form) /* a driver of one form names that here, and compiles no other */
+#endif
+
 #include "../common/host.h"
 #include "../common/options.h"
 #include "../common/progress.h"
@@ -387,14 +391,14 @@ SPH_FN sph_index flow_density_by(sph_kernel k, const flow *f, sph_cloud targets)
 {
     const sph_scalars m = sph_scalars_array(f->m);
     const sph_scalar_out rho = sph_scalar_out_array(f->rho, 0);
-    return f->form == FLOW_SUMMATION ? sph_density_summation(k, 2, targets, m, rho)
+    return FLOW_FORM(f) == FLOW_SUMMATION ? sph_density_summation(k, 2, targets, m, rho)
                                      : sph_density_number(k, 2, targets, m, rho);
 }
 SPH_FN sph_index flow_rates_by(sph_kernel k, const flow *f, sph_cloud targets, sph_fluid s)
 {
     sph_fluid_out out = {.acceleration = flow_accelerations(f)};
-    if (f->form == FLOW_SUMMATION) return sph_fluid_rates_monaghan(k, 2, targets, s, out);
-    if (f->form == FLOW_NUMBER) return sph_fluid_rates_hu_adams(k, 2, targets, s, out);
+    if (FLOW_FORM(f) == FLOW_SUMMATION) return sph_fluid_rates_monaghan(k, 2, targets, s, out);
+    if (FLOW_FORM(f) == FLOW_NUMBER) return sph_fluid_rates_hu_adams(k, 2, targets, s, out);
     out.rate = f->rate_after_kick ? NULL : f->rate;
     return sph_fluid_rates_colagrossi(k, 2, targets, s, out);
 }
@@ -449,7 +453,7 @@ static inline sph_index flow_density(flow *f)
 }
 static inline sph_index flow_rates(flow *f)
 {
-    return (sph_index)threads_each(f->form == FLOW_CONTINUITY ? flow_moved(f) : f->n_fluid, flow_rates_part,
+    return (sph_index)threads_each(FLOW_FORM(f) == FLOW_CONTINUITY ? flow_moved(f) : f->n_fluid, flow_rates_part,
                                    f);
 }
 /* div v with the volumes m / rho of all particles */
@@ -522,11 +526,11 @@ static inline int flow_healthy(flow *f)
 {
     int i;
     for (i = 0; i < f->n_fluid && f->bad < 0; i++) {
-        const double speed = sqrt(f->vx[i] * f->vx[i] + f->vy[i] * f->vy[i]);
-        if (!isfinite(f->x[i]) || !isfinite(f->y[i]) || !isfinite(speed))
+        const double square = f->vx[i] * f->vx[i] + f->vy[i] * f->vy[i];
+        if (!isfinite(f->x[i]) || !isfinite(f->y[i]) || !isfinite(square))
             f->bad_what = "position or velocity is not a number";
         else if (!isfinite(f->rho[i]) || !(f->rho[i] > 0)) f->bad_what = "density is not positive";
-        else if (speed * f->dt > f->h) f->bad_what = "moved by more than h in one step";
+        else if (square * f->dt * f->dt > f->h * f->h) f->bad_what = "moved by more than h in one step";
         else continue;
         f->bad = i;
     }
@@ -538,7 +542,7 @@ static inline void flow_step(flow *f)
     sph_index lost = 0;
     int i;
     flow_neighbours(f);
-    if (f->form != FLOW_CONTINUITY) lost += flow_density(f);
+    if (FLOW_FORM(f) != FLOW_CONTINUITY) lost += flow_density(f);
     flow_pressure(f);
     if (f->ghosts) f->ghosts(f);
     if (lost == 0) lost = flow_rates(f);
@@ -553,7 +557,7 @@ static inline void flow_step(flow *f)
     }
     if (!flow_healthy(f)) return;
     flow_collide(f);
-    if (f->form == FLOW_CONTINUITY) {
+    if (FLOW_FORM(f) == FLOW_CONTINUITY) {
         if (f->rate_after_kick) flow_continuity(f);
         for (i = 0; i < flow_moved(f); i++) f->rho[i] += f->dt * f->rate[i];
     }

@@ -15,6 +15,7 @@
 #define FLOW_SWITCH_KERNEL(k, CALL) \
     (void)(k); \
     CALL(SPH_WENDLAND_C2); /* the only one here */
+#define FLOW_FORM(f) FLOW_CONTINUITY
 #include "clustering_viscous.h"
 
 /* Ghia, Ghia & Shin 1982, J. Comput. Phys. 48, 387, tables I and II, Re = 100: u on x = 1/2 and v on y = 1/2; without the points on the walls. */

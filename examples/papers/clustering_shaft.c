@@ -13,6 +13,7 @@
  * The paper prints no numbers here. What an independent program found with dt = 1e-5 stands beside ours in the criterion column; the flow is chaotic, so that only the size of these numbers can agree.
  */
 #define FLOW_PERIODIC 0
+#define FLOW_FORM(f) FLOW_SUMMATION
 #include "clustering.h"
 
 #define NONE ((double)NAN) /* not measured, or not known */

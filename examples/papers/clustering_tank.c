@@ -16,6 +16,7 @@
  */
 #include "../common/statistics.h"
 #define FLOW_PERIODIC 1
+#define FLOW_FORM(f) FLOW_CONTINUITY
 #include "clustering.h"
 
 enum { ROWS = 115 };

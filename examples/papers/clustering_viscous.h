@@ -105,7 +105,7 @@ static inline void viscous_psi(flow *f)
     const double damping = exp(-0.5 * sph_cleaning_sigma(2) * w->ch * f->dt / f->h);
     const sph_cleaning_wave undamped = {.ch = w->ch, .h = f->h};
     int i;
-    if (f->form != FLOW_CONTINUITY || !f->rate_after_kick) flow_continuity(f);
+    if (FLOW_FORM(f) != FLOW_CONTINUITY || !f->rate_after_kick) flow_continuity(f);
     for (i = 0; i < f->n_fluid; i++)
         w->psi[i] =
             damping * (damping * w->psi[i] + f->dt * sph_cleaning_rate_velocity(undamped, 0, f->rate[i]));
