@@ -195,6 +195,24 @@ static sph_riemann_options riemann_options_of(const world *w)
     o.gravity.x = SPH_R(w->number[GRAVITY]);
     return o;
 }
+static sph_tension tension_of(const world *w)
+{
+    sph_tension t;
+    t.rho = scalars_of(w, RHO);
+    t.normal = vectors_of(w, BX);
+    t.sigma = SPH_R(w->number[PARAMETER_A]);
+    t.least = SPH_R(w->number[CONDITIONING]);
+    return t;
+}
+static sph_tension_out tension_out_of(const world *w)
+{
+    sph_tension_out o = {0};
+    o.acceleration = vector_out_of(w, O0);
+    o.curvature = real_of(w, S0);
+    o.stride = w->out_stride;
+    o.status = (unsigned char *)w->a[STATUS];
+    return o;
+}
 static sph_derivatives_out derivative_out_of(const world *w)
 {
     sph_derivatives_out o;
@@ -390,6 +408,8 @@ CALL(density_number, RANGE, A(M), scalar_out_of(w))
 CALL(viscosity_mu_morris, RANGE, fluid_of(w), A(MX), vector_out_of(w, O0))
 CALL(viscosity_mu_monaghan_cleary, RANGE, fluid_of(w), A(MX), vector_out_of(w, O0))
 CALL(velocity_xsph, RANGE, fluid_of(w), X(PARAMETER_C), vector_out_of(w, O0))
+CALL(tension_css, RANGE, tension_of(w), vector_out_of(w, O0))
+CALL(tension_csf, RANGE, tension_of(w), tension_out_of(w))
 CALL(collision_count, LIST, collision_of(w), vectors_of(w, VX), I(I0))
 CALL(collision_change_weighted, LIST, collision_of(w), vectors_of(w, VX), I(COUNT), vector_out_of(w, O0))
 CALL(nearest_distance, w->dim, others_with_list(w), points_of(w), scalar_out_of(w))
@@ -610,6 +630,8 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(viscosity_mu_monaghan_cleary, SMOOTHED, ALL, MASSES | BIT(RHO) | BIT(MX) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
     FUNCTION(velocity_xsph, SMOOTHED, ALL, MASSES | BIT(RHO) | XYZ(VX), 0, XYZ(O0), 0, N(PARAMETER_C)),
     FUNCTION(wall_adami, SMOOTHED | KEEPS, ALL, MASSES | BIT(U) | BIT(P) | XYZ(VX) | XYZ(BX), BIT(MX), BIT(S0) | XYZ(O0), BIT(STATUS), N(GRAVITY)),
+    FUNCTION(tension_css, SMOOTHED, ALL, VOLUMES | BIT(RHO) | XYZ(BX), 0, XYZ(O0), 0, N(PARAMETER_A) | N(CONDITIONING)),
+    FUNCTION(tension_csf, SMOOTHED | PARTS, ALL, VOLUMES | BIT(RHO) | XYZ(BX), 0, XYZ(O0), BIT(S0) | BIT(STATUS), N(PARAMETER_A) | N(CONDITIONING)),
     FUNCTION(collision_sequential, LISTED | OPAQUE | TOTALS, ALL, COLLIDERS, 0, XYZ(VX), BIT(REPORT),
              N(DISTANCE) | N(RESTITUTION)),
     FUNCTION(collision_count, LISTED | COUNTS, ALL, COLLIDERS, 0, BIT(I0), 0, N(DISTANCE)),
@@ -1046,6 +1068,8 @@ static const char *argument_of(const function *f, int a)
         uint64_t set;
         const char *argument;
     } named[] = {{"sph_wall_adami", BIT(M), "share"},
+                 {"sph_tension_css", XYZ(BX), "normal"},
+                 {"sph_tension_csf", XYZ(BX), "normal"},
                  {"sph_wall_adami", BIT(U), "rho"},
                  {"sph_wall_adami", XYZ(BX), "velocity"},
                  {"sph_wall_adami", XYZ(MX), "normal"},

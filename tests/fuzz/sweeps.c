@@ -185,6 +185,14 @@ static sph_riemann_options riemann(const arguments *a)
     o.gravity = gravity(a);
     return o;
 }
+static sph_tension tension(const arguments *a)
+{
+    sph_tension t;
+    t.rho = a->s[1];
+    t.normal = vectors(a, 8);
+    t.sigma = a->number[0], t.least = a->number[1];
+    return t;
+}
 static sph_index right(const arguments *a) { return (sph_index)(a->what % MOST); } /* end of the domain */
 static sph_wall wall(const arguments *a)
 {
@@ -247,6 +255,8 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_viscosity_mu_monaghan_cleary(SWEEP, fluid(a), a->s[2], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_velocity_xsph(SWEEP, fluid(a), a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_wall_adami(SWEEP, wall(a), wall_out(a)), 4, 0, VECTOR | STATUS) \
+    X(sph_tension_css(SWEEP, tension(a), vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_tension_csf(SWEEP, tension(a), (sph_tension_out){.acceleration = vector_out(a, 0), .curvature = OUT(3), .status = a->status}), 4, 0, VECTOR | STATUS) \
     X(sph_collision_count(LIST, collision(a), vectors(a, 5), a->count), 0, 0, COUNTS) \
     X(sph_nearest_distance(LIST, a->cloud.points, scalar_out(a)), 1, 0, STATUS) \
     X(sph_hexatic_order(a->cloud, scalar_out(a)), 1, 0, STATUS) \
