@@ -244,6 +244,24 @@ static sph_riemann_options riemann_options_of(const world *w)
     o.gravity.x = SPH_R(w->number[GRAVITY]);
     return o;
 }
+static sph_tension tension_of(const world *w)
+{
+    sph_tension t;
+    t.rho = scalars_of(w, RHO);
+    t.normal = vectors_of(w, BX);
+    t.sigma = SPH_R(w->number[PARAMETER_A]);
+    t.least = SPH_R(w->number[CONDITIONING]);
+    return t;
+}
+static sph_tension_out tension_out_of(const world *w)
+{
+    sph_tension_out o = {0};
+    o.acceleration = vector_out_of(w, O0);
+    o.curvature = real_of(w, S0);
+    o.stride = w->out_stride;
+    o.status = (unsigned char *)w->a[STATUS];
+    return o;
+}
 static sph_derivatives_out derivative_out_of(const world *w)
 {
     sph_derivatives_out o;
@@ -482,6 +500,8 @@ CALL(density_diffusion_fourtakas, RANGE, still_of(w), diffusion_of(w, w->number[
 CALL(density_diffusion_rows_molteni, RANGE, still_of(w), diffusion_of(w, 0.0, w->number[CH]), row_out_of(w))
 CALL(free_surface_cone, LIST, A(F), vectors_of(w, BX), STATE)
 CALL(shift_displacement, RANGE, shift_of(w), vector_out_of(w, O0))
+CALL(tension_css, RANGE, tension_of(w), vector_out_of(w, O0))
+CALL(tension_csf, RANGE, tension_of(w), tension_out_of(w))
 CALL(collision_count, LIST, collision_of(w), vectors_of(w, VX), I(I0))
 CALL(collision_change_weighted, LIST, collision_of(w), vectors_of(w, VX), I(COUNT), vector_out_of(w, O0))
 CALL(nearest_distance, w->dim, others_with_list(w), points_of(w), scalar_out_of(w))
@@ -766,6 +786,8 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(transport_adami, SMOOTHED | HEAVY | PARTS, ALL, MASSES | BIT(RHO) | XYZ(VX) | XYZ(BX), 0, XYZ(O0) | XYZ(O3), BIT(STATUS), N(PARAMETER_A)),
     FUNCTION(wall_rows_adami, SMOOTHED | KEEPS, ALL, MASSES | BIT(U), 0, BIT(R0) | BIT(S0), BIT(S1) | BIT(S2) | BIT(S3) | BIT(STATUS), N(GRAVITY)),
     FUNCTION(wall_rows_eliminate, LISTED, ALL, LIST_OF | BIT(M) | BIT(U) | BIT(ROW), 0, BIT(ROW) | BIT(S3), BIT(S0) | BIT(STATUS), N(GRAVITY)),
+    FUNCTION(tension_css, SMOOTHED, ALL, VOLUMES | BIT(RHO) | XYZ(BX), 0, XYZ(O0), 0, N(PARAMETER_A) | N(CONDITIONING)),
+    FUNCTION(tension_csf, SMOOTHED | PARTS, ALL, VOLUMES | BIT(RHO) | XYZ(BX), 0, XYZ(O0), BIT(S0) | BIT(STATUS), N(PARAMETER_A) | N(CONDITIONING)),
     FUNCTION(collision_sequential, LISTED | OPAQUE | TOTALS, ALL, COLLIDERS, 0, XYZ(VX), BIT(REPORT),
              N(DISTANCE) | N(RESTITUTION)),
     FUNCTION(collision_count, LISTED | COUNTS, ALL, COLLIDERS, 0, BIT(I0), 0, N(DISTANCE)),
@@ -1216,6 +1238,8 @@ static const char *argument_of(const function *f, int a)
                  {"sph_wall_rows_eliminate", BIT(M), "share"},
                  {"sph_wall_rows_eliminate", BIT(U), "rho"},
                  {"sph_viscosity_mu_espanol_revenga", BIT(C), "mu.bulk"},
+                 {"sph_tension_css", XYZ(BX), "normal"},
+                 {"sph_tension_csf", XYZ(BX), "normal"},
                  {"sph_wall_adami", BIT(U), "rho"},
                  {"sph_wall_adami", XYZ(BX), "velocity"},
                  {"sph_wall_adami", XYZ(MX), "normal"},

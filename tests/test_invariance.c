@@ -281,6 +281,17 @@ static sph_riemann_options riemann(const world *w)
     return o;
 }
 OPERATOR(fluid_riemann, sph_fluid_rates_riemann(SWEEP, fluid(w), riemann(w), (sph_fluid_out){.acceleration = into(w, 0), .rate = OUT(3), .heating = OUT(4)}))
+static sph_tension tension(const world *w)
+{
+    sph_tension t;
+    t.rho = at(w, RHO);
+    t.normal = vectors(w, BX);
+    t.sigma = SPH_R(0.8);
+    t.least = SPH_R(-1);
+    return t;
+}
+OPERATOR(tension_css, sph_tension_css(SWEEP, tension(w), into(w, 0)))
+OPERATOR(tension_csf, sph_tension_csf(SWEEP, tension(w), (sph_tension_out){.acceleration = into(w, 0), .curvature = OUT(3), .status = w->status}))
 static sph_index wall_of(world *w, sph_index first, sph_index last, sph_vectors velocity, sph_vectors normal)
 {
     sph_wall s;
@@ -375,6 +386,8 @@ static const operation operations[] = {
     {"fluid_rates_colagrossi", fluid_colagrossi, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
     {"fluid_rates_hu_adams", fluid_hu_adams, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
     {"fluid_rates_riemann", fluid_riemann, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
+    {"tension_css", tension_css, PLANE | SPACE, 1, {{VECTOR, 0, -1, 0}}},
+    {"tension_csf", tension_csf, ALL, 5, {{VECTOR, 0, -1, 0}, {SCALAR, 3, -1, 0}}},
     {"viscous_mu_morris", viscous_morris, ALL, 1, {{VECTOR, 0, -2, -1}}},
     {"viscous_mu_monaghan_cleary", viscous_cleary, ALL, 1, {{VECTOR, 0, -2, -1}}},
     {"viscous_mu_espanol_revenga", viscous_espanol, ALL, 1, {{VECTOR, 0, -2, -1}}},

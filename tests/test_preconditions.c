@@ -50,6 +50,8 @@ static void assertion(void)
 #define NUMBERS_sph_wall_sums 5
 #define NUMBERS_sph_transport_change 6
 #define NUMBERS_sph_riemann_side 3
+#define NUMBERS_sph_unit_normal 4
+#define NUMBERS_sph_curvature_sums 2
 #define NUMBERS_sph_riemann_star 3
 #define NUMBERS_sph_pair_weights 2
 #define NUMBERS_sph_mhd_sums 17
@@ -652,6 +654,22 @@ static sph_riemann_star contact(void)
     return s;
 }
 
+/* a normal that is too short, and the sums of a curvature */
+static sph_unit_normal direction(void)
+{
+    sph_unit_normal u;
+    u.unit = vec(zero, zero, zero);
+    u.good = zero;
+    return u;
+}
+static sph_curvature_sums curvature(sph_real weight)
+{
+    sph_curvature_sums s;
+    s.flux = zero;
+    s.weight = weight;
+    return s;
+}
+
 /* a function of two sides and numbers: what each side needs */
 #define SIDES(call) \
     i = j = fluid(one, one, one, one); \
@@ -775,6 +793,34 @@ static void fluids(void)
     ALLOWED(sph_fluid_change,
             sph_fluid_pair_riemann(i, j, contact(), nothing, meeting(zero, zero, zero, zero, zero), zero))
     SIDES(sph_fluid_pair_riemann(i, j, contact(), nothing, meeting(one, one, one, one, one), zero))
+
+    FUNCTION(sph_unit_normal_of)
+    ALLOWED(sph_unit_normal, sph_unit_normal_of(3, nothing, zero))
+    ALLOWED(sph_unit_normal, sph_unit_normal_of(3, vec(small_number, zero, zero), zero))
+    FORBIDDEN_BELOW_0(x, sph_unit_normal_of(3, nothing, x))
+    FORBIDDEN(sph_unit_normal_of(0, nothing, one))
+    FUNCTION(sph_curvature_pair)
+    ALLOWED(sph_curvature_sums, sph_curvature_pair(3, direction(), direction(), zero, nothing, zero))
+    FORBIDDEN(sph_curvature_pair(4, direction(), direction(), one, nothing, one))
+    FUNCTION(sph_curvature_value)
+    ALLOWED(sph_real, sph_curvature_value(3, curvature(small_number)))
+    FORBIDDEN_LENGTH(x, sph_curvature_value(3, curvature(x)))
+    FORBIDDEN(sph_curvature_value(0, curvature(one)))
+    FUNCTION(sph_tension_csf_value)
+    ALLOWED(sph_vec, sph_tension_csf_value(zero, one, nothing, small_number))
+    FORBIDDEN_LENGTH(x, sph_tension_csf_value(one, one, nothing, x))
+    FUNCTION(sph_tension_stress_times)
+    ALLOWED(sph_vec, sph_tension_stress_times(3, nothing, nothing))
+    FORBIDDEN(sph_tension_stress_times(0, nothing, nothing))
+    FUNCTION(sph_tension_pair_css)
+    ALLOWED(sph_vec, sph_tension_pair_css(3, one, nothing, nothing, zero, nothing, zero))
+    FORBIDDEN(sph_tension_pair_css(0, one, nothing, nothing, zero, nothing, zero))
+    FUNCTION(sph_tension_pair_akinci)
+    i = j = fluid(zero, one, zero, zero);
+    ALLOWED(sph_vec, sph_tension_pair_akinci(i, j, nothing, nothing, zero, one, one))
+    SIDES(sph_tension_pair_akinci(i, j, nothing, nothing, zero, one, one))
+    FORBIDDEN_LENGTH(x, sph_tension_pair_akinci(i, j, nothing, nothing, one, x, one))
+    FORBIDDEN_BELOW_0(x, sph_tension_pair_akinci(i, j, nothing, nothing, x, one, one))
 
     FUNCTION(sph_wall_pair_adami)
     i = fluid(zero, zero, zero, zero);

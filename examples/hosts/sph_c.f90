@@ -495,6 +495,25 @@ module sph_c
         type(sph_vec) :: gravity
     end type
 
+    ! Density and normal of each particle, all sources.
+    type, bind(c) :: sph_tension
+        type(sph_scalars) :: rho
+        ! grad c, in 1 / length, and not of unit length
+        type(sph_vectors) :: normal
+        ! tension, force / length
+        real(sph_real) :: sigma = 0.0_sph_real
+        ! CSF: normals shorter than least / h do not count. 0 means the usual 0.01, a negative number 0.
+        real(sph_real) :: least = 0.0_sph_real
+    end type
+
+    ! Where CSF's results go. curvature and status may be null; the stride is that of curvature.
+    type, bind(c) :: sph_tension_out
+        type(sph_vector_out) :: acceleration
+        type(c_ptr) :: curvature = c_null_ptr
+        integer(c_size_t) :: stride = 0
+        type(c_ptr) :: status = c_null_ptr
+    end type
+
     ! Which particles collide, and how. Lists must reach as far as the collision distance. Walls may be mere
     ! sources, not targets.
     type, bind(c) :: sph_collision
@@ -1629,6 +1648,26 @@ module sph_c
             type(sph_fluid_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
+        ! by the stress: keeps momentum
+        function sph_tension_css(kernel, dim, cloud, tension, acceleration) &
+            bind(c, name='sph_shim_tension_css') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_tension), intent(in) :: tension
+            type(sph_vector_out), intent(in) :: acceleration
+            integer(sph_index) :: answer
+        end function
+        ! by the curvature, and the curvature
+        function sph_tension_csf(kernel, dim, cloud, tension, out) &
+            bind(c, name='sph_shim_tension_csf') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_tension), intent(in) :: tension
+            type(sph_tension_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
         function sph_collision_sequential(dim, cloud, collision, velocity, out) &
             bind(c, name='sph_shim_collision_sequential') result(answer)
             import
@@ -2003,6 +2042,8 @@ contains
         type(sph_shift) :: sph_shift_here
         type(sph_transport_out) :: sph_transport_out_here
         type(sph_riemann_options) :: sph_riemann_options_here
+        type(sph_tension) :: sph_tension_here
+        type(sph_tension_out) :: sph_tension_out_here
         type(sph_collision) :: sph_collision_here
         type(sph_collision_report) :: sph_collision_report_here
         type(sph_medium) :: sph_medium_here
@@ -2091,6 +2132,10 @@ contains
             c_struct_size('sph_transport_out'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_riemann_options_here) == &
             c_struct_size('sph_riemann_options'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_tension_here) == &
+            c_struct_size('sph_tension'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_tension_out_here) == &
+            c_struct_size('sph_tension_out'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_collision_here) == &
             c_struct_size('sph_collision'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_collision_report_here) == &

@@ -141,6 +141,14 @@ exports.structs = {
     sph_riemann_options: [
         ["limiter", "sph_real", 1], ["gravity", "sph_vec", 1],
     ],
+    sph_tension: [
+        ["rho", "sph_scalars", 1], ["normal", "sph_vectors", 1], ["sigma", "sph_real", 1],
+        ["least", "sph_real", 1],
+    ],
+    sph_tension_out: [
+        ["acceleration", "sph_vector_out", 1], ["curvature", "pointer", 1], ["stride", "size_t", 1],
+        ["status", "pointer", 1],
+    ],
     sph_collision: [
         ["distance", "sph_real", 1], ["restitution", "sph_real", 1], ["inverse_mass", "sph_scalars", 1],
     ],

@@ -1004,6 +1004,30 @@ sph_index sph_shim_fluid_rates_riemann(int kernel, int dim, const sph_cloud *clo
 }
 #undef SWEEP
 
+#define SWEEP(K, D) \
+    sph_tension_css(K, D, *cloud, GIVEN(sph_tension, tension), GIVEN(sph_vector_out, acceleration))
+sph_index sph_shim_tension_css(int kernel, int dim, const sph_cloud *cloud, const sph_tension *tension,
+                               const sph_vector_out *acceleration)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_tension_csf(K, D, *cloud, GIVEN(sph_tension, tension), GIVEN(sph_tension_out, out))
+sph_index sph_shim_tension_csf(int kernel, int dim, const sph_cloud *cloud, const sph_tension *tension,
+                               const sph_tension_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
 #define SWEEP(D) \
     sph_collision_sequential(D, *cloud, GIVEN(sph_collision, collision), GIVEN(sph_vector_out, velocity), \
                              out)
@@ -1394,6 +1418,8 @@ size_t sph_shim_struct_size(const char *name)
     if (!strcmp(name, "sph_shift")) return sizeof(sph_shift);
     if (!strcmp(name, "sph_transport_out")) return sizeof(sph_transport_out);
     if (!strcmp(name, "sph_riemann_options")) return sizeof(sph_riemann_options);
+    if (!strcmp(name, "sph_tension")) return sizeof(sph_tension);
+    if (!strcmp(name, "sph_tension_out")) return sizeof(sph_tension_out);
     if (!strcmp(name, "sph_collision")) return sizeof(sph_collision);
     if (!strcmp(name, "sph_collision_report")) return sizeof(sph_collision_report);
     if (!strcmp(name, "sph_medium")) return sizeof(sph_medium);

@@ -258,6 +258,11 @@ SPH_SHIM_EXPORT sph_index sph_shim_fluid_rates_riemann(int kernel, int dim, cons
                                                        const sph_fluid *fluid,
                                                        const sph_riemann_options *options,
                                                        const sph_fluid_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_tension_css(int kernel, int dim, const sph_cloud *cloud,
+                                               const sph_tension *tension,
+                                               const sph_vector_out *acceleration);
+SPH_SHIM_EXPORT sph_index sph_shim_tension_csf(int kernel, int dim, const sph_cloud *cloud,
+                                               const sph_tension *tension, const sph_tension_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_collision_sequential(int dim, const sph_cloud *cloud,
                                                         const sph_collision *collision,
                                                         const sph_vector_out *velocity,

@@ -185,6 +185,14 @@ static sph_riemann_options riemann(const arguments *a)
     o.gravity = gravity(a);
     return o;
 }
+static sph_tension tension(const arguments *a)
+{
+    sph_tension t;
+    t.rho = a->s[1];
+    t.normal = vectors(a, 8);
+    t.sigma = a->number[0], t.least = a->number[1];
+    return t;
+}
 static sph_index right(const arguments *a) { return (sph_index)(a->what % MOST); } /* end of the domain */
 static sph_wall wall(const arguments *a)
 {
@@ -291,6 +299,8 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_shift_displacement(SWEEP, shifting(a), vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_shift_rates(SWEEP, fluid(a), vectors(a, 8), (sph_fluid_out){.acceleration = vector_out(a, 0), .rate = OUT(3)}), 4, 0, VECTOR) \
     X(sph_transport_adami(SWEEP, fluid(a), vectors(a, 8), a->number[0], transport_out(a)), 6, 0, VECTORS) \
+    X(sph_tension_css(SWEEP, tension(a), vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_tension_csf(SWEEP, tension(a), (sph_tension_out){.acceleration = vector_out(a, 0), .curvature = OUT(3), .status = a->status}), 4, 0, VECTOR | STATUS) \
     X(sph_collision_count(LIST, collision(a), vectors(a, 5), a->count), 0, 0, COUNTS) \
     X(sph_nearest_distance(LIST, a->cloud.points, scalar_out(a)), 1, 0, STATUS) \
     X(sph_hexatic_order(a->cloud, scalar_out(a)), 1, 0, STATUS) \

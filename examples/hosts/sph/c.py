@@ -459,6 +459,24 @@ class sph_riemann_options(Structure):
     ]
 
 
+class sph_tension(Structure):
+    _fields_ = [
+        ("rho", sph_scalars),
+        ("normal", sph_vectors),
+        ("sigma", c_double),
+        ("least", c_double),
+    ]
+
+
+class sph_tension_out(Structure):
+    _fields_ = [
+        ("acceleration", sph_vector_out),
+        ("curvature", c_void_p),
+        ("stride", c_size_t),
+        ("status", c_void_p),
+    ]
+
+
 class sph_collision(Structure):
     _fields_ = [
         ("distance", c_double),
@@ -643,6 +661,8 @@ STRUCTS = [
     sph_shift,
     sph_transport_out,
     sph_riemann_options,
+    sph_tension,
+    sph_tension_out,
     sph_collision,
     sph_collision_report,
     sph_medium,
@@ -1212,6 +1232,20 @@ FUNCTIONS = {
         ("fluid", sph_fluid),
         ("options", sph_riemann_options),
         ("out", sph_fluid_out),
+    ]),
+    "tension_css": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("tension", sph_tension),
+        ("acceleration", sph_vector_out),
+    ]),
+    "tension_csf": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("tension", sph_tension),
+        ("out", sph_tension_out),
     ]),
     "collision_sequential": (c_int32, [
         ("dim", c_int),

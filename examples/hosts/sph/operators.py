@@ -1475,6 +1475,47 @@ class Operators:
         """
         return self._call("fluid_rates_riemann", locals())
 
+    def tension_css(
+        self,
+        rho: Scalars = None,
+        normal: Vectors = None,
+        sigma: float = 0.0,
+        least: float = 0.0,
+    ) -> Array:
+        """sph_tension_css: by the stress: keeps momentum
+
+        a_i = (1 / rho_i) sum_j V_j (T_i + T_j) grad_i W_ij, surface tension by the stress (CSS; see above). A
+        pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). sum rho V a is 0 to round-off. Hu & Adams 2006. Of
+        tension, least is not read. Returns the number of targets whose result overflowed (it is 0 then), or a
+        negative sph_error.
+
+        normal: grad c, in 1 / length, and not of unit length
+        sigma: tension, force / length
+        least: CSF: normals shorter than least / h do not count. 0 means the usual 0.01, a negative number 0.
+        """
+        return self._call("tension_css", locals())
+
+    def tension_csf(
+        self,
+        rho: Scalars = None,
+        normal: Vectors = None,
+        sigma: float = 0.0,
+        least: float = 0.0,
+    ) -> Any:
+        """sph_tension_csf: by the curvature, and the curvature
+
+        a_i = sigma kappa_i n_i / rho_i, surface tension by the curvature (CSF; see above), and kappa. W has
+        the h of the target. Where n is shorter than least / h, both are 0. Where it is not, but no neighbour
+        has a normal that counts, both are 0 with SPH_TOO_FEW; where one overflows, it is 0 with
+        SPH_NOT_FINITE. Brackbill et al. 1992; Morris 2000. Returns the number of targets that are not SPH_OK,
+        or a negative sph_error.
+
+        normal: grad c, in 1 / length, and not of unit length
+        sigma: tension, force / length
+        least: CSF: normals shorter than least / h do not count. 0 means the usual 0.01, a negative number 0.
+        """
+        return self._call("tension_csf", locals())
+
     def collision_sequential(
         self,
         velocity: Vectors,
