@@ -78,6 +78,7 @@ typedef struct liquid_method {
     liquid_diffusion diffusion;
     liquid_shift shift;
     liquid_riemann riemann;
+    viscous_form viscosity; /* physical, where the case has one: Morris's */
     int inviscid; /* 1: without artificial viscosity, where the case has one */
     int late;     /* 1: pressures of densities that are half a step old, to be seen to fail */
 } liquid_method;
@@ -85,6 +86,8 @@ typedef struct liquid_method {
 /* clang-format off */
 #define METHOD_PLAIN {.name = "plain", .file = "plain"}
 #define METHOD_INVISCID {.name = "plain, alpha = 0", .file = "inviscid", .inviscid = 1}
+#define METHOD_MORRIS {.name = "Morris", .file = "morris"}
+#define METHOD_CLEARY {.name = "Monaghan & Cleary", .file = "cleary", .viscosity = VISCOUS_MONAGHAN_CLEARY}
 #define METHOD_LATE {.name = "plain, pressure half a step late", .file = "late", .late = 1}
 #define METHOD_MOLTENI {.name = "Molteni & Colagrossi", .file = "molteni", .diffusion = LIQUID_MOLTENI}
 #define METHOD_ANTUONO {.name = "Antuono", .file = "antuono", .diffusion = LIQUID_ANTUONO}
@@ -301,6 +304,22 @@ static inline void liquid_density(flow *f, double dt)
     for (i = 0; i < f->n_fluid && liquid_of(f)->method->shift != LIQUID_TRANSPORT; i++)
         f->rho[i] += dt * f->rate[i];
 }
+/* l->shift, a displacement without more ado */
+static inline long liquid_even_part(void *data, long first, long last)
+{
+    const flow *const f = (const flow *)data;
+    const liquid *const l = liquid_of(f);
+    const sph_shift s = {.strength = sph_scalars_array(l->scratch)};
+    return sph_shift_displacement(SPH_WENDLAND_C2, 2, liquid_targets(f, first, last), s,
+                                  vectors_into(l->shift, 2));
+}
+static inline void liquid_shift_by(flow *f, double strength)
+{
+    liquid *const l = liquid_of(f);
+    int i;
+    for (i = 0; i < f->n; i++) l->scratch[i] = strength;
+    liquid_each(f, liquid_even_part);
+}
 /* l->shift, a displacement */
 static inline void liquid_find_shift(flow *f)
 {
@@ -433,6 +452,7 @@ static inline void liquid_start(liquid *l, double mu, const fluids_options *o)
     l->memory = (double *)need_zeros(ARRAYS * n, sizeof(double));
     for (a = 0; a < ARRAYS; a++) *arrays[a] = l->memory + a * n;
     viscous_open(&l->w, &l->f, mu, 0);
+    l->w.form = l->method->viscosity;
     l->f.quiet = o->quiet;
     l->f.vtk = o->vtk ? o->out : NULL;
 }
@@ -442,13 +462,19 @@ static inline void liquid_close(liquid *l)
     free(l->memory);
     flow_close(&l->f);
 }
-/* x, y, and at rest the pressure p: with the density that belongs to it, and the mass of a volume dx^2 */
+/* The pressure p, the density that belongs to it, and the mass of a volume dx^2. */
+static inline void liquid_set_pressure(liquid *l, int i, double p)
+{
+    l->f.p[i] = p;
+    l->f.rho[i] = sph_density_tait(p, l->f.state[0]);
+    l->f.m[i] = l->f.rho[i] * l->f.dref * l->f.dref;
+    l->f.inverse_mass[i] = 1 / l->f.m[i];
+}
+/* at rest */
 static inline int liquid_add(liquid *l, double x, double y, double p)
 {
-    const double rho = sph_density_tait(p, l->f.state[0]);
-    const int i = flow_add(&l->f, x, y, 0, rho * l->f.dref * l->f.dref);
-    l->f.rho[i] = rho;
-    l->f.p[i] = p;
+    const int i = flow_add(&l->f, x, y, 0, 1);
+    liquid_set_pressure(l, i, p);
     return i;
 }
 /* Walls around 0 ... columns, 0 ... rows (in dx), as far as a support reaches, without a lid. */
@@ -541,11 +567,33 @@ static inline void liquid_shake(liquid *l, int seed)
 {
     pcg32 g;
     int i;
-    if (seed == 0) return;
+    if (seed <= 0) return;
     pcg32_seed(&g, (uint64_t)seed, 1);
     for (i = 0; i < l->f.n_fluid; i++) {
         l->f.x[i] += 0.04 * (pcg32_uniform(&g) - 0.5) * l->f.dref;
         l->f.y[i] += 0.04 * (pcg32_uniform(&g) - 0.5) * l->f.dref;
+    }
+}
+/* An even cloud without a direction, in a periodic box: particles moved at random by up to 0.2 dx, and then
+   shifted 0.4 h^2 G again and again. Volumes are equal. */
+static inline void liquid_pack(liquid *l, int seed, int steps)
+{
+    flow *const f = &l->f;
+    pcg32 g;
+    int i, s;
+    pcg32_seed(&g, (uint64_t)seed, 2);
+    for (i = 0; i < f->n; i++) {
+        f->x[i] += 0.4 * (pcg32_uniform(&g) - 0.5) * f->dref;
+        f->y[i] += 0.4 * (pcg32_uniform(&g) - 0.5) * f->dref;
+        f->volume[i] = f->dref * f->dref;
+    }
+    for (s = 0; s < steps; s++) {
+        flow_neighbours(f);
+        liquid_shift_by(f, 0.4 * f->h * f->h);
+        for (i = 0; i < f->n; i++) {
+            f->x[i] += l->shift[0][i];
+            f->y[i] += l->shift[1][i];
+        }
     }
 }
 /* Picture of the end, and memory. */
