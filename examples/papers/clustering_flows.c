@@ -19,6 +19,7 @@
     case SPH_WENDLAND_C2: CALL(SPH_WENDLAND_C2); \
     default: return SPH_ERROR_KERNEL; \
     }
+#include "clustering_plates.h"
 #include "clustering_viscous.h"
 
 typedef struct method {
@@ -45,20 +46,6 @@ enum {
 
 /* ---------------------------------------------------------------- between plates */
 
-/* Plates at y = 0 and 1, nu = 1. Poiseuille: body force 8, largest speed 1 in the end. Couette: the upper plate at speed 1. */
-static double exact_speed(int couette, double y, double t)
-{
-    double u = couette ? y : 4 * y * (1 - y);
-    int n;
-    for (n = 1; n < 400; n++) {
-        const double k = n * clustering_pi, decay = exp(-k * k * t);
-        if (decay < 1e-18) break;
-        if (couette) u += 2 / k * (n % 2 ? -1 : 1) * sin(k * y) * decay;
-        else if (n % 2) u -= 32 / (k * k * k) * sin(k * y) * decay;
-    }
-    return u;
-}
-
 enum { PLATE_TIMES = 3 };
 static const double plate_times[PLATE_TIMES] = {0.02, 0.1, 1};
 
@@ -66,15 +53,13 @@ static const double plate_times[PLATE_TIMES] = {0.02, 0.1, 1};
 static flow_answer plates(const clustering_options *c, int couette, const method *m, int rows, double *error,
                           FILE *profile, double *microseconds)
 {
-    const double dy = 1.0 / rows, dref = dy / hexagonal, h = 1.5 * dref, speed_of_sound = 10;
-    const int columns = 8, layers = (int)(sph_kernel_support_ratio(m->kernel) * h / dy) + 1;
+    const double dref = 1 / (rows * hexagonal), h = 1.5 * dref, speed_of_sound = 10;
     viscous w;
     flow_answer answer = FLOW_DONE;
     flow f;
-    int row, column, ghosts, i, k;
+    int i, k;
     flow_open(&f, couette ? "Couette" : "Poiseuille", m->kernel, dref, h);
     f.dt = fmin(0.25 * h / (speed_of_sound + 1), 0.125 * h * h);
-    f.box_x = columns * dref;
     f.state[0].rho0 = 1;
     f.state[0].c = speed_of_sound;
     f.form = FLOW_CONTINUITY;
@@ -82,30 +67,15 @@ static flow_answer plates(const clustering_options *c, int couette, const method
     f.alpha = 0;
     f.remedy = m->remedy;
     f.quiet = c->quiet;
-    for (ghosts = 0; ghosts < 2; ghosts++)
-        for (row = -layers; row < rows + layers; row++)
-            for (column = 0; column < columns; column++) {
-                const double x = (column + 0.25 + 0.5 * (row % 2 != 0)) * dref, y = (row + 0.5) * dy;
-                const int inside = row >= 0 && row < rows;
-                if (!ghosts && inside) flow_add(&f, x, y, 0, dref * dy);
-                if (ghosts && !inside) {
-                    i = flow_add_ghost(&f, x, y, 0, dref * dy);
-                    f.vx[i] = couette && row >= rows ? 1 : 0;
-                }
-            }
-    viscous_open(&w, &f, 1, couette ? 0 : 8);
+    plates_fill(&f, couette, rows);
+    viscous_open(&w, &f, 1, plates_force(couette));
     for (k = 0; k < PLATE_TIMES && answer == FLOW_DONE; k++) {
         answer = flow_run(&f, plate_times[k]);
-        error[k] = 0;
-        for (i = 0; i < f.n_fluid; i++) {
-            const double off = f.vx[i] - exact_speed(couette, f.y[i], f.t);
-            error[k] += off * off / f.n_fluid;
-            if (profile && i % columns == 0)
-                fprintf(profile, "%s,%g,%.6g,%.6g,%.6g\n", couette ? "Couette" : "Poiseuille", plate_times[k],
-                        f.y[i], f.vx[i], exact_speed(couette, f.y[i], f.t));
-        }
+        error[k] = plates_error(&f, couette);
+        for (i = 0; i < f.n_fluid && profile; i += PLATES_COLUMNS)
+            fprintf(profile, "%s,%g,%.6g,%.6g,%.6g\n", couette ? "Couette" : "Poiseuille", plate_times[k], f.y[i],
+                    f.vx[i], plates_speed(couette, f.y[i], f.t));
         if (profile) fprintf(profile, "\n"); /* gnuplot: a new line */
-        error[k] = sqrt(error[k]);
     }
     if (answer == FLOW_INTERRUPTED) flow_require(&f, answer);
     *microseconds = flow_microseconds(&f);
