@@ -139,31 +139,41 @@ static int kept_path(char path[PART_FILE_PATH], const char *dir, const char *of)
     return there != NULL;
 }
 
-/* Compares what two runs of one driver measured, row by row: rows of the same item, setting and quantity, in
- * the order of the table. Prints what has another verdict or is on one side only. Returns the number of
- * these, or -1 if a table cannot be read. */
+static int same_row(const report_record *a, const report_record *b)
+{
+    return strcmp(a->field[0], b->field[0]) == 0 && strcmp(a->field[1], b->field[1]) == 0 &&
+           strcmp(a->field[REPORT_QUANTITY], b->field[REPORT_QUANTITY]) == 0;
+}
+/* The next row of the kept table that is of the same item, setting and quantity. 0: there is none, and the
+ * place in the table is as before. */
+static int find_row(FILE *then, report_record *b, const report_record *a)
+{
+    const long place = ftell(then);
+    while (report_read(then, b) > 0)
+        if (same_row(a, b)) return 1;
+    fseek(then, place, SEEK_SET);
+    return 0;
+}
+/* Compares what two runs of one driver measured, row by row in the order of the tables, of which the kept one
+ * may hold less. Prints what has another verdict. Returns the number of these, or -1 if a table cannot be
+ * read. */
 static int compare(const char *path, const char *kept_file)
 {
     report_record a = {0}, b = {0};
     FILE *const now = fopen(path, "r"), *const then = fopen(kept_file, "r");
-    int changed = 0, rows = 0, numbers = 0, length, status = now && then ? 1 : -1;
+    int changed = 0, rows = 0, more = 0, numbers = 0, length, status = now && then ? 1 : -1;
     double largest = 0, sum = 0;
     char where[256] = "";
     const char *const name = name_of(path, &length);
     if (status > 0 && (report_read(now, &a) <= 0 || report_read(then, &b) <= 0)) status = -1; /* the header */
     while (status > 0 && (status = report_read(now, &a)) > 0) {
-        const int other = report_read(then, &b);
         const char *end_a, *end_b;
         if (strcmp(a.field[0], "run") == 0) break; /* seconds, at the end */
-        rows++;
-        if (other <= 0 || strcmp(a.field[0], b.field[0]) != 0 || strcmp(a.field[1], b.field[1]) != 0 ||
-            strcmp(a.field[REPORT_QUANTITY], b.field[REPORT_QUANTITY]) != 0) {
-            printf("%.*s: row %d, %s, %s, %s: the kept table has another row there: made by another driver, or "
-                   "by a run of other cases\n",
-                   length, name, rows, a.field[0], a.field[1], a.field[REPORT_QUANTITY]);
-            changed++;
-            break;
+        if (!find_row(then, &b, &a)) {
+            more++;
+            continue;
         }
+        rows++;
         if (strcmp(a.field[REPORT_VERDICT], b.field[REPORT_VERDICT]) != 0) {
             printf("%.*s: %s, %s, %s: %s (%s), kept %s (%s)\n", length, name, a.field[0], a.field[1],
                    a.field[REPORT_QUANTITY], a.field[REPORT_VERDICT], a.field[REPORT_MEASURED],
@@ -181,9 +191,9 @@ static int compare(const char *path, const char *kept_file)
         }
     }
     if (status >= 0)
-        printf("%.*s: %d rows beside the kept ones, %d with another verdict or no counterpart; %d numbers are "
-               "apart by %.2g on average, by %.2g at most%s\n",
-               length, name, rows, changed, numbers, numbers ? sum / numbers : 0, largest, where);
+        printf("%.*s: %d rows beside the kept ones, %d with another verdict; %d numbers are apart by %.2g on average, "
+               "by %.2g at most%s; %d rows without a kept one\n",
+               length, name, rows, changed, numbers, numbers ? sum / numbers : 0, largest, where, more);
     else fprintf(stderr, "scoreboard: %s and %s cannot be compared\n", path, kept_file);
     if (now) fclose(now);
     if (then) fclose(then);

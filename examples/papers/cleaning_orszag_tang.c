@@ -680,7 +680,7 @@ typedef struct outcome {
 } outcome;
 
 typedef struct setting {
-    int full, vtk, go_on;
+    int full, vtk, go_on, finest;
     double courant, skin, end;
     const char *out, *figures;
     progress show;
@@ -1127,8 +1127,8 @@ static int plan_levels(level *levels, const setting *s, int side, unsigned only)
         LEVEL(64, s->end, s->full ? ALL & ~VARIATIONS : QUICK);
         if (s->full) {
             LEVEL(128, s->end, ALL);
-            LEVEL(256, s->end, PAIR);
-            LEVEL(512, s->end, PAPER);
+            if (s->finest >= 256) LEVEL(256, s->end, PAIR);
+            if (s->finest >= 512) LEVEL(512, s->end, PAPER);
         }
     }
 #undef LEVEL
@@ -1178,6 +1178,7 @@ int main(int argc, char **argv)
         {"figures", "folder of the figures' data", OPTION_TEXT, &s.figures, 0, 0},
         {"full", "also 128 and 256 columns, and 512 x 590 as published: four hours of processor time",
          OPTION_FLAG, &s.full, 0, 0},
+        {"finest", "with -full: not more columns than this", OPTION_INT, &s.finest, 128, 512},
         {"side", "this number of columns alone; with -full all cases", OPTION_INT, &side, 8, 4096},
         {"case", "this case alone, as 'cleaning with resistivity'; any other text lists them", OPTION_TEXT,
          &only, 0, 0},
@@ -1191,6 +1192,7 @@ int main(int argc, char **argv)
     };
     s.out = s.figures = ".";
     s.end = 1;
+    s.finest = 512;
     s.courant = 0.3;
     options_parse(argc, argv,
                   "The Orszag-Tang vortex of the paper on divergence cleaning, figures 2 and 3: published "
