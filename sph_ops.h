@@ -4786,7 +4786,7 @@ SPH_FN sph_index sphi_diffusion_range(int form, int uniform, int moving, int sha
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
             const sph_fluid_side other = sphi_fluid_side(SPHI_READ_RHO, f, f->rho, j);
             const sph_real V_j = sphi_at(cloud.volume, j), h_ij = sphi_mean_h(uniform, cloud.h, h_i, j),
-                           f_ij = sph_kernel_f_apart(k, dim, sph_length(dim, x_ij), h_ij),
+                           f_ij = sph_kernel_f(k, dim, sph_length(dim, x_ij), h_ij),
                            strength = h_ij * (shared ? speed_i * sphi_at(d->share, j) : speed_i);
             sph_real c = sph_density_diffusion_weight(V_j, strength, f_ij) *
                          sphi_density_difference(form, dim, own, other, d, g_i, j, x_ij);
@@ -4881,7 +4881,7 @@ SPH_FN sph_index sph_density_diffusion_rows_molteni(sph_kernel k, int dim, sph_c
                            h_ij = sphi_mean_h(0, cloud.h, h_i, j),
                            strength = h_ij * (shared ? speed_i * sphi_at(diffusion.share, j) : speed_i);
             row[p] = SPH_R(2) * sph_density_diffusion_weight(sphi_at(cloud.volume, j), strength,
-                                                             sph_kernel_f_apart(k, dim, r, h_ij));
+                                                             sph_kernel_f(k, dim, r, h_ij));
         }
         lost = sphi_row_finite(row, cloud.list.start[i], cloud.list.start[i + 1]);
         sphi_row_answer(out, cloud.list, i, 1, SPH_R(1), lost ? (int)SPH_NOT_FINITE : (int)SPH_OK);
