@@ -179,7 +179,7 @@
  *                  sph_density_diffusion_antuono(k, dim, cloud, fluid, diffusion, out)   delta-SPH
  *                  sph_density_diffusion_fourtakas(k, dim, cloud, fluid, diffusion, out)
  *                  sph_density_diffusion_rows_molteni(k, dim, cloud, fluid, diffusion, out)
- *                  sph_surface_of  sph_surface_normal  sph_surface_covers
+ *                  sph_sym_least_eigenvalue  sph_surface_of  sph_surface_normal  sph_surface_covers
  *                  sph_free_surface(k, dim, cloud, out)              div r, lambda, normal
  *                  sph_free_surface_cone(dim, cloud, lambda, normal, flag)
  *                      which particles are the surface
@@ -246,12 +246,14 @@
 #  define SPHI_POW(x, y) powf(x, y)
 #  define SPHI_SIN(x) sinf(x)
 #  define SPHI_COS(x) cosf(x)
+#  define SPHI_ACOS(x) acosf(x)
 #else
 #  define SPHI_COPYSIGN(x, y) copysign(x, y)
 #  define SPHI_LOG(x) log(x)
 #  define SPHI_POW(x, y) pow(x, y)
 #  define SPHI_SIN(x) sin(x)
 #  define SPHI_COS(x) cos(x)
+#  define SPHI_ACOS(x) acos(x)
 #endif
 SPHI_BEGIN
 /* clang-format on */
@@ -5397,10 +5399,11 @@ SPH_FN sph_index sph_wall_rows_eliminate(int dim, sph_cloud cloud, sph_wall wall
  * 1 % smaller. delta = 0.1 is usual. Some codes call the whole support h, and some leave the 2 of psi to
  * delta: compare the whole factor.
  *
- * Which one: Molteni's is the cheapest, but takes the weight of a column for noise, so that a free surface at
- * rest rises (by 0.5 % of the depth within 10 sqrt(depth / gravity): tests/test_liquid.c). Antuono's and
- * Fourtakas's do not. Antuono's needs the gradient of the density, one sweep more, but no gravity. Where a
- * wall is made of particles, give them the share 0: otherwise they take density from the liquid.
+ * Which one: Molteni's is the cheapest, but takes the weight of a column for noise, so that a column at rest
+ * sinks (its centre by 0.5 % of the depth within 10 sqrt(depth / gravity)). Antuono's and Fourtakas's do not:
+ * less than 0.05 %. Antuono's needs the gradient of the density, one sweep more, but no gravity. All make the
+ * noise of the pressure in Taylor-Green vortices seven times weaker (tests/test_liquid_flow.c). Where a wall
+ * is made of particles, give them the share 0: otherwise they take density from the liquid.
  *
  * Sources: Molteni & Colagrossi 2009, Comput. Phys. Commun. 180, 861; Antuono, Colagrossi, Marrone & Molteni
  * 2010, Comput. Phys. Commun. 181, 532; Fourtakas, Vacondio, Dominguez & Rogers 2019, Comput. Fluids 190,
@@ -5437,12 +5440,11 @@ SPH_FN sph_vec sph_density_slope(sph_tait t, sph_vec gravity)
     SPH_ASSERT(t.rho0 > SPH_R(0) && t.c > SPH_R(0));
     return sph_scale(t.rho0 / (t.c * t.c), gravity);
 }
-/* The weight of psi: delta c h V_j (-F) >= 0 with V_j = m_j / rho_j. strength = delta c h, and f_ij = F_ij
-   with the h of the pair. Needs rho_j > 0. */
-SPH_FN sph_real sph_density_diffusion_weight(sph_fluid_side j, sph_real strength, sph_real f_ij)
+/* The weight of psi: delta c h V_j (-F) >= 0. strength = delta c h, and f_ij = F_ij with the h of the pair.
+   */
+SPH_FN sph_real sph_density_diffusion_weight(sph_real V_j, sph_real strength, sph_real f_ij)
 {
-    SPH_ASSERT(j.rho > SPH_R(0));
-    return -strength * f_ij * (j.m / j.rho);
+    return -strength * f_ij * V_j;
 }
 /* The longest step in which density diffusion makes no new extreme: h / (S delta c), with
    S = h^2 sum_j 2 V_j |F_ij| in the limit of many neighbours. In 2D S = 4 pi h^2 W(0), 7 for
@@ -5488,7 +5490,7 @@ SPH_FN sph_real sphi_delta(sph_real delta)
 SPH_FN int sphi_check_diffusion(int form, sph_kernel k, int dim, sph_cloud cloud, sph_fluid f,
                                 sph_diffusion d)
 {
-    int error = sphi_check_sweep(k, dim, cloud, "m", f.m);
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     if (!error && (!sphi_finite(d.delta) || !sphi_finite(d.tait.c) || d.tait.c < SPH_R(0)))
         error = sphi_refuse("diffusion.delta, tait", -1, SPH_ERROR_VALUE);
     if (!error && form == SPHI_FOURTAKAS &&
@@ -5514,7 +5516,6 @@ SPH_FN sph_index sphi_diffusion_range(int form, int uniform, int moving, int sha
                                       sph_cloud cloud, const sph_fluid *f, const sph_diffusion *d,
                                       sph_scalar_out out)
 {
-    const int reads = SPHI_READ_M + SPHI_READ_RHO;
     const sph_real speed = sphi_delta(d->delta) * d->tait.c;
     sph_index i, p, failed = 0;
     for (i = cloud.first; i < cloud.last; i++) {
@@ -5524,21 +5525,25 @@ SPH_FN sph_index sphi_diffusion_range(int form, int uniform, int moving, int sha
                             : form == SPHI_FOURTAKAS ? sph_density_slope(d->tait, d->gravity)
                                                      : v_i;
         const sph_real h_i = sphi_at(cloud.h, i), speed_i = shared ? speed * sphi_at(d->share, i) : speed;
-        const sph_fluid_side own = sphi_fluid_side(reads, f, f->m, i);
+        const sph_fluid_side own = sphi_fluid_side(SPHI_READ_RHO, f, f->rho, i);
         sph_real rate = SPH_R(0);
         SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], rate) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
-            const sph_fluid_side other = sphi_fluid_side(reads, f, f->m, j);
-            const sph_real h_ij = sphi_mean_h(uniform, cloud.h, h_i, j),
-                           f_ij = sph_kernel_f_apart(k, dim, sph_length(dim, x_ij), h_ij),
+            const sph_fluid_side other = sphi_fluid_side(SPHI_READ_RHO, f, f->rho, j);
+            const sph_real V_j = sphi_at(cloud.volume, j), h_ij = sphi_mean_h(uniform, cloud.h, h_i, j),
+                           f_ij = sph_kernel_f(k, dim, sph_length(dim, x_ij), h_ij),
                            strength = h_ij * (shared ? speed_i * sphi_at(d->share, j) : speed_i);
-            sph_real c = sph_density_diffusion_weight(other, strength, f_ij) *
+            sph_real c = sph_density_diffusion_weight(V_j, strength, f_ij) *
                          sphi_density_difference(form, dim, own, other, d, g_i, j, x_ij);
-            if (moving)
+            if (moving) { /* a volume is a mass of density 1 */
+                sph_fluid_side unit = other;
+                unit.m = V_j;
+                unit.rho = SPH_R(1);
                 c += sph_density_rate_pair_volume(
-                    own, other, sph_dot(dim, sph_subtract(dim, v_i, sphi_vector_at(dim, f->v, j)), x_ij),
+                    own, unit, sph_dot(dim, sph_subtract(dim, v_i, sphi_vector_at(dim, f->v, j)), x_ij),
                     f_ij);
+            }
             rate += c;
         }
         failed += sphi_store(out, i, rate);
@@ -5567,12 +5572,13 @@ SPH_FN sph_index sphi_diffusion(int form, sph_kernel k, int dim, sph_cloud cloud
                   : sphi_diffusion_shares(form, 1, 0, k, dim, cloud, &f, &d, out);
 }
 
-/* drho_i/dt = rho_i sum_j (m_j / rho_j) v_ij . grad_i W_ij + D_i: the density rate of the liquid with the
-   density diffusion of Molteni & Colagrossi. Of fluid, the members m, rho and v are read; where v is null,
-   the answer is D_i alone. Take the new velocities, as the order of a step in the chapter of fluids says. A
-   pair uses (h_i + h_j) / 2: lists by SPH_MEAN, or by any criterion if all particles have the same h.
+/* drho_i/dt = rho_i sum_j V_j v_ij . grad_i W_ij + D_i: the density rate of the liquid with the density
+   diffusion of Molteni & Colagrossi. V is the volume of the cloud, m / rho of the same moment. Of fluid, the
+   members rho and v are read; where v is null, the answer is D_i alone. Take the new velocities, as the order
+   of a step in the chapter of fluids says. A pair uses (h_i + h_j) / 2: lists by SPH_MEAN, or by any
+   criterion if all particles have the same h.
      D      is delta c h times sph_laplacian_brookshaw of the density, if all have the same h. It conserves
-            sum_i V_i rho_i to round-off, V_i = m_i / rho_i, and is dissipative: sum_i V_i rho_i D_i <= 0. It
+            sum_i V_i rho_i to round-off, and is dissipative: sum_i V_i rho_i D_i <= 0. It
             is 0 for constants only: it takes the density of a column at rest for noise.
    Across a jump of rho0 diffuse rho / rho0 instead, or give the other fluid the share 0. Where the sum
    overflows, the result is 0 and SPH_NOT_FINITE. Returns the number of these targets, or a negative
@@ -5603,7 +5609,7 @@ SPH_FN sph_index sph_density_diffusion_rows_molteni(sph_kernel k, int dim, sph_c
                                                     sph_diffusion diffusion, sph_rows_out out)
 {
     SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
-    const int reads = SPHI_READ_M + SPHI_READ_RHO, shared = diffusion.share.p != 0;
+    const int shared = diffusion.share.p != 0;
     const sph_real speed = sphi_delta(diffusion.delta) * diffusion.tait.c;
     int error = sphi_check_diffusion(SPHI_MOLTENI, k, dim, cloud, fluid, diffusion);
     sph_index i, p, failed = 0;
@@ -5620,14 +5626,38 @@ SPH_FN sph_index sph_density_diffusion_rows_molteni(sph_kernel k, int dim, sph_c
                                                                sphi_point(dim, cloud.points, j))),
                            h_ij = sphi_mean_h(0, cloud.h, h_i, j),
                            strength = h_ij * (shared ? speed_i * sphi_at(diffusion.share, j) : speed_i);
-            row[p] = SPH_R(2) * sph_density_diffusion_weight(sphi_fluid_side(reads, &fluid, fluid.m, j),
-                                                             strength, sph_kernel_f_apart(k, dim, r, h_ij));
+            row[p] = SPH_R(2) * sph_density_diffusion_weight(sphi_at(cloud.volume, j), strength,
+                                                             sph_kernel_f(k, dim, r, h_ij));
         }
         lost = sphi_row_finite(row, cloud.list.start[i], cloud.list.start[i + 1]);
         sphi_row_answer(out, cloud.list, i, 1, SPH_R(1), lost ? (int)SPH_NOT_FINITE : (int)SPH_OK);
         failed += lost;
     }
     return failed;
+}
+
+/* The least eigenvalue of a symmetric tensor: in 3D by the cosine of a third of an angle, in a quarter of the
+   time that sph_sym_eigenvalues takes. Its error is about sqrt(epsilon) of the largest where the two least
+   ones are equal, else rounding error. Smith 1961, Commun. ACM 4, 168. */
+SPH_FN sph_real sph_sym_least_eigenvalue(int dim, sph_sym s)
+{
+    const sph_real mean = (s.xx + s.yy + s.zz) / SPH_R(3);
+    sph_real spread, angle;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
+    if (dim < 3) return sph_sym_eigenvalues(dim, s).x;
+    s.xx -= mean;
+    s.yy -= mean;
+    s.zz -= mean;
+    spread = SPHI_SQRT(
+        (s.xx * s.xx + s.yy * s.yy + s.zz * s.zz + SPH_R(2) * (s.xy * s.xy + s.xz * s.xz + s.yz * s.yz)) /
+        SPH_R(6));
+    if (!(spread > SPH_EPSILON * SPHI_ABS(mean))) return mean - spread;
+    angle = (s.xx * (s.yy * s.zz - s.yz * s.yz) - s.xy * (s.xy * s.zz - s.yz * s.xz) +
+             s.xz * (s.xy * s.yz - s.yy * s.xz)) /
+            (SPH_R(2) * spread * spread * spread);
+    angle = angle > SPH_R(1) ? SPH_R(1) : angle < SPH_R(-1) ? SPH_R(-1) : angle;
+    angle = (SPHI_ACOS(angle) + SPH_R(6.28318530717958647693)) / SPH_R(3);
+    return mean + SPH_R(2) * spread * SPHI_COS(angle);
 }
 
 /* -------- free surface: functions of values
@@ -5694,9 +5724,9 @@ typedef struct sph_surface_out {
 
 /* div r, lambda and the normal of the targets, in one pass. A target needs neighbours as for
    sph_gradient_cspm. Else it is SPH_TOO_FEW or SPH_SINGULAR, with the normal 0; div r and lambda are computed
-   (without neighbours they are 0). The normal is also 0 where no side is emptier than another. Its error on a
-   disc of particles that are moved by up to 0.3 spacings is 8 degrees for h = 1.33 spacings, and 3 degrees
-   for h = 2. Returns the number of targets that are not SPH_OK, or a negative sph_error. */
+   (without neighbours they are 0). The normal is also 0 where no side is emptier than another. On a disc
+   of particles that are moved by up to 0.3 spacings it is off by 8 degrees in the mean for h = 1.33 spacings,
+   and by 3 degrees for h = 2. Returns the number of targets that are not SPH_OK, or a negative sph_error. */
 SPH_FN sph_index sph_free_surface(sph_kernel k, int dim, sph_cloud cloud, sph_surface_out out)
 {
     const size_t stride = sphi_stride(out.stride);
@@ -5720,7 +5750,7 @@ SPH_FN sph_index sph_free_surface(sph_kernel k, int dim, sph_cloud cloud, sph_su
         if (dim > 1) trace += moment.yy;
         if (dim > 2) trace += moment.zz;
         lost = sphi_put(out.divergence, stride, i, trace);
-        lost |= sphi_put(out.lambda, stride, i, sph_sym_eigenvalues(dim, moment).x);
+        lost |= sphi_put(out.lambda, stride, i, sph_sym_least_eigenvalue(dim, moment));
         lost |= sphi_store_vector(dim, out.normal, i, normal);
         if (lost) state = SPH_NOT_FINITE;
         if (out.status) out.status[i] = (unsigned char)state;
@@ -5773,11 +5803,12 @@ SPH_FN sph_index sph_free_surface_cone(int dim, sph_cloud cloud, sph_scalars lam
  * fields), or the rates of sph_shift_rates. Or move particles with the transport velocity
  * (sph_transport_adami).
  *
- * WHAT IT COSTS. Shifting makes particles even: where particles cluster, 19 % of them come down to 1.5 %. But
- * it does not conserve angular momentum, and makes a liquid with a free surface swell: a still tank rises by
- * about 1 % of its depth in 10 sqrt(depth / gravity), while density diffusion alone leaves it where it is
- * (tests/test_liquid.c asserts both). See also Jandaghian et al. 2021, arXiv:2110.10076. With walls, their
- * particles must be sources.
+ * WHAT IT COSTS. Shifting keeps particles even: with density diffusion the velocity of coarse Taylor-Green
+ * vortices is off by 3 % instead of 22 %. But it does not conserve angular momentum, and makes a liquid with
+ * a free surface swell: a still tank rises by 1 % to 2 % of its depth in 6 sqrt(depth / gravity) where v_max
+ * is a speed that the liquid never has, and hardly where v_max is that of the moment; density diffusion alone
+ * leaves it where it is (tests/test_liquid_flow.c asserts all this). See also Jandaghian et al. 2021,
+ * arXiv:2110.10076. With walls, their particles must be sources.
  *
  * As a tool that packs particles: dx = -0.4 h^2 G, again and again with new lists, makes an even cloud of any
  * one, in any shape whose outside is filled with particles that do not move. It converges for A <= 0.6 and
@@ -5945,13 +5976,12 @@ SPH_FN sph_index sph_shift_displacement(sph_kernel k, int dim, sph_cloud cloud, 
 SPH_FN sph_index sphi_shift_rates_range(int uniform, sph_kernel k, int dim, sph_cloud cloud,
                                         const sph_fluid *f, const sph_vectors *shift, sph_fluid_out out)
 {
-    const int reads = SPHI_READ_M + SPHI_READ_RHO;
     sph_index i, p, failed = 0;
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, f->v, i),
                       u_i = sphi_vector_at(dim, *shift, i);
         const sph_real h_i = sphi_at(cloud.h, i);
-        const sph_fluid_side own = sphi_fluid_side(reads, f, f->m, i);
+        const sph_fluid_side own = sphi_fluid_side(SPHI_READ_RHO, f, f->rho, i);
         sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0), rate = SPH_R(0);
         sph_vec sum;
         int lost;
@@ -5959,9 +5989,9 @@ SPH_FN sph_index sphi_shift_rates_range(int uniform, sph_kernel k, int dim, sph_
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)),
                           v_j = sphi_vector_at(dim, f->v, j);
-            const sph_fluid_side other = sphi_fluid_side(reads, f, f->m, j);
+            const sph_fluid_side other = sphi_fluid_side(SPHI_READ_RHO, f, f->rho, j);
             const sph_vec g =
-                sph_gradient_pair_difference(k, dim, other.m / other.rho, SPH_R(1), x_ij,
+                sph_gradient_pair_difference(k, dim, sphi_at(cloud.volume, j), SPH_R(1), x_ij,
                                              sph_length(dim, x_ij), sphi_mean_h(uniform, cloud.h, h_i, j));
             const sph_real along_i = sph_dot(dim, u_i, g),
                            along_j = sph_dot(dim, sphi_vector_at(dim, *shift, j), g);
@@ -5981,8 +6011,8 @@ SPH_FN sph_index sphi_shift_rates_range(int uniform, sph_kernel k, int dim, sph_
     return failed;
 }
 /* What particles that move with v + u instead of v, where u is a velocity of shifting, add to their
-   acceleration and density rate: u . grad v and u . grad rho, by sph_shift_rate_pair with V_j = m_j / rho_j.
-   Sun et al. 2019. Of fluid, the members m, rho and v are read; out.heating is not written. A pair uses (h_i
+   acceleration and density rate: u . grad v and u . grad rho, by sph_shift_rate_pair.
+   Sun et al. 2019. Of fluid, the members rho and v are read; out.heating is not written. A pair uses (h_i
    + h_j) / 2 (lists by SPH_MEAN).
    For a constant f the rate is 2 f u_i . sum_j V_j grad_i W_ij: not 0 in disorder, so that it depends on the
    frame, and momentum is not conserved. (sum_i V_i of the part div(rho u) is 0 to round-off.) u . grad f
@@ -5991,7 +6021,7 @@ SPH_FN sph_index sphi_shift_rates_range(int uniform, sph_kernel k, int dim, sph_
 SPH_FN sph_index sph_shift_rates(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid, sph_vectors shift,
                                  sph_fluid_out out)
 {
-    int error = sphi_check_sweep(k, dim, cloud, "m", fluid.m);
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     if (!error) error = sphi_check_positive("rho", fluid.rho, cloud.points.n);
     if (!error) error = sphi_check_vectors("v", dim, fluid.v, cloud.points.n);
     if (!error) error = sphi_check_vectors("shift", dim, shift, cloud.points.n);

@@ -437,7 +437,7 @@ static void test_shift_rates(void)
                     double x[3], rate = 0.0, a[3] = {0, 0, 0}, part = 0.0;
                     for (p = l.c.start[i]; p < l.c.start[i + 1]; p++) {
                         const sph_index j = l.c.index[p];
-                        const double r = apart(&l, i, j, x), F = pair_f(&l, r, pair_h(&l, own, i, j)), V = (double)l.m[j] / (double)l.rho[j],
+                        const double r = apart(&l, i, j, x), F = pair_f(&l, r, pair_h(&l, own, i, j)), V = (double)l.c.V[j],
                                      ri = (double)l.rho[i], rj = (double)l.rho[j];
                         double ui = 0.0, uj = 0.0;
                         for (k = 0; k < dim; k++) {
@@ -456,8 +456,8 @@ static void test_shift_rates(void)
                     worst = fmax(worst, fabs(rate - (double)l.out[i]));
                     size = fmax(size, fabs(rate));
                     for (k = 0; k < dim; k++) worst = fmax(worst, fabs(a[k] - (double)l.a[k][i]));
-                    flux += (double)l.m[i] / (double)l.rho[i] * ((double)l.out[i] - part);
-                    all += (double)l.m[i] / (double)l.rho[i] * fabs((double)l.out[i]);
+                    flux += (double)l.c.V[i] * ((double)l.out[i] - part);
+                    all += (double)l.c.V[i] * fabs((double)l.out[i]);
                 }
                 CHECK(size > 0.1);
                 CHECK_WORST(check_words("rates of shifting in %dD", dim), worst, BY_PRECISION(1e-12, 1e-4) * size);

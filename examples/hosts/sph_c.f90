@@ -1518,6 +1518,12 @@ module sph_c
             type(sph_scalar_out), intent(in) :: source
             integer(sph_index) :: answer
         end function
+        pure function sph_density_diffusion_weight(V_j, strength, f_ij) &
+            bind(c, name='sph_shim_density_diffusion_weight') result(answer)
+            import
+            real(sph_real), value :: V_j, strength, f_ij
+            real(sph_real) :: answer
+        end function
         pure function sph_time_step_density_diffusion(kernel, dim, h, delta, c) &
             bind(c, name='sph_shim_time_step_density_diffusion') result(answer)
             import

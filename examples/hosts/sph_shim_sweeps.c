@@ -855,6 +855,10 @@ sph_index sph_shim_wall_rows_eliminate(int dim, const sph_cloud *cloud, const sp
     return answer;
 }
 #undef SWEEP
+sph_real sph_shim_density_diffusion_weight(sph_real V_j, sph_real strength, sph_real f_ij)
+{
+    return sph_density_diffusion_weight(V_j, strength, f_ij);
+}
 sph_real sph_shim_time_step_density_diffusion(int kernel, int dim, sph_real h, sph_real delta, sph_real c)
 {
     if (dim < 1 || dim > 3) return SPH_R(0);

@@ -46,6 +46,7 @@ SPH_SHIM_EXPORT sph_real sph_shim_kernel_f_apart(int kernel, int dim, sph_real r
 SPH_SHIM_EXPORT sph_real sph_shim_time_step_sound(sph_real h, sph_real c, sph_real speed);
 SPH_SHIM_EXPORT sph_real sph_shim_time_step_force(sph_real h, sph_real acceleration);
 SPH_SHIM_EXPORT sph_real sph_shim_time_step_viscous_nu(sph_real h, sph_real nu);
+SPH_SHIM_EXPORT sph_real sph_shim_density_diffusion_weight(sph_real V_j, sph_real strength, sph_real f_ij);
 SPH_SHIM_EXPORT sph_real sph_shim_time_step_density_diffusion(int kernel, int dim, sph_real h, sph_real delta,
                                                               sph_real c);
 SPH_SHIM_EXPORT sph_real sph_shim_shift_strength_skillen(sph_real h, sph_real speed, sph_real dt,

@@ -66,7 +66,14 @@ typedef struct cloud {
 #define BROOKSHAW_ROWS 7
 #define APPLY 8
 #define ICSPM 9
-#define OPERATORS 10
+#define DENSITY_RATE 10
+#define MOLTENI 11
+#define ANTUONO 12
+#define FREE_SURFACE 13
+#define SHIFT 14
+#define SHIFT_RATES 15
+#define TRANSPORT 16
+#define OPERATORS 17
 enum { OUTPUTS = 11 };
 typedef struct outputs {
     sph_real *g[OUTPUTS], *row;
@@ -240,6 +247,38 @@ static sph_index sweep_range(int which, sph_index first, sph_index last, const c
         return sph_derivatives_icspm(KERNEL, 3, targets, f, (sph_derivatives_options){0}, d);
     }
 #endif
+#if BENCH_SWEEPS > TRANSPORT
+    case DENSITY_RATE: {
+        const sph_medium medium = {V, V, V};
+        return sph_divergence_difference(KERNEL, 3, targets, medium, sph_vectors_separate(c->f, c->f, c->f),
+                                         sph_scalar_out_array(o->g[0], 0));
+    }
+    case MOLTENI:
+    case ANTUONO: { /* density rate with density diffusion */
+        const sph_fluid fluid = fluid_of(V, f, SPH_VISCOSITY_NONE);
+        const sph_diffusion d = {.delta = SPH_R(0.1), .tait = {.c = SPH_R(10)}, .gradient = fluid.v};
+        const sph_scalar_out rate = sph_scalar_out_array(o->g[0], 0);
+        return which == MOLTENI ? sph_density_diffusion_molteni(KERNEL, 3, targets, fluid, d, rate)
+                                : sph_density_diffusion_antuono(KERNEL, 3, targets, fluid, d, rate);
+    }
+    case FREE_SURFACE: /* div r, lambda, normal */
+        return sph_free_surface(KERNEL, 3, targets,
+                                (sph_surface_out){.divergence = o->g[3], .lambda = o->g[4], .normal = a});
+    case SHIFT: {
+        const sph_shift s = {.strength = V, .tensile = SPH_R(0.2), .spacing = SPH_R(0.8)};
+        return sph_shift_displacement(KERNEL, 3, targets, s, a);
+    }
+    case SHIFT_RATES:
+    case TRANSPORT: {
+        const sph_fluid fluid = fluid_of(V, f, SPH_VISCOSITY_NONE);
+        if (which == SHIFT_RATES)
+            return sph_shift_rates(KERNEL, 3, targets, fluid, fluid.v,
+                                   (sph_fluid_out){.acceleration = a, .rate = o->g[3]});
+        return sph_transport_adami(
+            KERNEL, 3, targets, fluid, sph_vectors_separate(c->V, c->f, c->V), SPH_R(1),
+            (sph_transport_out){a, sph_vector_out_separate(o->g[3], o->g[4], o->g[5]), 0});
+    }
+#endif
     default:
         return SPH_ERROR_VALUE;
     }
@@ -308,7 +347,14 @@ static const struct {
                           {"Brookshaw Laplacian", 2, 1, 0},
                           {"Brookshaw rows", 1, 0, 1},
                           {"apply stored rows", 1, 1, 1},
-                          {"ICSPM derivatives", 2, 10, 0}};
+                          {"ICSPM derivatives", 2, 10, 0},
+                          {"density rate", 2, 1, 0},
+                          {"with Molteni's diffusion", 2, 1, 0},
+                          {"with Antuono's diffusion", 2, 1, 0},
+                          {"free surface", 1, 5, 0},
+                          {"shift", 1, 3, 0},
+                          {"rates of shifting", 2, 4, 0},
+                          {"transport velocity", 2, 6, 0}};
 
 static void stop(const char *why, long code)
 {

@@ -21,6 +21,13 @@ SPH_FN sph_fluid fluid(sph_scalars V, sph_scalars f)
     return s;
 }
 END
+    cat << 'END'
+SPH_FN sph_diffusion delta(sph_scalars f)
+{
+    sph_diffusion d = {.delta = SPH_R(0.1), .tait = {.c = SPH_R(10)}, .gradient = {f, f, f}};
+    return d;
+}
+END
     for dim in 1 2 3; do
         for sweep in 'shepard|sph_shepard_sum(SPH_WENDLAND_C2, D, x, sph_scalar_out_array(a, 0))' \
             'interpolate|sph_interpolate_shepard(SPH_WENDLAND_C2, D, x, f, sph_scalar_out_array(a, s))' \
@@ -36,6 +43,9 @@ END
                 sph_scalar_out_array(a, s))' \
             'msphrows|sph_elliptic_rows_msph(SPH_CUBIC_SPLINE, D, x, f, (sph_elliptic_options){0},
                 (sph_rows_out){.row = b})' \
+            'diffusion|sph_density_diffusion_antuono(SPH_WENDLAND_C2, D, x, fluid(x.volume, f), delta(f),
+                sph_scalar_out_array(a, s))' \
+            'shift|sph_shift_displacement(SPH_WENDLAND_C2, D, x, (sph_shift){.strength = f, .tensile = 0.2, .spacing = 0.8}, sph_vector_out_separate(a, b, c))' \
             'fluid|sph_fluid_rates_colagrossi(SPH_WENDLAND_C2, D, x, fluid(x.volume, f), (sph_fluid_out){.acceleration = sph_vector_out_separate(a, b, c), .rate = out.gx, .heating = out.gy})' \
             'riemann|sph_fluid_rates_riemann(SPH_WENDLAND_C2, D, x, fluid(x.volume, f), (sph_riemann_options){0}, (sph_fluid_out){.acceleration = sph_vector_out_separate(a, b, c), .rate = out.gx, .heating = out.gy})' \
             'css|sph_tension_css(SPH_WENDLAND_C2, D, x, (sph_tension){.rho = f, .normal = {f, f, f}, .sigma = 1}, sph_vector_out_separate(a, b, c))' \

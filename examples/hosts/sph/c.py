@@ -1131,6 +1131,7 @@ FUNCTIONS = {
         ("rows", sph_rows_out),
         ("source", sph_scalar_out),
     ]),
+    "density_diffusion_weight": (c_double, [("V_j", c_double), ("strength", c_double), ("f_ij", c_double)]),
     "time_step_density_diffusion": (c_double, [
         ("kernel", c_int),
         ("dim", c_int),
