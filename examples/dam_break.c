@@ -31,7 +31,8 @@ static const double width = 5, height = 3, g = 1;
 static const sph_tait water = {.rho0 = 1, .c = 20, .gamma = 7}; /* the fastest: about 2 */
 static double dx, h, dt, t, m;
 static int n, n_water; /* water first, then walls */
-static double x[MOST], y[MOST], vx[MOST], vy[MOST], ax[MOST], ay[MOST], rho[MOST], p[MOST], is_water[MOST];
+static double x[MOST], y[MOST], vx[MOST], vy[MOST], ax[MOST], ay[MOST], rho[MOST], p[MOST];
+static double is_water[MOST], nx[MOST], ny[MOST];
 
 static void need(sph_index answer) /* what a sweep returns: below 0 an error */
 {
@@ -50,13 +51,13 @@ static void examine(sph_cloud given) /* with both sides of pairs: forces are sym
 static void add(double px, double py, int wet)
 {
     x[n] = px, y[n] = py, is_water[n] = wet;
+    nx[n] = (px < 0) - (px > width), ny[n] = py < 0; /* normals of walls, which let water slip along */
     p[n] = wet ? water.rho0 * g * (2 - py) : 0; /* at rest under its weight */
     rho[n] = sph_density_tait(p[n], water), n++;
 }
 static void fill(int across) /* particles across the column: not more than 20, for MOST in all */
 {
-    dx = 1.0 / across;
-    h = 1.3 * dx;
+    dx = 1.0 / across, h = 1.3 * dx;
     m = water.rho0 * dx * dx;
     dt = sph_time_step_sound(h, water.c, 3);
     for (int j = 0; j < 2 * across; j++)
@@ -69,17 +70,18 @@ static void fill(int across) /* particles across the column: not more than 20, f
 
 static void rates(void) /* continuity for the density, then pressures, then forces */
 {
-    static double one = 1, divergence[MOST], p_wall[MOST], v_wall_x[MOST], v_wall_y[MOST];
+    static double one = 1, zero, divergence[MOST], p_wall[MOST], v_wall_x[MOST], v_wall_y[MOST];
     static void *memory; /* of the search: from step to step */
     static size_t size;
     const sph_points points = sph_points_separate(n, x, y, NULL);
     const double radius = sph_kernel_support_ratio(KERNEL) * h;
     const sph_scalars R = sph_scalars_same(&radius), H = sph_scalars_same(&h), mass = sph_scalars_same(&m);
     const sph_scalars density = sph_scalars_array(rho), pressure = sph_scalars_array(p), c = {&water.c, 0};
-    const sph_vectors v = sph_vectors_separate(vx, vy, NULL); /* walls: 0 */
+    const sph_vectors v = sph_vectors_separate(vx, vy, NULL), rest = {{&zero, 0}, {&zero, 0}, {0}};
+    const sph_vectors normal = sph_vectors_separate(nx, ny, NULL);
     const sph_medium gas = {mass, density, sph_scalars_same(&one)};
     const sph_fluid fluid = {mass, density, pressure, c, v, SPH_VISCOSITY_MONAGHAN, 0.05, 0, 0.1};
-    const sph_wall wall = {sph_scalars_array(is_water), density, pressure, v, v, .gravity = {0, -g, 0}};
+    const sph_wall wall = {sph_scalars_array(is_water), density, pressure, v, rest, normal, {0, -g, 0}};
     const sph_wall_out on_wall = {.p = p_wall, .v = sph_vector_out_separate(v_wall_x, v_wall_y, NULL)};
     const sph_fluid_out force = {.acceleration = sph_vector_out_separate(ax, ay, NULL)};
     sph_neighbors found;
@@ -91,15 +93,12 @@ static void rates(void) /* continuity for the density, then pressures, then forc
     const sph_cloud all = sph_cloud_checked(DIM, sph_cloud_of(points, found.list, H, sph_scalars_none()));
     const sph_cloud wet = sph_cloud_range(all, 0, n_water), walls = sph_cloud_range(all, n_water, n);
     if (EXAMINE && t == 0) examine(all);
+    for (int i = n_water; i < n; i++) vx[i] = vy[i] = 0; /* walls stand still, which squeezes water, ... */
     need(sph_divergence_difference(KERNEL, DIM, wet, gas, v, sph_scalar_out_array(divergence, NULL)));
-    for (int i = 0; i < n_water; i++) {
-        rho[i] -= dt * rho[i] * divergence[i];
-        p[i] = sph_pressure_tait(rho[i], water);
-    }
-    /* walls stand still, also for the viscosity: their v_wall, which would make them rough, is not used */
+    for (int i = 0; i < n_water; i++) p[i] = sph_pressure_tait(rho[i] -= dt * rho[i] * divergence[i], water);
     need(sph_wall_adami(KERNEL, DIM, walls, wall, on_wall));
-    for (int i = n_water; i < n; i++) /* a wall pushes, it does not pull */
-        rho[i] = sph_density_tait(p[i] = fmax(p_wall[i], 0), water);
+    for (int i = n_water; i < n; i++) /* ... push, and move with the water: at rest they would hold it back */
+        rho[i] = sph_density_tait(p[i] = fmax(p_wall[i], 0), water), vx[i] = v_wall_x[i], vy[i] = v_wall_y[i];
     need(sph_fluid_rates_monaghan(KERNEL, DIM, wet, fluid, force));
 }
 static void step(void) /* kick, drift, kick: leapfrog */
@@ -142,19 +141,18 @@ static int test(void)
 {
     /* Martin & Moyce, table 2: x / A = 2.11 and 3.67 at t sqrt(2 g / A) = 1.83 and 2.98 */
     double most = 0, first, at = 0, slope, depth = 0, floor_p = 0, count = 0;
+    double fall[2] = {0}, many[2] = {0}; /* of the outermost column, and of the two beside it */
     int failed = 0, lost = 0;
-    fill(12);
-    rates();
-    first = energy();
+    fill(12), rates(), first = energy();
     while (t < 2.98 / sqrt(2)) {
-        step();
-        most = fmax(most, energy() / first);
+        step(), most = fmax(most, energy() / first);
         if (t * sqrt(2) < 1.83) at = front();
     }
     for (int i = 0; i < n_water; i++) {
         lost += !(x[i] > 0 && x[i] < width && y[i] > 0 && y[i] < height);
         if (x[i] < 1) depth = fmax(depth, y[i]);
         if (x[i] < 1 && y[i] < dx) floor_p += p[i], count++;
+        if (x[i] < 3 * dx && y[i] > 4 * dx) fall[x[i] > dx] += vy[i], many[x[i] > dx]++;
     }
     floor_p /= water.rho0 * g * depth * count;
     slope = (front() - at) / (2.98 - 1.83);
@@ -163,6 +161,7 @@ static int test(void)
     if (!(most < 1.003)) failed = printf("FAILED: energy grows by a factor of %g\n", most);
     if (!(fabs(floor_p - 1) < 0.25))
         failed = printf("FAILED: the floor carries %g of the weight of the water above\n", floor_p);
+    if (!(fall[0] / many[0] / (fall[1] / many[1]) > 0.8)) failed = printf("FAILED: water sticks to the wall\n");
     if (lost) failed = printf("FAILED: %d particles are outside of the tank\n", lost);
     return failed ? 1 : puts("ok") < 0;
 }
