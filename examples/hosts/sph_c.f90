@@ -514,6 +514,34 @@ module sph_c
         type(c_ptr) :: status = c_null_ptr
     end type
 
+    ! Flat elements, in order: a point a with b anywhere behind it (1D), a segment from a to b with the fluid
+    ! on its left (2D), a triangle a, b, c whose normal (b - a) x (c - a) points out of the fluid (3D).
+    ! Together they close the fluid, at least where supports reach.
+    type, bind(c) :: sph_wall_elements
+        integer(sph_index) :: n = 0
+        ! one corner of each element; c is read in 3D only
+        type(sph_vectors) :: a, b, c
+        ! the elements near each target; null: all are looked at
+        type(sph_list) :: list
+    end type
+
+    ! Where gamma and its gradient go. The stride is that of gamma; status may be null.
+    type, bind(c) :: sph_wall_gamma_out
+        type(c_ptr) :: gamma = c_null_ptr
+        type(sph_vector_out) :: gradient
+        integer(c_size_t) :: stride = 0
+        type(c_ptr) :: status = c_null_ptr
+    end type
+
+    ! What an operator reads of the wall: gamma and its gradient of each target; f_w (`value`, for
+    ! sph_wall_gradient) or g_w (`slope`, for sph_wall_laplacian).
+    type, bind(c) :: sph_wall_terms
+        type(sph_scalars) :: gamma
+        type(sph_vectors) :: gradient
+        type(sph_scalars) :: value
+        type(sph_vectors) :: slope
+    end type
+
     ! Which particles collide, and how. Lists must reach as far as the collision distance. Walls may be mere
     ! sources, not targets.
     type, bind(c) :: sph_collision
@@ -1674,6 +1702,38 @@ module sph_c
             type(sph_tension_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
+        ! gamma and grad gamma, exact
+        function sph_wall_gamma(kernel, dim, cloud, elements, out) &
+            bind(c, name='sph_shim_wall_gamma') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_wall_elements), intent(in) :: elements
+            type(sph_wall_gamma_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! in sum form
+        function sph_wall_gradient(kernel, dim, cloud, wall, f, out) &
+            bind(c, name='sph_shim_wall_gradient') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_wall_terms), intent(in) :: wall
+            type(sph_scalars), intent(in) :: f
+            type(sph_vector_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! BIM in more than one dimension
+        function sph_wall_laplacian(kernel, dim, cloud, wall, f, out) &
+            bind(c, name='sph_shim_wall_laplacian') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_wall_terms), intent(in) :: wall
+            type(sph_scalars), intent(in) :: f
+            type(sph_scalar_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
         function sph_collision_sequential(dim, cloud, collision, velocity, out) &
             bind(c, name='sph_shim_collision_sequential') result(answer)
             import
@@ -2050,6 +2110,9 @@ contains
         type(sph_riemann_options) :: sph_riemann_options_here
         type(sph_tension) :: sph_tension_here
         type(sph_tension_out) :: sph_tension_out_here
+        type(sph_wall_elements) :: sph_wall_elements_here
+        type(sph_wall_gamma_out) :: sph_wall_gamma_out_here
+        type(sph_wall_terms) :: sph_wall_terms_here
         type(sph_collision) :: sph_collision_here
         type(sph_collision_report) :: sph_collision_report_here
         type(sph_medium) :: sph_medium_here
@@ -2142,6 +2205,12 @@ contains
             c_struct_size('sph_tension'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_tension_out_here) == &
             c_struct_size('sph_tension_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_wall_elements_here) == &
+            c_struct_size('sph_wall_elements'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_wall_gamma_out_here) == &
+            c_struct_size('sph_wall_gamma_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_wall_terms_here) == &
+            c_struct_size('sph_wall_terms'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_collision_here) == &
             c_struct_size('sph_collision'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_collision_report_here) == &

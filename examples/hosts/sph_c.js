@@ -149,6 +149,18 @@ exports.structs = {
         ["acceleration", "sph_vector_out", 1], ["curvature", "pointer", 1], ["stride", "size_t", 1],
         ["status", "pointer", 1],
     ],
+    sph_wall_elements: [
+        ["n", "sph_index", 1], ["a", "sph_vectors", 1], ["b", "sph_vectors", 1], ["c", "sph_vectors", 1],
+        ["list", "sph_list", 1],
+    ],
+    sph_wall_gamma_out: [
+        ["gamma", "pointer", 1], ["gradient", "sph_vector_out", 1], ["stride", "size_t", 1],
+        ["status", "pointer", 1],
+    ],
+    sph_wall_terms: [
+        ["gamma", "sph_scalars", 1], ["gradient", "sph_vectors", 1], ["value", "sph_scalars", 1],
+        ["slope", "sph_vectors", 1],
+    ],
     sph_collision: [
         ["distance", "sph_real", 1], ["restitution", "sph_real", 1], ["inverse_mass", "sph_scalars", 1],
     ],

@@ -1032,6 +1032,44 @@ sph_index sph_shim_tension_csf(int kernel, int dim, const sph_cloud *cloud, cons
 }
 #undef SWEEP
 
+#define SWEEP(K, D) \
+    sph_wall_gamma(K, D, *cloud, GIVEN(sph_wall_elements, elements), GIVEN(sph_wall_gamma_out, out))
+sph_index sph_shim_wall_gamma(int kernel, int dim, const sph_cloud *cloud, const sph_wall_elements *elements,
+                              const sph_wall_gamma_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_wall_gradient(K, D, *cloud, GIVEN(sph_wall_terms, wall), GIVEN(sph_scalars, f), \
+                      GIVEN(sph_vector_out, out))
+sph_index sph_shim_wall_gradient(int kernel, int dim, const sph_cloud *cloud, const sph_wall_terms *wall,
+                                 const sph_scalars *f, const sph_vector_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_wall_laplacian(K, D, *cloud, GIVEN(sph_wall_terms, wall), GIVEN(sph_scalars, f), \
+                       GIVEN(sph_scalar_out, out))
+sph_index sph_shim_wall_laplacian(int kernel, int dim, const sph_cloud *cloud, const sph_wall_terms *wall,
+                                  const sph_scalars *f, const sph_scalar_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
 #define SWEEP(D) \
     sph_collision_sequential(D, *cloud, GIVEN(sph_collision, collision), GIVEN(sph_vector_out, velocity), \
                              out)
@@ -1424,6 +1462,9 @@ size_t sph_shim_struct_size(const char *name)
     if (!strcmp(name, "sph_riemann_options")) return sizeof(sph_riemann_options);
     if (!strcmp(name, "sph_tension")) return sizeof(sph_tension);
     if (!strcmp(name, "sph_tension_out")) return sizeof(sph_tension_out);
+    if (!strcmp(name, "sph_wall_elements")) return sizeof(sph_wall_elements);
+    if (!strcmp(name, "sph_wall_gamma_out")) return sizeof(sph_wall_gamma_out);
+    if (!strcmp(name, "sph_wall_terms")) return sizeof(sph_wall_terms);
     if (!strcmp(name, "sph_collision")) return sizeof(sph_collision);
     if (!strcmp(name, "sph_collision_report")) return sizeof(sph_collision_report);
     if (!strcmp(name, "sph_medium")) return sizeof(sph_medium);

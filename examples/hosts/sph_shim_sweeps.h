@@ -264,6 +264,15 @@ SPH_SHIM_EXPORT sph_index sph_shim_tension_css(int kernel, int dim, const sph_cl
                                                const sph_vector_out *acceleration);
 SPH_SHIM_EXPORT sph_index sph_shim_tension_csf(int kernel, int dim, const sph_cloud *cloud,
                                                const sph_tension *tension, const sph_tension_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_wall_gamma(int kernel, int dim, const sph_cloud *cloud,
+                                              const sph_wall_elements *elements,
+                                              const sph_wall_gamma_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_wall_gradient(int kernel, int dim, const sph_cloud *cloud,
+                                                 const sph_wall_terms *wall, const sph_scalars *f,
+                                                 const sph_vector_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_wall_laplacian(int kernel, int dim, const sph_cloud *cloud,
+                                                  const sph_wall_terms *wall, const sph_scalars *f,
+                                                  const sph_scalar_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_collision_sequential(int dim, const sph_cloud *cloud,
                                                         const sph_collision *collision,
                                                         const sph_vector_out *velocity,

@@ -477,6 +477,34 @@ class sph_tension_out(Structure):
     ]
 
 
+class sph_wall_elements(Structure):
+    _fields_ = [
+        ("n", c_int32),
+        ("a", sph_vectors),
+        ("b", sph_vectors),
+        ("c", sph_vectors),
+        ("list", sph_list),
+    ]
+
+
+class sph_wall_gamma_out(Structure):
+    _fields_ = [
+        ("gamma", c_void_p),
+        ("gradient", sph_vector_out),
+        ("stride", c_size_t),
+        ("status", c_void_p),
+    ]
+
+
+class sph_wall_terms(Structure):
+    _fields_ = [
+        ("gamma", sph_scalars),
+        ("gradient", sph_vectors),
+        ("value", sph_scalars),
+        ("slope", sph_vectors),
+    ]
+
+
 class sph_collision(Structure):
     _fields_ = [
         ("distance", c_double),
@@ -663,6 +691,9 @@ STRUCTS = [
     sph_riemann_options,
     sph_tension,
     sph_tension_out,
+    sph_wall_elements,
+    sph_wall_gamma_out,
+    sph_wall_terms,
     sph_collision,
     sph_collision_report,
     sph_medium,
@@ -1247,6 +1278,29 @@ FUNCTIONS = {
         ("cloud", sph_cloud),
         ("tension", sph_tension),
         ("out", sph_tension_out),
+    ]),
+    "wall_gamma": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("elements", sph_wall_elements),
+        ("out", sph_wall_gamma_out),
+    ]),
+    "wall_gradient": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("wall", sph_wall_terms),
+        ("f", sph_scalars),
+        ("out", sph_vector_out),
+    ]),
+    "wall_laplacian": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("wall", sph_wall_terms),
+        ("f", sph_scalars),
+        ("out", sph_scalar_out),
     ]),
     "collision_sequential": (c_int32, [
         ("dim", c_int),

@@ -1515,6 +1515,69 @@ class Operators:
         """
         return self._call("tension_csf", locals())
 
+    def wall_gamma(
+        self,
+        n: int = 0,
+        a: Vectors = None,
+        b: Vectors = None,
+        c: Vectors = None,
+        start: int = 0,
+        index: int = 0,
+    ) -> Any:
+        """sph_wall_gamma: gamma and grad gamma, exact
+
+        gamma and grad gamma of the targets, from the elements of the walls. The targets are in the fluid or
+        on its walls; for one outside, gamma is too large by 1. A target within sqrt(SPH_EPSILON) h of an
+        element, an edge or a corner is taken as many lengths further inside, which gives the limit (1/2 on a
+        plane, 1/4 in the corner of a square) with an error of this order. Of cloud, positions, h and the
+        range are read, no list and no volumes. In a periodic box an element and a support together must be
+        shorter than half of the box. The work is that of all elements for each target, unless elements.list
+        says which are near. Returns the number of targets whose result overflowed (it is 0 then), or a
+        negative sph_error: SPH_ERROR_KERNEL for the kernels that are not piecewise polynomials,
+        SPH_ERROR_COUNT for a negative number of elements.
+
+        a: one corner of each element; c is read in 3D only
+        b: one corner of each element; c is read in 3D only
+        c: one corner of each element; c is read in 3D only
+        """
+        return self._call("wall_gamma", locals())
+
+    def wall_gradient(
+        self,
+        f: Scalars,
+        gamma: Scalars = None,
+        gradient: Vectors = None,
+        value: Scalars = None,
+        slope: Vectors = None,
+    ) -> Array:
+        """sph_wall_gradient: in sum form
+
+        grad f_i = (sum_j V_j f_j grad_i W_ij - f_w grad gamma_i) / gamma_i, the particles of the fluid being
+        all sources, with wall.value the f_w of each target. Ferrand et al. 2013. W has the h of the target.
+        As rows: V_j F_ij x_ij / gamma_i for each neighbour, and -grad gamma_i / gamma_i for f_w. For its
+        error see above. SPH_ERROR_VALUE for a gamma that is not positive. Returns the number of targets whose
+        result overflowed (it is 0 then), or a negative sph_error.
+        """
+        return self._call("wall_gradient", locals())
+
+    def wall_laplacian(
+        self,
+        f: Scalars,
+        gamma: Scalars = None,
+        gradient: Vectors = None,
+        value: Scalars = None,
+        slope: Vectors = None,
+    ) -> Array:
+        """sph_wall_laplacian: BIM in more than one dimension
+
+        lap f_i = (sum_j 2 V_j (f_i - f_j) F_ij - 2 g_w . grad gamma_i) / gamma_i, with wall.slope the g_w of
+        each target: the gradient of f at the wall, of which the part along the normal counts. Where f_w is
+        given instead, at the distance d in front of one wall, g_w = (f_w - f_i) / d n. Macia et al. 2012;
+        Ferrand et al. 2013, who take the mean of the gradients on both sides. The rows are those of
+        sph_laplacian_rows_brookshaw by gamma_i. Errors and answer as above.
+        """
+        return self._call("wall_laplacian", locals())
+
     def collision_sequential(
         self,
         velocity: Vectors,
