@@ -201,3 +201,28 @@ if (there("embedded_loop")) {
     }
     unset multiplot
 }
+
+if (there("probes")) {
+    set terminal pngcairo size 600,330 font "sans,10"
+    set output "probes.png"
+    set multiplot layout 1,2 title "a vortex in a tank, at points that are no particles"
+    set xrange [0:1]
+    set yrange [0:1]
+    set size ratio -1
+    set cbrange [0:2 * pi]
+    set colorbox
+    set format cb "%g"
+    set title "vorticity"
+    plot csv("probes") using ($8 < 0.5 ? $1 : NaN):2:4 every ::1 pointtype 5 pointsize 1.1 palette
+    unset colorbox
+    set title "pressure along the floor"
+    set size noratio
+    set yrange [2.9:3.75]
+    set tics format "%g"
+    set key top center
+    plot csv("probes") using ($8 > 0.5 ? $1 : NaN):6 every ::1 with lines linewidth 2 linecolor rgb "#888888" title "exact", \
+        "" using ($8 > 0.5 ? $1 : NaN):7 every ::1 pointtype 6 pointsize 0.7 linecolor rgb "#d55e00" title "mean of the neighbours", \
+        "" using ($8 > 0.5 ? $1 : NaN):5 every ::1 pointtype dots pointsize 0.7 linecolor rgb "#0072b2" title "moving least squares"
+    unset multiplot
+    unset key
+}
