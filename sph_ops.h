@@ -174,11 +174,11 @@
  *   liquids        sph_density_difference_molteni  sph_density_difference_antuono
  *                  sph_density_difference_fourtakas  sph_density_slope  sph_density_diffusion_weight
  *                  sph_time_step_density_diffusion
- *                  sph_density_diffusion_molteni(k, dim, cloud, fluid, diffusion, out)
+ *                  sph_density_diffusion_molteni(k, dim, cloud, diffusion, out)
  *                      density rate with density diffusion
- *                  sph_density_diffusion_antuono(k, dim, cloud, fluid, diffusion, out)   delta-SPH
- *                  sph_density_diffusion_fourtakas(k, dim, cloud, fluid, diffusion, out)
- *                  sph_density_diffusion_rows_molteni(k, dim, cloud, fluid, diffusion, out)
+ *                  sph_density_diffusion_antuono(k, dim, cloud, diffusion, out)   delta-SPH
+ *                  sph_density_diffusion_fourtakas(k, dim, cloud, diffusion, out)
+ *                  sph_density_diffusion_rows_molteni(k, dim, cloud, diffusion, out)
  *                  sph_sym_least_eigenvalue  sph_surface_of  sph_surface_normal  sph_surface_covers
  *                  sph_free_surface(k, dim, cloud, out)              div r, lambda, normal
  *                  sph_free_surface_cone(dim, cloud, lambda, normal, flag)
@@ -5479,6 +5479,7 @@ SPH_FN sph_real sph_time_step_density_diffusion(sph_kernel k, int dim, sph_real 
 
 /* What density diffusion needs to know. */
 typedef struct sph_diffusion {
+    sph_fluid fluid; /* rho is read, and v; where v is null there is no density rate beside the diffusion */
     sph_real delta; /* its strength; 0 means the usual 0.1, a negative number none */
     sph_tait tait;  /* of the liquid: c >= 0 is read, and by fourtakas rho0 */
     /* A pair has the factor share_i share_j: 1 for the liquid, 0 for walls and other fluids. Null: all take
@@ -5494,8 +5495,7 @@ SPH_FN sph_real sphi_delta(sph_real delta)
 {
     return delta == SPH_R(0) ? SPH_R(0.1) : delta < SPH_R(0) ? SPH_R(0) : delta;
 }
-SPH_FN int sphi_check_diffusion(int form, sph_kernel k, int dim, sph_cloud cloud, sph_fluid f,
-                                sph_diffusion d)
+SPH_FN int sphi_check_diffusion(int form, sph_kernel k, int dim, sph_cloud cloud, sph_diffusion d)
 {
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     if (!error && (!sphi_finite(d.delta) || !sphi_finite(d.tait.c) || d.tait.c < SPH_R(0)))
@@ -5504,7 +5504,7 @@ SPH_FN int sphi_check_diffusion(int form, sph_kernel k, int dim, sph_cloud cloud
         (!(d.tait.rho0 > SPH_R(0)) || !(d.tait.c > SPH_R(0)) ||
          !sphi_finite(sph_length(dim, sph_density_slope(d.tait, d.gravity)))))
         error = sphi_refuse("diffusion.tait, gravity", -1, SPH_ERROR_VALUE);
-    if (!error) error = sphi_check_positive("rho", f.rho, cloud.points.n);
+    if (!error) error = sphi_check_positive("rho", d.fluid.rho, cloud.points.n);
     if (!error && d.share.p) error = sphi_check_field("share", d.share, cloud.points.n);
     if (!error && form == SPHI_ANTUONO)
         error = sphi_check_vectors("gradient", dim, d.gradient, cloud.points.n);
@@ -5520,9 +5520,9 @@ SPH_FN sph_real sphi_density_difference(int form, int dim, sph_fluid_side i, sph
 /* moving and shared: whether there are velocities, and shares. They are arguments because the loops
    vectorise only where the compiler knows which arrays are read. */
 SPH_FN sph_index sphi_diffusion_range(int form, int uniform, int moving, int shared, sph_kernel k, int dim,
-                                      sph_cloud cloud, const sph_fluid *f, const sph_diffusion *d,
-                                      sph_scalar_out out)
+                                      sph_cloud cloud, const sph_diffusion *d, sph_scalar_out out)
 {
+    const sph_fluid *const f = &d->fluid;
     const sph_real speed = sphi_delta(d->delta) * d->tait.c;
     sph_index i, p, failed = 0;
     for (i = cloud.first; i < cloud.last; i++) {
@@ -5558,30 +5558,29 @@ SPH_FN sph_index sphi_diffusion_range(int form, int uniform, int moving, int sha
     return failed;
 }
 SPH_FN sph_index sphi_diffusion_shares(int form, int uniform, int moving, sph_kernel k, int dim,
-                                       sph_cloud cloud, const sph_fluid *f, const sph_diffusion *d,
-                                       sph_scalar_out out)
+                                       sph_cloud cloud, const sph_diffusion *d, sph_scalar_out out)
 {
-    return d->share.p ? sphi_diffusion_range(form, uniform, moving, 1, k, dim, cloud, f, d, out)
-                      : sphi_diffusion_range(form, uniform, moving, 0, k, dim, cloud, f, d, out);
+    return d->share.p ? sphi_diffusion_range(form, uniform, moving, 1, k, dim, cloud, d, out)
+                      : sphi_diffusion_range(form, uniform, moving, 0, k, dim, cloud, d, out);
 }
-SPH_FN sph_index sphi_diffusion(int form, sph_kernel k, int dim, sph_cloud cloud, sph_fluid f,
-                                sph_diffusion d, sph_scalar_out out)
+SPH_FN sph_index sphi_diffusion(int form, sph_kernel k, int dim, sph_cloud cloud, sph_diffusion d,
+                                sph_scalar_out out)
 {
-    const int moving = f.v.x.p != 0;
-    int error = sphi_check_diffusion(form, k, dim, cloud, f, d);
-    if (!error && moving) error = sphi_check_vectors("v", dim, f.v, cloud.points.n);
+    const int moving = d.fluid.v.x.p != 0;
+    int error = sphi_check_diffusion(form, k, dim, cloud, d);
+    if (!error && moving) error = sphi_check_vectors("v", dim, d.fluid.v, cloud.points.n);
     if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
     if (cloud.h.stride)
-        return moving ? sphi_diffusion_shares(form, 0, 1, k, dim, cloud, &f, &d, out)
-                      : sphi_diffusion_shares(form, 0, 0, k, dim, cloud, &f, &d, out);
-    return moving ? sphi_diffusion_shares(form, 1, 1, k, dim, cloud, &f, &d, out)
-                  : sphi_diffusion_shares(form, 1, 0, k, dim, cloud, &f, &d, out);
+        return moving ? sphi_diffusion_shares(form, 0, 1, k, dim, cloud, &d, out)
+                      : sphi_diffusion_shares(form, 0, 0, k, dim, cloud, &d, out);
+    return moving ? sphi_diffusion_shares(form, 1, 1, k, dim, cloud, &d, out)
+                  : sphi_diffusion_shares(form, 1, 0, k, dim, cloud, &d, out);
 }
 
 /* drho_i/dt = rho_i sum_j V_j v_ij . grad_i W_ij + D_i: the density rate of the liquid with the density
-   diffusion of Molteni & Colagrossi. V is the volume of the cloud, m / rho of the same moment. Of fluid, the
-   members rho and v are read; where v is null, the answer is D_i alone. Take the new velocities, as the order
+   diffusion of Molteni & Colagrossi. V is the volume of the cloud, m / rho of the same moment. Where
+   diffusion.fluid.v is null, the answer is D_i alone. Take the new velocities, as the order
    of a step in the chapter of fluids says. A pair uses (h_i + h_j) / 2: lists by SPH_MEAN, or by any
    criterion if all particles have the same h.
      D      is delta c h times sph_laplacian_brookshaw of the density, if all have the same h. It conserves
@@ -5590,35 +5589,35 @@ SPH_FN sph_index sphi_diffusion(int form, sph_kernel k, int dim, sph_cloud cloud
    Across a jump of rho0 diffuse rho / rho0 instead, or give the other fluid the share 0. Where the sum
    overflows, the result is 0 and SPH_NOT_FINITE. Returns the number of these targets, or a negative
    sph_error. Sources stand at the head of the chapter. */
-SPH_FN sph_index sph_density_diffusion_molteni(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+SPH_FN sph_index sph_density_diffusion_molteni(sph_kernel k, int dim, sph_cloud cloud,
                                                sph_diffusion diffusion, sph_scalar_out out)
 {
-    return sphi_diffusion(SPHI_MOLTENI, k, dim, cloud, fluid, diffusion, out);
+    return sphi_diffusion(SPHI_MOLTENI, k, dim, cloud, diffusion, out);
 }
 /* The same with the density diffusion of Antuono et al. (delta-SPH): D = 0 to round-off for a linear density
    at any particle, also at a boundary, if diffusion.gradient comes from sph_gradient_cspm. */
-SPH_FN sph_index sph_density_diffusion_antuono(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+SPH_FN sph_index sph_density_diffusion_antuono(sph_kernel k, int dim, sph_cloud cloud,
                                                sph_diffusion diffusion, sph_scalar_out out)
 {
-    return sphi_diffusion(SPHI_ANTUONO, k, dim, cloud, fluid, diffusion, out);
+    return sphi_diffusion(SPHI_ANTUONO, k, dim, cloud, diffusion, out);
 }
 /* The same with the density diffusion of Fourtakas et al.: D = 0 to round-off for a density of the slope
    rho0 gravity / c^2 (sph_density_slope) at any particle. */
-SPH_FN sph_index sph_density_diffusion_fourtakas(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+SPH_FN sph_index sph_density_diffusion_fourtakas(sph_kernel k, int dim, sph_cloud cloud,
                                                  sph_diffusion diffusion, sph_scalar_out out)
 {
-    return sphi_diffusion(SPHI_FOURTAKAS, k, dim, cloud, fluid, diffusion, out);
+    return sphi_diffusion(SPHI_FOURTAKAS, k, dim, cloud, diffusion, out);
 }
 /* The D of Molteni & Colagrossi as rows: D_i = sum_p row[p] (rho_j - rho_i), row[p] >= 0, factor 1 and
    conditioning 1. The rates of sph_density_diffusion_molteni without v agree to round-off. A row that
    overflows is 0, with SPH_NOT_FINITE. */
-SPH_FN sph_index sph_density_diffusion_rows_molteni(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+SPH_FN sph_index sph_density_diffusion_rows_molteni(sph_kernel k, int dim, sph_cloud cloud,
                                                     sph_diffusion diffusion, sph_rows_out out)
 {
     SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
     const int shared = diffusion.share.p != 0;
     const sph_real speed = sphi_delta(diffusion.delta) * diffusion.tait.c;
-    int error = sphi_check_diffusion(SPHI_MOLTENI, k, dim, cloud, fluid, diffusion);
+    int error = sphi_check_diffusion(SPHI_MOLTENI, k, dim, cloud, diffusion);
     sph_index i, p, failed = 0;
     if (!error && !row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
@@ -5827,22 +5826,22 @@ SPH_FN sph_index sph_free_surface_cone(int dim, sph_cloud cloud, sph_scalars lam
  */
 
 /* What j adds to G: V_j (1 + R w^4) F x_ij, with w = W_ij / W(dx), and R = tensile, 0.2 or 0. */
-SPH_FN sph_vec sph_shift_pair(sph_real V_j, sph_real tensile, sph_real w, sph_real f_ij, sph_vec x_ij)
+SPH_FN sph_vec sph_shift_pair(sph_real V_j, sph_real f_ij, sph_vec x_ij, sph_real tensile, sph_real w)
 {
     return sph_scale(V_j * (SPH_R(1) + tensile * (w * w) * (w * w)) * f_ij, x_ij);
 }
-/* A h |v| dt of Skillen et al.; speed = |v|, factor = A, 1 ... 6. */
-SPH_FN sph_real sph_shift_strength_skillen(sph_real h, sph_real speed, sph_real dt, sph_real factor)
+/* A h |v| dt of Skillen et al.; factor = A, 1 ... 6, and path = |v| dt. */
+SPH_FN sph_real sph_shift_strength_skillen(sph_real factor, sph_real h, sph_real path)
 {
-    return factor * h * speed * dt;
+    return factor * h * path;
 }
-/* dt v_max (2 h)^2 / (2 length) of Sun et al.; speed = v_max, the largest speed of the flow. In the paper
+/* dt v_max (2 h)^2 / (2 length) of Sun et al.; path = v_max dt with the largest speed of the flow. In the paper
    length = h; TrixiParticles takes 2 dx, because the shift then scales with the spacing. At h = 2 dx they are
    the same. Needs length > 0. */
-SPH_FN sph_real sph_shift_strength_sun(sph_real h, sph_real speed, sph_real dt, sph_real length)
+SPH_FN sph_real sph_shift_strength_sun(sph_real h, sph_real path, sph_real length)
 {
     SPH_ASSERT(length > SPH_R(0));
-    return SPH_R(2) * dt * speed * h * h / length;
+    return SPH_R(2) * path * h * h / length;
 }
 /* The shift that a free surface leaves: none for lambda < 0.4 (splash), only the part along the surface,
    dx - n (n . dx), for lambda < 0.75, and all of it inside. lambda and n come from sph_free_surface. The
@@ -5860,14 +5859,17 @@ SPH_FN sph_vec sph_shift_limited(int dim, sph_vec shift, sph_real longest)
     SPH_ASSERT(longest >= SPH_R(0));
     return length > longest ? sph_scale(longest / length, shift) : shift;
 }
+/* V_j u . grad_i W_ij for the velocities u of shifting of both particles. */
+typedef struct sph_shift_along {
+    sph_real i, j;
+} sph_shift_along;
 /* What j adds to the rate of a field f that is seen from a particle with the velocity v + u instead of v, u
    being the velocity of shifting:
        f_i (u_i - u_j) . V_j grad_i W_ij + (f_i u_i + f_j u_j) . V_j grad_i W_ij,
-   which are -f div u and div(f u): their sum is u . grad f. along_i = V_j u_i . grad_i W_ij, and along_j the
-   same for u_j. Sun et al. 2019. */
-SPH_FN sph_real sph_shift_rate_pair(sph_real f_i, sph_real f_j, sph_real along_i, sph_real along_j)
+   which are -f div u and div(f u): their sum is u . grad f. Sun et al. 2019. */
+SPH_FN sph_real sph_shift_rate_pair(sph_shift_along along, sph_real f_i, sph_real f_j)
 {
-    return f_i * (along_i - along_j) + (f_i * along_i + f_j * along_j);
+    return f_i * (along.i - along.j) + (f_i * along.i + f_j * along.j);
 }
 /* One particle of a pair that moves with a transport velocity u: its mass and density, its velocity v, and
    drift = u - v. */
@@ -5933,8 +5935,8 @@ SPH_FN sph_index sphi_shift_range(int uniform, int tensile, sph_kernel k, int di
             const sph_real h_ij = sphi_mean_h(uniform, cloud.h, h_i, j);
             const sph_wf both = sph_kernel_wf(k, dim, sph_length(dim, x_ij), h_ij);
             const sph_vec g =
-                sph_shift_pair(sphi_at(cloud.volume, j), tensile ? s->tensile : SPH_R(0),
-                               tensile ? both.w * sphi_power(h_ij, dim) * per_w : SPH_R(0), both.f, x_ij);
+                sph_shift_pair(sphi_at(cloud.volume, j), both.f, x_ij, tensile ? s->tensile : SPH_R(0),
+                               tensile ? both.w * sphi_power(h_ij, dim) * per_w : SPH_R(0));
             gx += g.x;
             gy += g.y;
             gz += g.z;
@@ -6000,12 +6002,13 @@ SPH_FN sph_index sphi_shift_rates_range(int uniform, sph_kernel k, int dim, sph_
             const sph_vec g =
                 sph_gradient_pair_difference(k, dim, sphi_at(cloud.volume, j), SPH_R(1), x_ij,
                                              sph_length(dim, x_ij), sphi_mean_h(uniform, cloud.h, h_i, j));
-            const sph_real along_i = sph_dot(dim, u_i, g),
-                           along_j = sph_dot(dim, sphi_vector_at(dim, *shift, j), g);
-            rate += sph_shift_rate_pair(own.rho, other.rho, along_i, along_j);
-            ax += sph_shift_rate_pair(v_i.x, v_j.x, along_i, along_j);
-            if (dim > 1) ay += sph_shift_rate_pair(v_i.y, v_j.y, along_i, along_j);
-            if (dim > 2) az += sph_shift_rate_pair(v_i.z, v_j.z, along_i, along_j);
+            sph_shift_along along;
+            along.i = sph_dot(dim, u_i, g);
+            along.j = sph_dot(dim, sphi_vector_at(dim, *shift, j), g);
+            rate += sph_shift_rate_pair(along, own.rho, other.rho);
+            ax += sph_shift_rate_pair(along, v_i.x, v_j.x);
+            if (dim > 1) ay += sph_shift_rate_pair(along, v_i.y, v_j.y);
+            if (dim > 2) az += sph_shift_rate_pair(along, v_i.z, v_j.z);
         }
         sum.x = ax;
         sum.y = ay;

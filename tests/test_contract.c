@@ -408,6 +408,7 @@ static sph_fluid still_of(const world *w) /* without velocities it is a fluid, t
 static sph_diffusion diffusion_of(const world *w, double rho0, double c)
 {
     sph_diffusion d = {0};
+    d.fluid = still_of(w);
     d.delta = SPH_R(w->number[PARAMETER_A]);
     d.tait.rho0 = SPH_R(rho0);
     d.tait.c = SPH_R(c);
@@ -494,10 +495,10 @@ CALL(viscosity_mu_morris, RANGE, fluid_of(w), A(MX), vector_out_of(w, O0))
 CALL(viscosity_mu_monaghan_cleary, RANGE, fluid_of(w), A(MX), vector_out_of(w, O0))
 CALL(viscosity_mu_espanol_revenga, RANGE, fluid_of(w), shear_bulk_of(w), vector_out_of(w, O0))
 CALL(velocity_xsph, RANGE, fluid_of(w), X(PARAMETER_C), vector_out_of(w, O0))
-CALL(density_diffusion_molteni, RANGE, still_of(w), diffusion_of(w, 0.0, w->number[CH]), scalar_out_of(w))
-CALL(density_diffusion_antuono, RANGE, still_of(w), diffusion_of(w, 0.0, w->number[CH]), scalar_out_of(w))
-CALL(density_diffusion_fourtakas, RANGE, still_of(w), diffusion_of(w, w->number[RATIO], w->number[DENSITY]), scalar_out_of(w))
-CALL(density_diffusion_rows_molteni, RANGE, still_of(w), diffusion_of(w, 0.0, w->number[CH]), row_out_of(w))
+CALL(density_diffusion_molteni, RANGE, diffusion_of(w, 0.0, w->number[CH]), scalar_out_of(w))
+CALL(density_diffusion_antuono, RANGE, diffusion_of(w, 0.0, w->number[CH]), scalar_out_of(w))
+CALL(density_diffusion_fourtakas, RANGE, diffusion_of(w, w->number[RATIO], w->number[DENSITY]), scalar_out_of(w))
+CALL(density_diffusion_rows_molteni, RANGE, diffusion_of(w, 0.0, w->number[CH]), row_out_of(w))
 CALL(free_surface_cone, LIST, A(F), vectors_of(w, BX), STATE)
 CALL(shift_displacement, RANGE, shift_of(w), vector_out_of(w, O0))
 CALL(tension_css, RANGE, tension_of(w), vector_out_of(w, O0))

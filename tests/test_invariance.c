@@ -188,11 +188,12 @@ OPERATOR(xsph, sph_velocity_xsph(SWEEP, fluid(w), SPH_R(0.5), into(w, 0)))
 static sph_diffusion diffusion(const world *w)
 {
     sph_diffusion d = {0};
+    d.fluid = fluid(w);
     d.tait.c = SPH_R(1.3);
     d.share = at(w, PSI);
     return d;
 }
-OPERATOR(diffusion_molteni, sph_density_diffusion_molteni(SWEEP, fluid(w), diffusion(w), SCALAR_OUT))
+OPERATOR(diffusion_molteni, sph_density_diffusion_molteni(SWEEP, diffusion(w), SCALAR_OUT))
 OPERATOR(free_surface, sph_free_surface(SWEEP, (sph_surface_out){.divergence = OUT(3), .lambda = OUT(4), .normal = into(w, 0)}))
 static sph_index shifted(world *w, sph_index first, sph_index last)
 {

@@ -93,10 +93,11 @@ static int step(flow *f, double *noise) /* 0: it has blown up. noise, if not nul
     d.gravity.y = SPH_R(-1);
     d.share = sph_scalars_array(f->share);
     d.gradient = two(f->gx, f->gy);
+    d.fluid = s;
 #define RATES \
-    (f->form == ANTUONO     ? sph_density_diffusion_antuono(KERNEL, 2, wet, s, d, sph_scalar_out_array(f->rate, 0)) \
-     : f->form == FOURTAKAS ? sph_density_diffusion_fourtakas(KERNEL, 2, wet, s, d, sph_scalar_out_array(f->rate, 0)) \
-                            : sph_density_diffusion_molteni(KERNEL, 2, wet, s, d, sph_scalar_out_array(f->rate, 0)))
+    (f->form == ANTUONO     ? sph_density_diffusion_antuono(KERNEL, 2, wet, d, sph_scalar_out_array(f->rate, 0)) \
+     : f->form == FOURTAKAS ? sph_density_diffusion_fourtakas(KERNEL, 2, wet, d, sph_scalar_out_array(f->rate, 0)) \
+                            : sph_density_diffusion_molteni(KERNEL, 2, wet, d, sph_scalar_out_array(f->rate, 0)))
     if (f->form == ANTUONO) CHECK(gradient(all, f->rho, f->gx, f->gy) >= 0);
     if (f->late) CHECK(RATES == 0);
     CHECK(sph_fluid_rates_monaghan(KERNEL, 2, wet, s, (sph_fluid_out){.acceleration = to(f->ax, f->ay)}) == 0);
@@ -114,7 +115,7 @@ static int step(flow *f, double *noise) /* 0: it has blown up. noise, if not nul
         sph_real strength;
         sph_shift shift = {0};
         for (i = 0; i < f->wet && !(f->speed > 0.0); i++) fastest = fmax(fastest, hypot((double)f->vx[i], (double)f->vy[i]));
-        strength = sph_shift_strength_sun(h, SPH_R(fastest), SPH_R(f->dt), SPH_R(2.0 * f->dx));
+        strength = sph_shift_strength_sun(h, SPH_R(fastest * f->dt), SPH_R(2.0 * f->dx));
         shift.strength = sph_scalars_same(&strength);
         shift.tensile = SPH_R(0.2);
         shift.spacing = SPH_R(f->dx / f->h);

@@ -163,16 +163,17 @@ static inline long liquid_rate_part(void *data, long first, long last)
     const liquid *const l = liquid_of(f);
     const sph_cloud targets = flow_targets(f, first, last);
     const sph_scalar_out out = sph_scalar_out_array(f->rate, NULL);
-    sph_diffusion d = {.tait = f->state[0],
+    sph_diffusion d = {.fluid = liquid_fluid(f),
+                       .tait = f->state[0],
                        .share = sph_scalars_array(l->w.share),
                        .gradient = vectors_of(l->gradient, 2),
                        .gravity = {f->gravity_x, f->gravity_y, 0}};
     if (l->method->diffusion == LIQUID_ANTUONO)
-        return sph_density_diffusion_antuono(SPH_WENDLAND_C2, 2, targets, liquid_fluid(f), d, out);
+        return sph_density_diffusion_antuono(SPH_WENDLAND_C2, 2, targets, d, out);
     if (l->method->diffusion == LIQUID_FOURTAKAS)
-        return sph_density_diffusion_fourtakas(SPH_WENDLAND_C2, 2, targets, liquid_fluid(f), d, out);
+        return sph_density_diffusion_fourtakas(SPH_WENDLAND_C2, 2, targets, d, out);
     if (l->method->diffusion == LIQUID_EDAC) d.delta = 0.5 / 8;
-    return sph_density_diffusion_molteni(SPH_WENDLAND_C2, 2, targets, liquid_fluid(f), d, out);
+    return sph_density_diffusion_molteni(SPH_WENDLAND_C2, 2, targets, d, out);
 }
 static inline long liquid_riemann_part(void *data, long first, long last)
 {
@@ -331,8 +332,8 @@ static inline void liquid_find_shift(flow *f)
     for (i = 0; i < f->n_fluid; i++)
         l->scratch[i] =
             l->method->shift == LIQUID_SKILLEN
-                ? sph_shift_strength_skillen(f->h, sqrt(f->vx[i] * f->vx[i] + f->vy[i] * f->vy[i]), f->dt, 2)
-                : sph_shift_strength_sun(f->h, fastest, f->dt, f->h);
+                ? sph_shift_strength_skillen(2, f->h, f->dt * sqrt(f->vx[i] * f->vx[i] + f->vy[i] * f->vy[i]))
+                : sph_shift_strength_sun(f->h, f->dt * fastest, f->h);
     l->scratch[f->n] = fastest;
     liquid_each(f, liquid_shift_part);
 }

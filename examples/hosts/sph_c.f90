@@ -442,6 +442,8 @@ module sph_c
 
     ! What density diffusion needs to know.
     type, bind(c) :: sph_diffusion
+        ! rho is read, and v; where v is null there is no density rate beside the diffusion
+        type(sph_fluid) :: fluid
         ! its strength; 0 means the usual 0.1, a negative number none
         real(sph_real) :: delta = 0.0_sph_real
         ! of the liquid: c >= 0 is read, and by fourtakas rho0
@@ -1560,43 +1562,39 @@ module sph_c
             real(sph_real) :: answer
         end function
         ! density rate with density diffusion
-        function sph_density_diffusion_molteni(kernel, dim, cloud, fluid, diffusion, out) &
+        function sph_density_diffusion_molteni(kernel, dim, cloud, diffusion, out) &
             bind(c, name='sph_shim_density_diffusion_molteni') result(answer)
             import
             integer(c_int), value :: kernel, dim
             type(sph_cloud), intent(in) :: cloud
-            type(sph_fluid), intent(in) :: fluid
             type(sph_diffusion), intent(in) :: diffusion
             type(sph_scalar_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
         ! delta-SPH
-        function sph_density_diffusion_antuono(kernel, dim, cloud, fluid, diffusion, out) &
+        function sph_density_diffusion_antuono(kernel, dim, cloud, diffusion, out) &
             bind(c, name='sph_shim_density_diffusion_antuono') result(answer)
             import
             integer(c_int), value :: kernel, dim
             type(sph_cloud), intent(in) :: cloud
-            type(sph_fluid), intent(in) :: fluid
             type(sph_diffusion), intent(in) :: diffusion
             type(sph_scalar_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
-        function sph_density_diffusion_fourtakas(kernel, dim, cloud, fluid, diffusion, out) &
+        function sph_density_diffusion_fourtakas(kernel, dim, cloud, diffusion, out) &
             bind(c, name='sph_shim_density_diffusion_fourtakas') result(answer)
             import
             integer(c_int), value :: kernel, dim
             type(sph_cloud), intent(in) :: cloud
-            type(sph_fluid), intent(in) :: fluid
             type(sph_diffusion), intent(in) :: diffusion
             type(sph_scalar_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
-        function sph_density_diffusion_rows_molteni(kernel, dim, cloud, fluid, diffusion, out) &
+        function sph_density_diffusion_rows_molteni(kernel, dim, cloud, diffusion, out) &
             bind(c, name='sph_shim_density_diffusion_rows_molteni') result(answer)
             import
             integer(c_int), value :: kernel, dim
             type(sph_cloud), intent(in) :: cloud
-            type(sph_fluid), intent(in) :: fluid
             type(sph_diffusion), intent(in) :: diffusion
             type(sph_rows_out), intent(in) :: out
             integer(sph_index) :: answer
@@ -1621,22 +1619,16 @@ module sph_c
             integer(sph_state), intent(inout) :: flag(*)
             integer(sph_index) :: answer
         end function
-        pure function sph_shift_strength_skillen(h, speed, dt, factor) &
+        pure function sph_shift_strength_skillen(factor, h, path) &
             bind(c, name='sph_shim_shift_strength_skillen') result(answer)
             import
-            real(sph_real), value :: h, speed, dt, factor
+            real(sph_real), value :: factor, h, path
             real(sph_real) :: answer
         end function
-        pure function sph_shift_strength_sun(h, speed, dt, length) &
+        pure function sph_shift_strength_sun(h, path, length) &
             bind(c, name='sph_shim_shift_strength_sun') result(answer)
             import
-            real(sph_real), value :: h, speed, dt, length
-            real(sph_real) :: answer
-        end function
-        pure function sph_shift_rate_pair(f_i, f_j, along_i, along_j) &
-            bind(c, name='sph_shim_shift_rate_pair') result(answer)
-            import
-            real(sph_real), value :: f_i, f_j, along_i, along_j
+            real(sph_real), value :: h, path, length
             real(sph_real) :: answer
         end function
         ! keeps particles even

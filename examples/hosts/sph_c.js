@@ -124,8 +124,8 @@ exports.structs = {
         ["p", "pointer", 1], ["v", "sph_vector_out", 1], ["stride", "size_t", 1], ["status", "pointer", 1],
     ],
     sph_diffusion: [
-        ["delta", "sph_real", 1], ["tait", "sph_tait", 1], ["share", "sph_scalars", 1],
-        ["gradient", "sph_vectors", 1], ["gravity", "sph_vec", 1],
+        ["fluid", "sph_fluid", 1], ["delta", "sph_real", 1], ["tait", "sph_tait", 1],
+        ["share", "sph_scalars", 1], ["gradient", "sph_vectors", 1], ["gravity", "sph_vec", 1],
     ],
     sph_surface_out: [
         ["divergence", "pointer", 1], ["lambda", "pointer", 1], ["normal", "sph_vector_out", 1],

@@ -866,11 +866,9 @@ sph_real sph_shim_time_step_density_diffusion(int kernel, int dim, sph_real h, s
 }
 
 #define SWEEP(K, D) \
-    sph_density_diffusion_molteni(K, D, *cloud, GIVEN(sph_fluid, fluid), GIVEN(sph_diffusion, diffusion), \
-                                  GIVEN(sph_scalar_out, out))
+    sph_density_diffusion_molteni(K, D, *cloud, GIVEN(sph_diffusion, diffusion), GIVEN(sph_scalar_out, out))
 sph_index sph_shim_density_diffusion_molteni(int kernel, int dim, const sph_cloud *cloud,
-                                             const sph_fluid *fluid, const sph_diffusion *diffusion,
-                                             const sph_scalar_out *out)
+                                             const sph_diffusion *diffusion, const sph_scalar_out *out)
 {
     sph_index answer = SPH_ERROR_KERNEL;
     if (!cloud) return missing("cloud");
@@ -880,11 +878,9 @@ sph_index sph_shim_density_diffusion_molteni(int kernel, int dim, const sph_clou
 #undef SWEEP
 
 #define SWEEP(K, D) \
-    sph_density_diffusion_antuono(K, D, *cloud, GIVEN(sph_fluid, fluid), GIVEN(sph_diffusion, diffusion), \
-                                  GIVEN(sph_scalar_out, out))
+    sph_density_diffusion_antuono(K, D, *cloud, GIVEN(sph_diffusion, diffusion), GIVEN(sph_scalar_out, out))
 sph_index sph_shim_density_diffusion_antuono(int kernel, int dim, const sph_cloud *cloud,
-                                             const sph_fluid *fluid, const sph_diffusion *diffusion,
-                                             const sph_scalar_out *out)
+                                             const sph_diffusion *diffusion, const sph_scalar_out *out)
 {
     sph_index answer = SPH_ERROR_KERNEL;
     if (!cloud) return missing("cloud");
@@ -894,11 +890,10 @@ sph_index sph_shim_density_diffusion_antuono(int kernel, int dim, const sph_clou
 #undef SWEEP
 
 #define SWEEP(K, D) \
-    sph_density_diffusion_fourtakas(K, D, *cloud, GIVEN(sph_fluid, fluid), GIVEN(sph_diffusion, diffusion), \
+    sph_density_diffusion_fourtakas(K, D, *cloud, GIVEN(sph_diffusion, diffusion), \
                                     GIVEN(sph_scalar_out, out))
 sph_index sph_shim_density_diffusion_fourtakas(int kernel, int dim, const sph_cloud *cloud,
-                                               const sph_fluid *fluid, const sph_diffusion *diffusion,
-                                               const sph_scalar_out *out)
+                                               const sph_diffusion *diffusion, const sph_scalar_out *out)
 {
     sph_index answer = SPH_ERROR_KERNEL;
     if (!cloud) return missing("cloud");
@@ -908,11 +903,10 @@ sph_index sph_shim_density_diffusion_fourtakas(int kernel, int dim, const sph_cl
 #undef SWEEP
 
 #define SWEEP(K, D) \
-    sph_density_diffusion_rows_molteni(K, D, *cloud, GIVEN(sph_fluid, fluid), \
-                                       GIVEN(sph_diffusion, diffusion), GIVEN(sph_rows_out, out))
+    sph_density_diffusion_rows_molteni(K, D, *cloud, GIVEN(sph_diffusion, diffusion), \
+                                       GIVEN(sph_rows_out, out))
 sph_index sph_shim_density_diffusion_rows_molteni(int kernel, int dim, const sph_cloud *cloud,
-                                                  const sph_fluid *fluid, const sph_diffusion *diffusion,
-                                                  const sph_rows_out *out)
+                                                  const sph_diffusion *diffusion, const sph_rows_out *out)
 {
     sph_index answer = SPH_ERROR_KERNEL;
     if (!cloud) return missing("cloud");
@@ -943,17 +937,13 @@ sph_index sph_shim_free_surface_cone(int dim, const sph_cloud *cloud, const sph_
     return answer;
 }
 #undef SWEEP
-sph_real sph_shim_shift_strength_skillen(sph_real h, sph_real speed, sph_real dt, sph_real factor)
+sph_real sph_shim_shift_strength_skillen(sph_real factor, sph_real h, sph_real path)
 {
-    return sph_shift_strength_skillen(h, speed, dt, factor);
+    return sph_shift_strength_skillen(factor, h, path);
 }
-sph_real sph_shim_shift_strength_sun(sph_real h, sph_real speed, sph_real dt, sph_real length)
+sph_real sph_shim_shift_strength_sun(sph_real h, sph_real path, sph_real length)
 {
-    return sph_shift_strength_sun(h, speed, dt, length);
-}
-sph_real sph_shim_shift_rate_pair(sph_real f_i, sph_real f_j, sph_real along_i, sph_real along_j)
-{
-    return sph_shift_rate_pair(f_i, f_j, along_i, along_j);
+    return sph_shift_strength_sun(h, path, length);
 }
 
 #define SWEEP(K, D) \

@@ -49,12 +49,8 @@ SPH_SHIM_EXPORT sph_real sph_shim_time_step_viscous_nu(sph_real h, sph_real nu);
 SPH_SHIM_EXPORT sph_real sph_shim_density_diffusion_weight(sph_real V_j, sph_real strength, sph_real f_ij);
 SPH_SHIM_EXPORT sph_real sph_shim_time_step_density_diffusion(int kernel, int dim, sph_real h, sph_real delta,
                                                               sph_real c);
-SPH_SHIM_EXPORT sph_real sph_shim_shift_strength_skillen(sph_real h, sph_real speed, sph_real dt,
-                                                         sph_real factor);
-SPH_SHIM_EXPORT sph_real sph_shim_shift_strength_sun(sph_real h, sph_real speed, sph_real dt,
-                                                     sph_real length);
-SPH_SHIM_EXPORT sph_real sph_shim_shift_rate_pair(sph_real f_i, sph_real f_j, sph_real along_i,
-                                                  sph_real along_j);
+SPH_SHIM_EXPORT sph_real sph_shim_shift_strength_skillen(sph_real factor, sph_real h, sph_real path);
+SPH_SHIM_EXPORT sph_real sph_shim_shift_strength_sun(sph_real h, sph_real path, sph_real length);
 SPH_SHIM_EXPORT sph_real sph_shim_conductivity_speed(sph_real P_i, sph_real P_j, sph_real per_rho);
 SPH_SHIM_EXPORT sph_real sph_shim_cleaning_sigma(int dim);
 SPH_SHIM_EXPORT sph_real sph_shim_resistivity_switch(sph_real h, sph_real change, sph_real strength);
@@ -227,19 +223,15 @@ SPH_SHIM_EXPORT sph_index sph_shim_wall_rows_eliminate(int dim, const sph_cloud 
                                                        const sph_rows_out *rows,
                                                        const sph_scalar_out *source);
 SPH_SHIM_EXPORT sph_index sph_shim_density_diffusion_molteni(int kernel, int dim, const sph_cloud *cloud,
-                                                             const sph_fluid *fluid,
                                                              const sph_diffusion *diffusion,
                                                              const sph_scalar_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_density_diffusion_antuono(int kernel, int dim, const sph_cloud *cloud,
-                                                             const sph_fluid *fluid,
                                                              const sph_diffusion *diffusion,
                                                              const sph_scalar_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_density_diffusion_fourtakas(int kernel, int dim, const sph_cloud *cloud,
-                                                               const sph_fluid *fluid,
                                                                const sph_diffusion *diffusion,
                                                                const sph_scalar_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_density_diffusion_rows_molteni(int kernel, int dim, const sph_cloud *cloud,
-                                                                  const sph_fluid *fluid,
                                                                   const sph_diffusion *diffusion,
                                                                   const sph_rows_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_free_surface(int kernel, int dim, const sph_cloud *cloud,

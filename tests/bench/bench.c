@@ -256,10 +256,10 @@ static sph_index sweep_range(int which, sph_index first, sph_index last, const c
     case MOLTENI:
     case ANTUONO: { /* density rate with density diffusion */
         const sph_fluid fluid = fluid_of(V, f, SPH_VISCOSITY_NONE);
-        const sph_diffusion d = {.delta = SPH_R(0.1), .tait = {.c = SPH_R(10)}, .gradient = fluid.v};
+        const sph_diffusion d = {.fluid = fluid, .delta = SPH_R(0.1), .tait = {.c = SPH_R(10)}, .gradient = fluid.v};
         const sph_scalar_out rate = sph_scalar_out_array(o->g[0], 0);
-        return which == MOLTENI ? sph_density_diffusion_molteni(KERNEL, 3, targets, fluid, d, rate)
-                                : sph_density_diffusion_antuono(KERNEL, 3, targets, fluid, d, rate);
+        return which == MOLTENI ? sph_density_diffusion_molteni(KERNEL, 3, targets, d, rate)
+                                : sph_density_diffusion_antuono(KERNEL, 3, targets, d, rate);
     }
     case FREE_SURFACE: /* div r, lambda, normal */
         return sph_free_surface(KERNEL, 3, targets,

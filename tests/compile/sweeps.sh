@@ -22,9 +22,9 @@ SPH_FN sph_fluid fluid(sph_scalars V, sph_scalars f)
 }
 END
     cat << 'END'
-SPH_FN sph_diffusion delta(sph_scalars f)
+SPH_FN sph_diffusion delta(sph_fluid s, sph_scalars f)
 {
-    sph_diffusion d = {.delta = SPH_R(0.1), .tait = {.c = SPH_R(10)}, .gradient = {f, f, f}};
+    sph_diffusion d = {.fluid = s, .delta = SPH_R(0.1), .tait = {.c = SPH_R(10)}, .gradient = {f, f, f}};
     return d;
 }
 END
@@ -43,7 +43,7 @@ END
                 sph_scalar_out_array(a, s))' \
             'msphrows|sph_elliptic_rows_msph(SPH_CUBIC_SPLINE, D, x, f, (sph_elliptic_options){0},
                 (sph_rows_out){.row = b})' \
-            'diffusion|sph_density_diffusion_antuono(SPH_WENDLAND_C2, D, x, fluid(x.volume, f), delta(f),
+            'diffusion|sph_density_diffusion_antuono(SPH_WENDLAND_C2, D, x, delta(fluid(x.volume, f), f),
                 sph_scalar_out_array(a, s))' \
             'shift|sph_shift_displacement(SPH_WENDLAND_C2, D, x, (sph_shift){.strength = f, .tensile = 0.2, .spacing = 0.8}, sph_vector_out_separate(a, b, c))' \
             'fluid|sph_fluid_rates_colagrossi(SPH_WENDLAND_C2, D, x, fluid(x.volume, f), (sph_fluid_out){.acceleration = sph_vector_out_separate(a, b, c), .rate = out.gx, .heating = out.gy})' \

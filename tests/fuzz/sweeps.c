@@ -213,6 +213,7 @@ static sph_wall_out wall_out(const arguments *a)
 static sph_diffusion diffusion(const arguments *a)
 {
     sph_diffusion d = {0};
+    d.fluid = fluid(a);
     d.delta = a->number[0];
     d.tait.c = a->number[1], d.tait.rho0 = a->number[2];
     if (a->what & 1) d.share = a->s[4];
@@ -290,10 +291,10 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_viscosity_mu_monaghan_cleary(SWEEP, fluid(a), a->s[2], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_velocity_xsph(SWEEP, fluid(a), a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_wall_adami(SWEEP, wall(a), wall_out(a)), 4, 0, VECTOR | STATUS) \
-    X(sph_density_diffusion_molteni(SWEEP, fluid(a), diffusion(a), scalar_out(a)), 1, 0, STATUS) \
-    X(sph_density_diffusion_antuono(SWEEP, fluid(a), diffusion(a), scalar_out(a)), 1, 0, STATUS) \
-    X(sph_density_diffusion_fourtakas(SWEEP, fluid(a), diffusion(a), scalar_out(a)), 1, 0, STATUS) \
-    X(sph_density_diffusion_rows_molteni(SWEEP, fluid(a), diffusion(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_density_diffusion_molteni(SWEEP, diffusion(a), scalar_out(a)), 1, 0, STATUS) \
+    X(sph_density_diffusion_antuono(SWEEP, diffusion(a), scalar_out(a)), 1, 0, STATUS) \
+    X(sph_density_diffusion_fourtakas(SWEEP, diffusion(a), scalar_out(a)), 1, 0, STATUS) \
+    X(sph_density_diffusion_rows_molteni(SWEEP, diffusion(a), row_out(a)), 4, 1, STATUS) \
     X(sph_free_surface(SWEEP, surface_out(a)), 5, 0, VECTOR | STATUS) \
     X(sph_free_surface_cone(LIST, a->s[3], vectors(a, 5), a->status), 0, 0, STATUS | NO_COUNT) \
     X(sph_shift_displacement(SWEEP, shifting(a), vector_out(a, 0)), 3, 0, VECTOR) \

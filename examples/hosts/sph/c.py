@@ -415,6 +415,7 @@ class sph_wall_out(Structure):
 
 class sph_diffusion(Structure):
     _fields_ = [
+        ("fluid", sph_fluid),
         ("delta", c_double),
         ("tait", sph_tait),
         ("share", sph_scalars),
@@ -1174,7 +1175,6 @@ FUNCTIONS = {
         ("kernel", c_int),
         ("dim", c_int),
         ("cloud", sph_cloud),
-        ("fluid", sph_fluid),
         ("diffusion", sph_diffusion),
         ("out", sph_scalar_out),
     ]),
@@ -1182,7 +1182,6 @@ FUNCTIONS = {
         ("kernel", c_int),
         ("dim", c_int),
         ("cloud", sph_cloud),
-        ("fluid", sph_fluid),
         ("diffusion", sph_diffusion),
         ("out", sph_scalar_out),
     ]),
@@ -1190,7 +1189,6 @@ FUNCTIONS = {
         ("kernel", c_int),
         ("dim", c_int),
         ("cloud", sph_cloud),
-        ("fluid", sph_fluid),
         ("diffusion", sph_diffusion),
         ("out", sph_scalar_out),
     ]),
@@ -1198,7 +1196,6 @@ FUNCTIONS = {
         ("kernel", c_int),
         ("dim", c_int),
         ("cloud", sph_cloud),
-        ("fluid", sph_fluid),
         ("diffusion", sph_diffusion),
         ("out", sph_rows_out),
     ]),
@@ -1215,24 +1212,8 @@ FUNCTIONS = {
         ("normal", sph_vectors),
         ("flag", (c_ubyte, False)),
     ]),
-    "shift_strength_skillen": (c_double, [
-        ("h", c_double),
-        ("speed", c_double),
-        ("dt", c_double),
-        ("factor", c_double),
-    ]),
-    "shift_strength_sun": (c_double, [
-        ("h", c_double),
-        ("speed", c_double),
-        ("dt", c_double),
-        ("length", c_double),
-    ]),
-    "shift_rate_pair": (c_double, [
-        ("f_i", c_double),
-        ("f_j", c_double),
-        ("along_i", c_double),
-        ("along_j", c_double),
-    ]),
+    "shift_strength_skillen": (c_double, [("factor", c_double), ("h", c_double), ("path", c_double)]),
+    "shift_strength_sun": (c_double, [("h", c_double), ("path", c_double), ("length", c_double)]),
     "shift_displacement": (c_int32, [
         ("kernel", c_int),
         ("dim", c_int),

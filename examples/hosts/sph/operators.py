@@ -1151,15 +1151,15 @@ class Operators:
         """sph_density_diffusion_molteni: density rate with density diffusion
 
         drho_i/dt = rho_i sum_j V_j v_ij . grad_i W_ij + D_i: the density rate of the liquid with the density
-        diffusion of Molteni & Colagrossi. V is the volume of the cloud, m / rho of the same moment. Of fluid,
-        the members rho and v are read; where v is null, the answer is D_i alone. Take the new velocities, as
-        the order of a step in the chapter of fluids says. A pair uses (h_i + h_j) / 2: lists by SPH_MEAN, or
-        by any criterion if all particles have the same h. D      is delta c h times sph_laplacian_brookshaw
-        of the density, if all have the same h. It conserves sum_i V_i rho_i to round-off, and is dissipative:
-        sum_i V_i rho_i D_i <= 0. It is 0 for constants only: it takes the density of a column at rest for
-        noise. Across a jump of rho0 diffuse rho / rho0 instead, or give the other fluid the share 0. Where
-        the sum overflows, the result is 0 and SPH_NOT_FINITE. Returns the number of these targets, or a
-        negative sph_error. Sources stand at the head of the chapter.
+        diffusion of Molteni & Colagrossi. V is the volume of the cloud, m / rho of the same moment. Where
+        diffusion.fluid.v is null, the answer is D_i alone. Take the new velocities, as the order of a step in
+        the chapter of fluids says. A pair uses (h_i + h_j) / 2: lists by SPH_MEAN, or by any criterion if all
+        particles have the same h. D      is delta c h times sph_laplacian_brookshaw of the density, if all
+        have the same h. It conserves sum_i V_i rho_i to round-off, and is dissipative: sum_i V_i rho_i D_i <=
+        0. It is 0 for constants only: it takes the density of a column at rest for noise. Across a jump of
+        rho0 diffuse rho / rho0 instead, or give the other fluid the share 0. Where the sum overflows, the
+        result is 0 and SPH_NOT_FINITE. Returns the number of these targets, or a negative sph_error. Sources
+        stand at the head of the chapter.
 
         m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
         rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
@@ -2219,33 +2219,22 @@ def time_step_density_diffusion(kernel: Union[str, int], dim: int, h: float, del
     return _number("time_step_density_diffusion", kernel, dim, h, delta, c)
 
 
-def shift_strength_skillen(h: float, speed: float, dt: float, factor: float) -> float:
+def shift_strength_skillen(factor: float, h: float, path: float) -> float:
     """sph_shift_strength_skillen.
 
-    A h |v| dt of Skillen et al.; speed = |v|, factor = A, 1 ... 6.
+    A h |v| dt of Skillen et al.; factor = A, 1 ... 6, and path = |v| dt.
     """
-    return _number("shift_strength_skillen", h, speed, dt, factor)
+    return _number("shift_strength_skillen", factor, h, path)
 
 
-def shift_strength_sun(h: float, speed: float, dt: float, length: float) -> float:
+def shift_strength_sun(h: float, path: float, length: float) -> float:
     """sph_shift_strength_sun.
 
-    dt v_max (2 h)^2 / (2 length) of Sun et al.; speed = v_max, the largest speed of the flow. In the paper
-    length = h; TrixiParticles takes 2 dx, because the shift then scales with the spacing. At h = 2 dx they
-    are the same. Needs length > 0.
+    dt v_max (2 h)^2 / (2 length) of Sun et al.; path = v_max dt with the largest speed of the flow. In the
+    paper length = h; TrixiParticles takes 2 dx, because the shift then scales with the spacing. At h = 2 dx
+    they are the same. Needs length > 0.
     """
-    return _number("shift_strength_sun", h, speed, dt, length)
-
-
-def shift_rate_pair(f_i: float, f_j: float, along_i: float, along_j: float) -> float:
-    """sph_shift_rate_pair.
-
-    What j adds to the rate of a field f that is seen from a particle with the velocity v + u instead of v, u
-    being the velocity of shifting: f_i (u_i - u_j) . V_j grad_i W_ij + (f_i u_i + f_j u_j) . V_j grad_i W_ij,
-    which are -f div u and div(f u): their sum is u . grad f. along_i = V_j u_i . grad_i W_ij, and along_j the
-    same for u_j. Sun et al. 2019.
-    """
-    return _number("shift_rate_pair", f_i, f_j, along_i, along_j)
+    return _number("shift_strength_sun", h, path, length)
 
 
 def conductivity_speed(P_i: float, P_j: float, per_rho: float) -> float:
@@ -2344,7 +2333,6 @@ __all__ = [
     "time_step_density_diffusion",
     "shift_strength_skillen",
     "shift_strength_sun",
-    "shift_rate_pair",
     "conductivity_speed",
     "cleaning_sigma",
     "resistivity_switch",
