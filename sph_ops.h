@@ -5835,9 +5835,9 @@ SPH_FN sph_real sph_shift_strength_skillen(sph_real factor, sph_real h, sph_real
 {
     return factor * h * path;
 }
-/* dt v_max (2 h)^2 / (2 length) of Sun et al.; path = v_max dt with the largest speed of the flow. In the paper
-   length = h; TrixiParticles takes 2 dx, because the shift then scales with the spacing. At h = 2 dx they are
-   the same. Needs length > 0. */
+/* dt v_max (2 h)^2 / (2 length) of Sun et al.; path = v_max dt with the largest speed of the flow. In the
+   paper length = h; TrixiParticles takes 2 dx, because the shift then scales with the spacing. At h = 2 dx
+   they are the same. Needs length > 0. */
 SPH_FN sph_real sph_shift_strength_sun(sph_real h, sph_real path, sph_real length)
 {
     SPH_ASSERT(length > SPH_R(0));
@@ -6175,9 +6175,9 @@ SPH_FN sph_riemann_side sph_riemann_side_of(sph_fluid_side a, sph_real c, sph_en
     s.u = side * e.vx / (e.r + SPHI_TINY);
     return s;
 }
-/* beta = min(limiter max(U_L - U_R, 0) / c, 1), with c = (Z_L + Z_R) / (rho_L + rho_R). rho is the mean of the
-   densities. limiter = 3 is usual; 0 gives beta = 0. Zhang, Hu & Adams 2017. Needs rho > 0, limiter >= 0 and
-   Z > 0 on both sides. */
+/* beta = min(limiter max(U_L - U_R, 0) / c, 1), with c = (Z_L + Z_R) / (rho_L + rho_R). rho is the mean of
+   the densities. limiter = 3 is usual; 0 gives beta = 0. Zhang, Hu & Adams 2017. Needs rho > 0, limiter >= 0
+   and Z > 0 on both sides. */
 SPH_FN sph_real sph_riemann_beta(sph_riemann_side left, sph_riemann_side right, sph_real rho,
                                  sph_real limiter)
 {
@@ -6279,9 +6279,9 @@ SPH_FN sph_index sphi_riemann_range(int uniform, sph_kernel k, int dim, sph_clou
     return failed;
 }
 /* Acceleration, density rate and viscous heating of the targets by the Riemann solver, in one pass: the sums
-   of sph_fluid_pair_riemann. Zhang, Hu & Adams 2017, JCP 335, 605. Of fluid, the members m, rho, p, c and v are
-   read; c is positive. Neither viscosity nor alpha, beta and eta are read: the solver has a dissipation of
-   its own. Physical viscosity is added by sph_viscosity_mu_morris. A pair uses (h_i + h_j) / 2 (lists by
+   of sph_fluid_pair_riemann. Zhang, Hu & Adams 2017, JCP 335, 605. Of fluid, the members m, rho, p, c and v
+   are read; c is positive. Neither viscosity nor alpha, beta and eta are read: the solver has a dissipation
+   of its own. Physical viscosity is added by sph_viscosity_mu_morris. A pair uses (h_i + h_j) / 2 (lists by
    SPH_MEAN). It conserves momentum to round-off, also where the density jumps. Without gravity in options,
    energy never grows; give gravity where a fluid stands or pours under it. Gravity itself is not contained in
    the acceleration. Wall particles are sources like all others, with pressure and velocity from
@@ -6329,8 +6329,8 @@ SPH_FN sph_index sph_fluid_rates_riemann(sph_kernel k, int dim, sph_cloud cloud,
  * the fringe n is short and its direction uncertain. The force of CSF on all particles together is not 0: in
  * a cloud that is disturbed by 0.2 dx it is 1 % of the sum of its magnitudes at R = 8 dx. With CSS it is 0;
  * but on the same cloud these magnitudes sum to 1.1 (8 dx) and 1.5 times (16 dx) what they should, and drive
- * currents beside the interface that do not cease. Prefer CSS; take CSF where a curvature is wanted. Where the density
- * jumps, both give the lighter fluid the larger acceleration.
+ * currents beside the interface that do not cease. Prefer CSS; take CSF where a curvature is wanted. Where
+ * the density jumps, both give the lighter fluid the larger acceleration.
  *
  * Computer graphics has a third way, a cohesion between neighbours and a term that makes the surface small:
  * sph_tension_pair_akinci. It holds drops together, in fluids that have no second fluid around them. But its
@@ -6485,9 +6485,10 @@ SPH_FN sph_index sph_tension_css(sph_kernel k, int dim, sph_cloud cloud, sph_ten
     return failed;
 }
 /* a_i = sigma kappa_i n_i / rho_i, surface tension by the curvature (CSF; see above), and kappa. W has the h
-   of the target. Where n is shorter than least / h, both are 0. Where it is not, but no neighbour has a normal
-   that counts, both are 0 with SPH_TOO_FEW; where one overflows, it is 0 with SPH_NOT_FINITE. Brackbill et
-   al. 1992; Morris 2000. Returns the number of targets that are not SPH_OK, or a negative sph_error. */
+   of the target. Where n is shorter than least / h, both are 0. Where it is not, but no neighbour has a
+   normal that counts, both are 0 with SPH_TOO_FEW; where one overflows, it is 0 with SPH_NOT_FINITE.
+   Brackbill et al. 1992; Morris 2000. Returns the number of targets that are not SPH_OK, or a negative
+   sph_error. */
 SPH_FN sph_index sph_tension_csf(sph_kernel k, int dim, sph_cloud cloud, sph_tension tension,
                                  sph_tension_out out)
 {
@@ -6553,7 +6554,7 @@ SPH_FN sph_index sph_tension_csf(sph_kernel k, int dim, sph_cloud cloud, sph_ten
  * more than one dimension: in 1D, with g_w = (f_b - f_i) / (x_b - x_i) for an end b, it is
  * sph_second_derivative_bim. The pressure force acts on a wall through grad gamma alone, so that momentum is
  * kept. As all sums without correction, these are as good as the sums: the error of the first is f times the
- * one of sum V grad W. Where that matters, it is taken for f - f_i (exact for constants, and not conservative):
+ * one of sum V grad W. Where that matters, it is taken for f - f_i (exact for constants, not conservative):
  * sph_wall_gradient_value with the result of sph_gradient_difference and f_w - f_i. For wendland-c2 on a
  * lattice that begins at dx / 2 from the wall (tests/test_walls.c),
  *     h / dx                                             1.3      1.65     2.0
@@ -6767,13 +6768,14 @@ typedef struct sphi_wall_sums {
 /* Their antiderivatives in piece m at s >= 0. */
 SPH_FN sphi_wall_sums sphi_wall_primitive(const sph_wall_kernel *t, int m, sph_real s, sph_real e, sph_real d)
 {
-    const sph_real scale = t->dim == 3 ? d : SPH_R(1), dd = d * d, DD = e * e + dd, r = SPHI_SQRT(s * s + DD),
-                   D = SPHI_SQRT(DD);
+    const sph_real scale = t->dim == 3 ? d : SPH_R(1), dd = d * d, whole2 = e * e + dd,
+                   r = SPHI_SQRT(s * s + whole2), whole = SPHI_SQRT(whole2);
     /* of two powers in turn: J_k-2 and I_k-2, and r^k */
     sph_real j[2], i[2], power[2], odd_i;
     sphi_wall_sums sum;
     int k;
-    j[1] = D > SPHI_TINY ? SPHI_LOG((s + r) / D) : SPH_R(0); /* J_-1; it is multiplied by D or e below */
+    j[1] = whole > SPHI_TINY ? SPHI_LOG((s + r) / whole)
+                             : SPH_R(0); /* J_-1; it is multiplied by whole or e below */
     j[0] = s;
     odd_i = SPHI_ATAN2(d * s, e * r); /* d I_-1 */
     i[1] = SPH_R(0);
@@ -6788,7 +6790,7 @@ SPH_FN sphi_wall_sums sphi_wall_primitive(const sph_wall_kernel *t, int m, sph_r
             const sph_real before = j[o];
             if (k > 1) power[o] *= r * r;
             i[o] = e * before + (k == 1 ? d * odd_i : dd * i[o]);
-            j[o] = (s * power[o] + SPH_R(k) * DD * before) / SPH_R(k + 1);
+            j[o] = (s * power[o] + SPH_R(k) * whole2 * before) / SPH_R(k + 1);
         }
         sum.volume += scale * t->volume[m][k + 1] * i[o];
         sum.surface += t->surface[m][k + 1] * (t->dim == 3 ? i[o] : j[o]);
@@ -6799,14 +6801,14 @@ SPH_FN sphi_wall_sums sphi_wall_primitive(const sph_wall_kernel *t, int m, sph_r
 SPH_FN sphi_wall_sums sphi_wall_stretch(const sph_wall_kernel *t, sph_real low, sph_real high, sph_real e,
                                         sph_real d)
 {
-    const sph_real D = SPHI_SQRT(e * e + d * d);
+    const sph_real whole = SPHI_SQRT(e * e + d * d);
     sphi_wall_sums sum;
     int m;
     sum.volume = sum.surface = SPH_R(0);
     for (m = 0; m < t->pieces; m++) {
         const sph_real a = t->knot[m], b = t->knot[m + 1];
-        sph_real from = a > D ? SPHI_SQRT((a - D) * (a + D)) : SPH_R(0),
-                 to = b > D ? SPHI_SQRT((b - D) * (b + D)) : SPH_R(0);
+        sph_real from = a > whole ? SPHI_SQRT((a - whole) * (a + whole)) : SPH_R(0),
+                 to = b > whole ? SPHI_SQRT((b - whole) * (b + whole)) : SPH_R(0);
         if (from < low) from = low;
         if (to > high) to = high;
         if (to > from) {
@@ -6847,8 +6849,8 @@ SPH_FN sph_wall_part sph_wall_point(const sph_wall_kernel *t, sph_real e, sph_re
     part.gradient.x = -normal * sphi_wall_polynomial(t->surface[m], q) / h;
     return part;
 }
-/* The part of a segment, in 2D, from a to b, both relative to x. The fluid is on the left of it. On the segment
-   itself the answer is the limit from inside. Leroy et al. 2014 give it for one kernel. */
+/* The part of a segment, in 2D, from a to b, both relative to x. The fluid is on the left of it. On the
+   segment itself the answer is the limit from inside. Leroy et al. 2014 give it for one kernel. */
 SPH_FN sph_wall_part sph_wall_segment(const sph_wall_kernel *t, sph_vec a, sph_vec b, sph_real h)
 {
     const sph_vec ab = sph_subtract(2, b, a);
@@ -6930,8 +6932,8 @@ SPH_FN sph_real sph_wall_laplacian_value(int dim, sph_real sum, sph_vec g_w, sph
 /* -------- walls by boundary integrals: sweeps */
 
 /* Flat elements, in order: a point a with b anywhere behind it (1D), a segment from a to b with the fluid on
-   its left (2D), a triangle a, b, c whose normal (b - a) x (c - a) points out of the fluid (3D). Together they
-   close the fluid, at least where supports reach. */
+   its left (2D), a triangle a, b, c whose normal (b - a) x (c - a) points out of the fluid (3D). Together
+   they close the fluid, at least where supports reach. */
 typedef struct sph_wall_elements {
     sph_index n;
     sph_vectors a, b, c; /* one corner of each element; c is read in 3D only */

@@ -262,6 +262,36 @@ static sph_tension_out tension_out_of(const world *w)
     o.status = (unsigned char *)w->a[STATUS];
     return o;
 }
+/* elements between any points: gamma of them means nothing, but is finite */
+static sph_wall_elements elements_of(const world *w)
+{
+    sph_wall_elements e;
+    memset(&e, 0, sizeof e);
+    e.n = w->n;
+    e.a = vectors_of(w, BX);
+    e.b = vectors_of(w, VX);
+    e.c = e.a; /* the corners a with their axes exchanged; 3D reads them */
+    if (w->dim > 2) e.c.x = e.a.z, e.c.y = e.a.x, e.c.z = e.a.y;
+    return e;
+}
+static sph_wall_gamma_out gamma_out_of(const world *w)
+{
+    sph_wall_gamma_out o = {0};
+    o.gamma = real_of(w, S0);
+    o.gradient = vector_out_of(w, O0);
+    o.stride = w->out_stride;
+    o.status = (unsigned char *)w->a[STATUS];
+    return o;
+}
+static sph_wall_terms wall_terms_of(const world *w)
+{
+    sph_wall_terms t;
+    t.gamma = scalars_of(w, RHO);
+    t.gradient = vectors_of(w, BX);
+    t.value = scalars_of(w, U);
+    t.slope = vectors_of(w, VX);
+    return t;
+}
 static sph_derivatives_out derivative_out_of(const world *w)
 {
     sph_derivatives_out o;
@@ -503,6 +533,9 @@ CALL(free_surface_cone, LIST, A(F), vectors_of(w, BX), STATE)
 CALL(shift_displacement, RANGE, shift_of(w), vector_out_of(w, O0))
 CALL(tension_css, RANGE, tension_of(w), vector_out_of(w, O0))
 CALL(tension_csf, RANGE, tension_of(w), tension_out_of(w))
+CALL(wall_gamma, RANGE, elements_of(w), gamma_out_of(w))
+CALL(wall_gradient, RANGE, wall_terms_of(w), A(F), vector_out_of(w, O0))
+CALL(wall_laplacian, RANGE, wall_terms_of(w), A(F), scalar_out_of(w))
 CALL(collision_count, LIST, collision_of(w), vectors_of(w, VX), I(I0))
 CALL(collision_change_weighted, LIST, collision_of(w), vectors_of(w, VX), I(COUNT), vector_out_of(w, O0))
 CALL(nearest_distance, w->dim, others_with_list(w), points_of(w), scalar_out_of(w))
@@ -789,6 +822,9 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(wall_rows_eliminate, LISTED, ALL, LIST_OF | BIT(M) | BIT(U) | BIT(ROW), 0, BIT(ROW) | BIT(S3), BIT(S0) | BIT(STATUS), N(GRAVITY)),
     FUNCTION(tension_css, SMOOTHED, ALL, VOLUMES | BIT(RHO) | XYZ(BX), 0, XYZ(O0), 0, N(PARAMETER_A) | N(CONDITIONING)),
     FUNCTION(tension_csf, SMOOTHED | PARTS, ALL, VOLUMES | BIT(RHO) | XYZ(BX), 0, XYZ(O0), BIT(S0) | BIT(STATUS), N(PARAMETER_A) | N(CONDITIONING)),
+    FUNCTION(wall_gamma, DIM | KERNEL | TARGETS | COUNTED | PARTS, ALL, XYZ(PX) | BIT(H) | XYZ(BX) | XYZ(VX), 0, BIT(S0) | XYZ(O0), BIT(STATUS), 0),
+    FUNCTION(wall_gradient, SMOOTHED, ALL, VOLUMES | BIT(RHO) | XYZ(BX) | BIT(U) | BIT(F), 0, XYZ(O0), 0, 0),
+    FUNCTION(wall_laplacian, SMOOTHED, ALL, VOLUMES | BIT(RHO) | XYZ(BX) | XYZ(VX) | BIT(F), 0, BIT(S0), BIT(STATUS), 0),
     FUNCTION(collision_sequential, LISTED | OPAQUE | TOTALS, ALL, COLLIDERS, 0, XYZ(VX), BIT(REPORT),
              N(DISTANCE) | N(RESTITUTION)),
     FUNCTION(collision_count, LISTED | COUNTS, ALL, COLLIDERS, 0, BIT(I0), 0, N(DISTANCE)),
@@ -1239,6 +1275,14 @@ static const char *argument_of(const function *f, int a)
                  {"sph_wall_rows_eliminate", BIT(M), "share"},
                  {"sph_wall_rows_eliminate", BIT(U), "rho"},
                  {"sph_viscosity_mu_espanol_revenga", BIT(C), "mu.bulk"},
+                 {"sph_wall_gamma", XYZ(BX), "elements.a"},
+                 {"sph_wall_gamma", XYZ(VX), "elements.b"},
+                 {"sph_wall_gradient", BIT(RHO), "wall.gamma"},
+                 {"sph_wall_gradient", XYZ(BX), "wall.gradient"},
+                 {"sph_wall_gradient", BIT(U), "wall.value"},
+                 {"sph_wall_laplacian", BIT(RHO), "wall.gamma"},
+                 {"sph_wall_laplacian", XYZ(BX), "wall.gradient"},
+                 {"sph_wall_laplacian", XYZ(VX), "wall.slope"},
                  {"sph_tension_css", XYZ(BX), "normal"},
                  {"sph_tension_csf", XYZ(BX), "normal"},
                  {"sph_wall_adami", BIT(U), "rho"},

@@ -293,6 +293,30 @@ static sph_tension tension(const world *w)
 }
 OPERATOR(tension_css, sph_tension_css(SWEEP, tension(w), into(w, 0)))
 OPERATOR(tension_csf, sph_tension_csf(SWEEP, tension(w), (sph_tension_out){.acceleration = into(w, 0), .curvature = OUT(3), .status = w->status}))
+static sph_wall_terms wall_terms(const world *w)
+{
+    sph_wall_terms t;
+    t.gamma = at(w, RHO);
+    t.gradient = vectors(w, BX);
+    t.value = at(w, U);
+    t.slope = vectors(w, VX);
+    return t;
+}
+/* the terms of the wall that are given keep their numbers when the unit changes: they are left out of it */
+static sph_index wall_gradient(world *w, sph_index first, sph_index last)
+{
+    sph_wall_terms t = wall_terms(w);
+    static const sph_real none = 0;
+    t.value = sph_scalars_same(&none);
+    return sph_wall_gradient(SWEEP, t, at(w, F), into(w, 0));
+}
+static sph_index wall_laplacian(world *w, sph_index first, sph_index last)
+{
+    sph_wall_terms t = wall_terms(w);
+    static const sph_real none = 0;
+    t.slope.x = t.slope.y = t.slope.z = sph_scalars_same(&none);
+    return sph_wall_laplacian(SWEEP, t, at(w, F), SCALAR_OUT);
+}
 static sph_index wall_of(world *w, sph_index first, sph_index last, sph_vectors velocity, sph_vectors normal)
 {
     sph_wall s;
@@ -389,6 +413,8 @@ static const operation operations[] = {
     {"fluid_rates_riemann", fluid_riemann, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
     {"tension_css", tension_css, PLANE | SPACE, 1, {{VECTOR, 0, -1, 0}}},
     {"tension_csf", tension_csf, ALL, 5, {{VECTOR, 0, -1, 0}, {SCALAR, 3, -1, 0}}},
+    {"wall_gradient", wall_gradient, ALL, 1, {{VECTOR, 0, -1, 0}}},
+    {"wall_laplacian", wall_laplacian, ALL, 1, {{SCALAR, 0, -2, 0}}},
     {"viscous_mu_morris", viscous_morris, ALL, 1, {{VECTOR, 0, -2, -1}}},
     {"viscous_mu_monaghan_cleary", viscous_cleary, ALL, 1, {{VECTOR, 0, -2, -1}}},
     {"viscous_mu_espanol_revenga", viscous_espanol, ALL, 1, {{VECTOR, 0, -2, -1}}},

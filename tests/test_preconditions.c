@@ -50,6 +50,8 @@ static void assertion(void)
 #define NUMBERS_sph_wall_sums 5
 #define NUMBERS_sph_transport_change 6
 #define NUMBERS_sph_riemann_side 3
+#define NUMBERS_sph_wall_part 4
+#define NUMBERS_sph_wall_kernel_numbers 5
 #define NUMBERS_sph_unit_normal 4
 #define NUMBERS_sph_curvature_sums 2
 #define NUMBERS_sph_riemann_star 3
@@ -654,6 +656,16 @@ static sph_riemann_star contact(void)
     return s;
 }
 
+/* of a kernel for walls, the numbers alone: its knots */
+typedef struct sph_wall_kernel_numbers {
+    sph_real knot[5];
+} sph_wall_kernel_numbers;
+static sph_wall_kernel_numbers wall_kernel_numbers(sph_wall_kernel t)
+{
+    sph_wall_kernel_numbers n;
+    memcpy(n.knot, t.knot, sizeof n.knot);
+    return n;
+}
 /* a normal that is too short, and the sums of a curvature */
 static sph_unit_normal direction(void)
 {
@@ -821,6 +833,41 @@ static void fluids(void)
     SIDES(sph_tension_pair_akinci(i, j, nothing, nothing, zero, one, one))
     FORBIDDEN_LENGTH(x, sph_tension_pair_akinci(i, j, nothing, nothing, one, x, one))
     FORBIDDEN_BELOW_0(x, sph_tension_pair_akinci(i, j, nothing, nothing, x, one, one))
+
+    {
+        const sph_wall_kernel points = sph_wall_kernel_of(SPH_WENDLAND_C6, 1),
+                              segments = sph_wall_kernel_of(SPH_WENDLAND_C6, 2),
+                              triangles = sph_wall_kernel_of(SPH_WENDLAND_C6, 3),
+                              none = sph_wall_kernel_of(SPH_GAUSSIAN, 1);
+        FUNCTION(sph_wall_kernel_of)
+        ALLOWED(sph_wall_kernel_numbers, wall_kernel_numbers(sph_wall_kernel_of(SPH_GAUSSIAN, 1)))
+        FORBIDDEN(sph_wall_kernel_of(SPH_KERNEL_COUNT, 1))
+        FORBIDDEN(sph_wall_kernel_of(SPH_SPIKY, 4))
+        FUNCTION(sph_wall_point)
+        ALLOWED(sph_wall_part, sph_wall_point(&points, zero, one, one))
+        FORBIDDEN(sph_wall_point(&segments, one, one, one))
+        FORBIDDEN(sph_wall_point(&none, one, one, one))
+        FORBIDDEN_LENGTH(x, sph_wall_point(&points, one, one, x))
+        FUNCTION(sph_wall_segment)
+        ALLOWED(sph_wall_part, sph_wall_segment(&segments, nothing, nothing, one))
+        ALLOWED(sph_wall_part, sph_wall_segment(&segments, nothing, vec(one, zero, zero), one))
+        FORBIDDEN(sph_wall_segment(&points, nothing, nothing, one))
+        FORBIDDEN_LENGTH(x, sph_wall_segment(&segments, nothing, nothing, x))
+        FUNCTION(sph_wall_triangle)
+        ALLOWED(sph_wall_part, sph_wall_triangle(&triangles, nothing, nothing, nothing, one))
+        ALLOWED(sph_wall_part,
+                sph_wall_triangle(&triangles, nothing, vec(one, zero, zero), vec(zero, one, zero), one))
+        FORBIDDEN(sph_wall_triangle(&points, nothing, nothing, nothing, one))
+        FORBIDDEN_LENGTH(x, sph_wall_triangle(&triangles, nothing, nothing, nothing, x))
+    }
+    FUNCTION(sph_wall_pair_gradient)
+    ALLOWED(sph_vec, sph_wall_pair_gradient(zero, zero, nothing, zero))
+    FUNCTION(sph_wall_gradient_value)
+    ALLOWED(sph_vec, sph_wall_gradient_value(3, nothing, zero, small_number, nothing))
+    FORBIDDEN_LENGTH(x, sph_wall_gradient_value(3, nothing, one, x, nothing))
+    FUNCTION(sph_wall_laplacian_value)
+    ALLOWED(sph_real, sph_wall_laplacian_value(3, zero, nothing, small_number, nothing))
+    FORBIDDEN_LENGTH(x, sph_wall_laplacian_value(3, one, nothing, x, nothing))
 
     FUNCTION(sph_wall_pair_adami)
     i = fluid(zero, zero, zero, zero);

@@ -193,6 +193,13 @@ static sph_tension tension(const arguments *a)
     t.sigma = a->number[0], t.least = a->number[1];
     return t;
 }
+static sph_wall_terms wall_terms(const arguments *a)
+{
+    sph_wall_terms w;
+    w.gamma = a->s[1], w.value = a->s[4];
+    w.gradient = vectors(a, 5), w.slope = vectors(a, 8);
+    return w;
+}
 static sph_index right(const arguments *a) { return (sph_index)(a->what % MOST); } /* end of the domain */
 static sph_wall wall(const arguments *a)
 {
@@ -302,6 +309,8 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_transport_adami(SWEEP, fluid(a), vectors(a, 8), a->number[0], transport_out(a)), 6, 0, VECTORS) \
     X(sph_tension_css(SWEEP, tension(a), vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_tension_csf(SWEEP, tension(a), (sph_tension_out){.acceleration = vector_out(a, 0), .curvature = OUT(3), .status = a->status}), 4, 0, VECTOR | STATUS) \
+    X(sph_wall_gradient(SWEEP, wall_terms(a), a->s[3], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_wall_laplacian(SWEEP, wall_terms(a), a->s[3], sph_scalar_out_array(OUT(0), 0)), 1, 0, PLAIN) \
     X(sph_collision_count(LIST, collision(a), vectors(a, 5), a->count), 0, 0, COUNTS) \
     X(sph_nearest_distance(LIST, a->cloud.points, scalar_out(a)), 1, 0, STATUS) \
     X(sph_hexatic_order(a->cloud, scalar_out(a)), 1, 0, STATUS) \
