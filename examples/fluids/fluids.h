@@ -78,16 +78,23 @@ typedef struct liquid_method {
     liquid_diffusion diffusion;
     liquid_shift shift;
     liquid_riemann riemann;
-    viscous_form viscosity; /* physical, where the case has one: Morris's */
+    int tension;   /* 1: by the curvature (CSF), where the case has a tension; else by the stress (CSS) */
+    int viscosity; /* physical, where the case has one: 1 + a viscous_form; 0: the form of the case */
     int inviscid; /* 1: without artificial viscosity, where the case has one */
     int late;     /* 1: pressures of densities that are half a step old, to be seen to fail */
 } liquid_method;
 /* by the same names in all cases */
 /* clang-format off */
+#define METHOD_CSS {.name = "CSS", .file = "css"}
+#define METHOD_CSF {.name = "CSF", .file = "csf", .tension = 1}
+#define METHOD_CSS_ANTUONO {.name = "CSS, Antuono", .file = "css_antuono", .diffusion = LIQUID_ANTUONO}
+#define METHOD_CSS_SUN {.name = "CSS, Antuono, Sun 2017", .file = "css_sun", .diffusion = LIQUID_ANTUONO, .shift = LIQUID_SUN}
 #define METHOD_PLAIN {.name = "plain", .file = "plain"}
 #define METHOD_INVISCID {.name = "plain, alpha = 0", .file = "inviscid", .inviscid = 1}
-#define METHOD_MORRIS {.name = "Morris", .file = "morris"}
-#define METHOD_CLEARY {.name = "Monaghan & Cleary", .file = "cleary", .viscosity = VISCOUS_MONAGHAN_CLEARY}
+#define METHOD_MORRIS {.name = "Morris", .file = "morris", .viscosity = 1 + VISCOUS_MORRIS}
+#define METHOD_ANTUONO_MORRIS {.name = "Antuono, Morris", .file = "antuono_morris", .diffusion = LIQUID_ANTUONO, .viscosity = 1 + VISCOUS_MORRIS}
+#define METHOD_CLEARY {.name = "Monaghan & Cleary", .file = "cleary", .viscosity = 1 + VISCOUS_MONAGHAN_CLEARY}
+#define METHOD_ESPANOL {.name = "Espanol & Revenga, zeta = mu", .file = "espanol", .viscosity = 1 + VISCOUS_ESPANOL_REVENGA}
 #define METHOD_LATE {.name = "plain, pressure half a step late", .file = "late", .late = 1}
 #define METHOD_MOLTENI {.name = "Molteni & Colagrossi", .file = "molteni", .diffusion = LIQUID_MOLTENI}
 #define METHOD_ANTUONO {.name = "Antuono", .file = "antuono", .diffusion = LIQUID_ANTUONO}
@@ -112,6 +119,7 @@ typedef struct liquid {
     flow f;
     const liquid_method *method;
     double c0, speed; /* speed: of the flow, for shifting; 0: the largest at the time */
+    int form;    /* of physical viscosity, a viscous_form: Morris's */
     int surface; /* 1: there is a free surface, which shifting must know of */
     int started;
     /* of each particle: gradient of rho or of another field; shift, or its velocity, or the velocity that
@@ -161,7 +169,7 @@ static inline long liquid_rate_part(void *data, long first, long last)
 {
     const flow *const f = (const flow *)data;
     const liquid *const l = liquid_of(f);
-    const sph_cloud targets = flow_targets(f, first, last);
+    const sph_cloud targets = liquid_targets(f, first, last);
     const sph_scalar_out out = sph_scalar_out_array(f->rate, NULL);
     sph_diffusion d = {.fluid = liquid_fluid(f),
                        .tait = f->state[0],
@@ -225,7 +233,7 @@ static inline long liquid_carried_part(void *data, long first, long last)
     const flow *const f = (const flow *)data;
     const liquid *const l = liquid_of(f);
     const sph_fluid_out out = {.acceleration = vectors_into(l->stress, 2), .rate = l->scratch};
-    return sph_shift_rates(SPH_WENDLAND_C2, 2, flow_targets(f, first, last), liquid_fluid(f),
+    return sph_shift_rates(SPH_WENDLAND_C2, 2, liquid_targets(f, first, last), liquid_fluid(f),
                            vectors_of(l->shift, 2), out);
 }
 static inline long liquid_transport_part(void *data, long first, long last)
@@ -245,6 +253,7 @@ static inline void liquid_add_carried(flow *f, int to_density)
 {
     const liquid *const l = liquid_of(f);
     int i;
+    liquid_volumes(f);
     liquid_each(f, liquid_carried_part);
     for (i = 0; i < f->n_fluid; i++)
         if (to_density) f->rate[i] += l->scratch[i];
@@ -290,8 +299,8 @@ static inline void liquid_rate(flow *f)
     if (l->method->riemann) liquid_each(f, liquid_riemann_part);
     else if (l->method->diffusion == LIQUID_NO_DIFFUSION) flow_continuity(f);
     else {
+        liquid_volumes(f);
         if (l->method->diffusion == LIQUID_ANTUONO) {
-            liquid_volumes(f);
             memcpy(l->scratch, f->rho, (size_t)f->n * sizeof *f->rho);
             expect((sph_index)threads_each(f->n_fluid, liquid_gradient_part, f)); /* 0 in spray */
         }
@@ -453,7 +462,7 @@ static inline void liquid_start(liquid *l, double mu, const fluids_options *o)
     l->memory = (double *)need_zeros(ARRAYS * n, sizeof(double));
     for (a = 0; a < ARRAYS; a++) *arrays[a] = l->memory + a * n;
     viscous_open(&l->w, &l->f, mu, 0);
-    l->w.form = l->method->viscosity;
+    l->w.form = l->method->viscosity ? l->method->viscosity - 1 : l->form;
     l->f.quiet = o->quiet;
     l->f.vtk = o->vtk ? o->out : NULL;
 }
@@ -509,31 +518,34 @@ static inline double liquid_height(const liquid *l)
 }
 
 /* rms over the liquid of p minus the value there of the linear least-squares fit to the pressures of the
-   neighbours in the liquid, weighted by W. */
-static inline double liquid_noise(const liquid *l)
+   neighbours in the liquid, weighted by W (sph_interpolate_mls: a particle is not in its own list). */
+static inline double liquid_noise(liquid *l)
 {
-    const flow *const f = &l->f;
+    flow *const f = &l->f;
+    sph_points liquid_alone = flow_points(f);
+    const double reach = sph_kernel_support_ratio(f->kernel) * f->h;
+    unsigned char *const status = (unsigned char *)need(NULL, (size_t)f->n, 1);
+    const sph_interpolation_options options = {.conditioning_min = 1e-3};
+    const sph_interpolation_out out = {.value = l->scratch, .status = status};
+    sph_sources sources;
+    search near = {0};
     double sum = 0;
     int i, counted = 0;
-    sph_index q;
-    for (i = 0; i < f->n_fluid; i++) {
-        double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, b = 0, bx = 0, by = 0, det, c;
-        for (q = f->all.start[i]; q < f->all.start[i + 1]; q++) {
-            const int j = (int)f->all.index[q];
-            double x = f->x[j] - f->x[i], y = f->y[j] - f->y[i], w;
-            if (j >= f->n_fluid) continue;
-            if (f->box_x > 0) x -= f->box_x * floor(x / f->box_x + 0.5);
-            if (f->box_y > 0) y -= f->box_y * floor(y / f->box_y + 0.5);
-            w = sph_kernel_w(f->kernel, 2, sqrt(x * x + y * y), f->h);
-            s += w, sx += w * x, sy += w * y, sxx += w * x * x, sxy += w * x * y, syy += w * y * y;
-            b += w * f->p[j], bx += w * x * f->p[j], by += w * y * f->p[j];
+    liquid_volumes(f);
+    liquid_alone.n = f->n_fluid;
+    search_all(&near, 2, liquid_alone, sph_scalars_same(&reach), SPH_GATHER);
+    sources.points = liquid_alone;
+    sources.volume = sph_scalars_array(f->volume);
+    expect(sph_interpolate_mls(SPH_WENDLAND_C2, 2,
+                               sph_cloud_of(liquid_alone, near.found.list, sph_scalars_same(&f->h), sph_scalars_none()),
+                               sources, sph_scalars_array(f->p), options, out));
+    for (i = 0; i < f->n_fluid; i++)
+        if (status[i] == SPH_OK) {
+            sum += (f->p[i] - l->scratch[i]) * (f->p[i] - l->scratch[i]);
+            counted++;
         }
-        det = s * (sxx * syy - sxy * sxy) - sx * (sx * syy - sxy * sy) + sy * (sx * sxy - sxx * sy);
-        c = b * (sxx * syy - sxy * sxy) - sx * (bx * syy - sxy * by) + sy * (bx * sxy - sxx * by);
-        if (!(det > 1e-6 * s * (sxx + syy) * (sxx + syy))) continue;
-        sum += (f->p[i] - c / det) * (f->p[i] - c / det);
-        counted++;
-    }
+    search_close(&near);
+    free(status);
     return counted ? sqrt(sum / counted) : 0;
 }
 

@@ -14,11 +14,13 @@
 
 #include "clustering.h"
 
-typedef enum viscous_form { VISCOUS_MORRIS, VISCOUS_MONAGHAN_CLEARY } viscous_form;
+typedef enum viscous_form { VISCOUS_MORRIS, VISCOUS_MONAGHAN_CLEARY, VISCOUS_ESPANOL_REVENGA } viscous_form;
 
 /* What the hooks need beside the flow: one number for each particle in each array. */
 typedef struct viscous {
     int form;              /* a viscous_form: Morris's */
+    int slip;              /* 1: the fluid slips along the walls, which have one normal */
+    double normal[2];
     double mu, body_force; /* along x */
     double ch;             /* of cleaning; 0: none */
     double *psi, *share, *wall_p, *wall_vx, *wall_vy, *vx, *vy, *ax, *ay;
@@ -29,13 +31,17 @@ typedef struct viscous {
 SPH_FN sph_index viscous_walls_by(sph_kernel k, const flow *f, sph_cloud targets)
 {
     const viscous *const w = (const viscous *)f->data;
-    const sph_wall wall = {.share = sph_scalars_array(w->share),
+    sph_wall wall = {.share = sph_scalars_array(w->share),
                            .rho = sph_scalars_array(f->rho),
                            .p = sph_scalars_array(f->p),
                            .v = flow_velocities(f),
                            .velocity = flow_velocities(f),
                            .gravity = {f->gravity_x, f->gravity_y, 0}};
     const sph_wall_out out = {.p = w->wall_p, .v = sph_vector_out_separate(w->wall_vx, w->wall_vy, NULL)};
+    if (w->slip) {
+        wall.normal.x = sph_scalars_same(&w->normal[0]);
+        wall.normal.y = sph_scalars_same(&w->normal[1]);
+    }
     return sph_wall_adami(k, 2, targets, wall, out);
 }
 static inline long viscous_walls_part(void *data, long first, long last) /* of the ghosts */
@@ -70,6 +76,10 @@ SPH_FN sph_index viscous_accelerations_by(sph_kernel k, const flow *f, sph_cloud
                              .v = sph_vectors_separate(w->vx, w->vy, NULL),
                              .eta = 0.1};
     const sph_vector_out a = sph_vector_out_separate(w->ax, w->ay, NULL);
+    if (w->form == VISCOUS_ESPANOL_REVENGA) { /* the bulk viscosity is mu */
+        const sph_shear_bulk both = {sph_scalars_same(&w->mu), sph_scalars_same(&w->mu)};
+        return sph_viscosity_mu_espanol_revenga(k, 2, targets, fluid, both, a);
+    }
     if (w->form == VISCOUS_MONAGHAN_CLEARY)
         return sph_viscosity_mu_monaghan_cleary(k, 2, targets, fluid, sph_scalars_same(&w->mu), a);
     return sph_viscosity_mu_morris(k, 2, targets, fluid, sph_scalars_same(&w->mu), a);
@@ -126,6 +136,9 @@ static inline void viscous_open(viscous *w, flow *f, double mu, double body_forc
         w->share[i] = f->ghost[i] ? 0 : 1;
     }
     w->form = VISCOUS_MORRIS;
+    w->slip = 0;
+    w->normal[0] = 0;
+    w->normal[1] = 1;
     w->mu = mu;
     w->body_force = body_force;
     w->ch = 0;
