@@ -3292,7 +3292,7 @@ SPH_FN sph_kernel_gradient sph_elliptic_gradient_pair(int gradient, sph_wf v, sp
     else if (gradient == (int)SPH_GRADIENT_SHEPARD_FULL) g.radial *= (SPH_R(1) - v.w * V_j / s.nu) / s.nu;
     return g;
 }
-/* g = W e, which takes the place of a gradient in the scheme of Basic, Degiuli & Ban. */
+/* g = W e, which takes the place of a gradient in the scheme of Basic, Degiuli & Ban. w is W of the pair. */
 SPH_FN sph_kernel_gradient sph_elliptic_gradient_pair_basic_degiuli_ban(sph_real w)
 {
     sph_kernel_gradient g;
@@ -5321,14 +5321,17 @@ SPH_FN sph_index sph_wall_rows_adami(sph_kernel k, int dim, sph_cloud cloud, sph
         sph_real weight = SPH_R(0), pressure = SPH_R(0);
         sph_wall_sums sums;
         int state = SPH_OK;
+        SPH_EACH(q, cloud.list.start[i], end) {
+            const sph_index j = cloud.list.index[q];
+            const sph_real r =
+                sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)));
+            row[q] = sphi_at(wall.share, j) * sph_kernel_w(k, dim, r, sphi_mean_h(0, cloud.h, h_i, j));
+        }
         SPH_SUM(q, cloud.list.start[i], end, weight, pressure) {
             const sph_index j = cloud.list.index[q];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
-            const sph_wall_sums c = sphi_wall_pair_unknown(
-                dim, sphi_at(wall.rho, j), x_ij, wall.gravity,
-                sphi_at(wall.share, j) *
-                    sph_kernel_w(k, dim, sph_length(dim, x_ij), sphi_mean_h(0, cloud.h, h_i, j)));
-            row[q] = c.weight;
+            const sph_wall_sums c =
+                sphi_wall_pair_unknown(dim, sphi_at(wall.rho, j), x_ij, wall.gravity, row[q]);
             weight += c.weight;
             pressure += c.p;
         }
@@ -5336,8 +5339,10 @@ SPH_FN sph_index sph_wall_rows_adami(sph_kernel k, int dim, sph_cloud cloud, sph
         sums.p = pressure;
         sums.v.x = sums.v.y = sums.v.z = SPH_R(0);
         if (!(weight > SPH_R(0))) state = SPH_TOO_FEW;
-        for (q = cloud.list.start[i]; q < end; q++)
-            row[q] = state ? SPH_R(0) : sph_wall_row_weight(row[q], sums);
+        if (state)
+            for (q = cloud.list.start[i]; q < end; q++) row[q] = SPH_R(0);
+        else
+            SPH_EACH(q, cloud.list.start[i], end) row[q] = sph_wall_row_weight(row[q], sums);
         pressure = state ? SPH_R(0) : sph_wall_pressure(sums);
         if (sphi_row_finite(row, cloud.list.start[i], end) || !sphi_finite(pressure)) state = SPH_NOT_FINITE;
         if (state == SPH_NOT_FINITE)

@@ -419,6 +419,19 @@ static void test_statuses(void)
     }
     CHECK(limited.failed == told && told > 0);
     CHECK(SPH_SINGLE || far_off > 0);
+    { /* rows are never divided by kappa: they stay of the size of the others, and the factor is small */
+        sph_real *const row = (sph_real *)cloud_memory((size_t)c.pairs, sizeof *row), *const factor = (sph_real *)cloud_memory((size_t)c.n, sizeof *factor);
+        sph_rows_out out = {0};
+        double most = 0.0, least = 1.0;
+        out.row = row;
+        out.factor = factor;
+        CHECK(rows(FATEHI, &c, out) == 0);
+        for (int64_t q = 0; q < c.pairs; q++) most = fmax(most, fabs((double)row[q]) * c.dx * c.dx);
+        for (sph_index i = 0; i < c.n; i++) least = fmin(least, fabs((double)factor[i]));
+        CHECK_WORST("fatehi_manzari: the largest entry of all rows, times dx^2", most, 5.0);
+        CHECK(least < 0.05);
+        free(row), free(factor);
+    }
     result_free(&r), result_free(&limited), result_free(&mended), result_free(&wls);
     /* too few neighbours, and neighbours on a line */
     for (int k = 0; k < 2; k++) {
