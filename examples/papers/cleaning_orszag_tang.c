@@ -1008,7 +1008,8 @@ static void judge(report *r, const level *l)
 }
 
 /* Beside a statement that may hold at one resolution and not at another: what the coarser level before, where it stood at `before` (NaN: nothing), lets expect here if it goes as
-   columns^order. The orders are those of our own runs to 64 columns. A doubling may be off by a factor of 1.5. */
+   columns^order. The orders are those of our own runs to 64 columns; that of control / cleaning is of runs to 512, because the 0.5 of runs to 64 was refuted by 128.
+   A doubling may be off by a factor of 1.5. */
 static void expected(report *r, const level *l, const level *coarser, const char *quantity, double before, double order, double measured)
 {
     const double finer = coarser ? (double)l->side / coarser->side : 1;
