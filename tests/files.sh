@@ -186,7 +186,7 @@ for d in "$bin"/*_*; do # those that were built
     cleaning_collapse) set -- -particles 100 -vtk 0.001 ;;
     cleaning_advection | cleaning_orszag_tang) set -- -vtk -side 8 ;;
     clustering_dam3d) set -- -vtk -resolution 2 ;;
-    clustering_cavity) set -- -vtk ;;
+    clustering_cavity | fluids_*) set -- -vtk ;;
     *) set -- -vtk -kernel wendland-c2 -tend 0.002 ;;
     esac
     check "$d's pictures" pictures "$d" "$@"

@@ -26,6 +26,7 @@ try() {
 }
 try clustering_shaft -kernel wendland-c2-1d -remedy sequential -dref 0.01 -dt 2e-5 -tend 0.002
 try clustering_dam3d -resolution 4
+try fluids_plates -method sun_2019
 try cleaning_orszag_tang -side 16 -end 0.05
 try cleaning_collapse -particles 100 -end 0.02
 [ $tried -gt 0 ] || skip "threads of the drivers" "none of them was built"

@@ -58,7 +58,7 @@ if (there("fluids_tank_plain")) {
     array tank[6] = ["plain", "molteni", "antuono", "sun", "riemann", "riemann_gravity"]
     array tank_title[6] = ["plain", "Molteni & Colagrossi", "Antuono", "Antuono, Sun 2017", "Riemann", "Riemann, gravity out of the jump"]
     do for [k = 1:6] {
-        set title tank_title[k]
+        set title tank_title[k] noenhanced
         plot "fluids_tank_".tank[k].".csv" using ($8 == 0 ? $2 : NaN):6 every ::1 with points pointtype 6 pointsize 0.6 linecolor rgb "#0072b2", \
             1 - x with lines linecolor rgb "#d55e00"
     }
@@ -91,8 +91,8 @@ if (there("fluids_dam_plain")) {
     set yrange [1:4.2]
     array front[4] = ["martin_moyce", "koshizuka_oka", "plain", "antuono"]
     array front_title[4] = ["Martin & Moyce 1952", "Koshizuka & Oka 1996", "plain", "Antuono"]
-    plot for [k = 1:2] "fluids_dam_front.csv" using (strcol(1) eq front[k] ? $2 : NaN):3 every ::1 with points pointtype (k == 1 ? 6 : 4) pointsize 1.3 title front_title[k], \
-        for [k = 3:4] "" using (strcol(1) eq front[k] ? $2 : NaN):3 every ::1 with lines linewidth 2 title front_title[k]
+    plot for [k = 1:2] "fluids_dam_front.csv" using (strcol(1) eq front[k] ? $2 : NaN):3 every ::1 with points pointtype (k == 1 ? 6 : 4) pointsize 1.3 title front_title[k] noenhanced, \
+        for [k = 3:4] "" using (strcol(1) eq front[k] ? $2 : NaN):3 every ::1 with lines linewidth 2 title front_title[k] noenhanced
     set title "A gauge in the wall"
     set xlabel "t sqrt(g / H)"
     set ylabel "p / rho g H"
