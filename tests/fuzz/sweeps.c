@@ -201,6 +201,12 @@ static sph_wall_terms wall_terms(const arguments *a)
     return w;
 }
 static sph_index right(const arguments *a) { return (sph_index)(a->what % MOST); } /* end of the domain */
+static sph_shear_bulk shear_bulk(const arguments *a)
+{
+    sph_shear_bulk mu;
+    mu.shear = a->s[2], mu.bulk = a->s[1];
+    return mu;
+}
 static sph_wall wall(const arguments *a)
 {
     sph_wall w;
@@ -270,9 +276,11 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_laplacian_rows_brookshaw(SWEEP, (sph_rows_out){.row = OUT(0)}), 1, 1, PLAIN) \
     X(sph_derivatives_cspm(SWEEP, a->s[3], (sph_derivatives_options){.conditioning_min = a->number[0]}, derivative_out(a)), 11, 0, HESSIAN | STATUS) \
     X(sph_derivatives_icspm(SWEEP, a->s[3], (sph_derivatives_options){.conditioning_min = a->number[0], .fallback_wls = a->what & 1}, derivative_out(a)), 11, 0, HESSIAN | STATUS) \
+    X(sph_derivatives_fatehi_manzari(SWEEP, a->s[3], (sph_derivatives_options){.conditioning_min = a->number[0], .fallback_wls = a->what & 1}, derivative_out(a)), 11, 0, HESSIAN | STATUS) \
     X(sph_derivatives_wls(SWEEP, a->s[3], (sph_derivatives_options){.conditioning_min = a->number[0]}, derivative_out(a)), 11, 0, HESSIAN | STATUS) \
     X(sph_derivatives_rows_cspm(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
     X(sph_derivatives_rows_icspm(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_derivatives_rows_fatehi_manzari(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
     X(sph_derivatives_rows_wls(SWEEP, jet(a), row_out(a)), 4, 1, STATUS) \
     X(sph_second_derivative_bim(SWEEP_ONE, a->s[3], 0, right(a), scalar_out(a)), 1, 0, STATUS) \
     X(sph_second_derivative_rows_bim(SWEEP_ONE, 0, right(a), (sph_rows_out){.row = OUT(0), .status = a->status}), 1, 1, STATUS) \
@@ -280,10 +288,12 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_elliptic_brookshaw_corrected(SWEEP, a->s[1], sourced(a), a->s[3], scalar_out(a)), 1, 0, STATUS) \
     X(sph_elliptic_schwaiger(SWEEP, a->s[1], sourced(a), a->s[3], scalar_out(a)), 1, 0, STATUS) \
     X(sph_elliptic_msph(SWEEP, a->s[1], sourced(a), a->s[3], scalar_out(a)), 1, 0, STATUS) \
+    X(sph_elliptic_basic_degiuli_ban(SWEEP, a->s[1], sourced(a), a->s[3], scalar_out(a)), 1, 0, STATUS) \
     X(sph_elliptic_rows_brookshaw(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
     X(sph_elliptic_rows_brookshaw_corrected(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
     X(sph_elliptic_rows_schwaiger(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
     X(sph_elliptic_rows_msph(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_elliptic_rows_basic_degiuli_ban(SWEEP, a->s[1], elliptic(a), row_out(a)), 4, 1, STATUS) \
     X(sph_elliptic_rows_anisotropic(SWEEP, diagonal(a, 1), row_out(a)), 4, 1, STATUS) \
     X(sph_elliptic_rows_boundary(SWEEP, a->s[1], elliptic(a), boundary(a), row_out(a)), 4, 1, STATUS | SOME) \
     X(sph_elliptic_diagnose(SWEEP, elliptic(a), report(a)), 8, 0, STATUS) \
@@ -296,6 +306,7 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_fluid_rates_riemann(SWEEP, fluid(a), riemann(a), (sph_fluid_out){.acceleration = vector_out(a, 0), .rate = OUT(3), .heating = OUT(4)}), 5, 0, VECTOR) \
     X(sph_viscosity_mu_morris(SWEEP, fluid(a), a->s[2], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_viscosity_mu_monaghan_cleary(SWEEP, fluid(a), a->s[2], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_viscosity_mu_espanol_revenga(SWEEP, fluid(a), shear_bulk(a), vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_velocity_xsph(SWEEP, fluid(a), a->number[0], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_wall_adami(SWEEP, wall(a), wall_out(a)), 4, 0, VECTOR | STATUS) \
     X(sph_density_diffusion_molteni(SWEEP, diffusion(a), scalar_out(a)), 1, 0, STATUS) \
