@@ -5647,9 +5647,9 @@ SPH_FN sph_index sph_density_diffusion_rows_molteni(sph_kernel k, int dim, sph_c
     return failed;
 }
 
-/* The least eigenvalue of a symmetric tensor: in 3D by the cosine of a third of an angle, in a quarter of the
-   time that sph_sym_eigenvalues takes. Its error is about sqrt(epsilon) of the largest where the two least
-   ones are equal, else rounding error. Smith 1961, Commun. ACM 4, 168. */
+/* The least eigenvalue of a symmetric tensor s: in 3D by the cosine of a third of an angle, in a quarter of
+   the time that sph_sym_eigenvalues takes. Its error is about sqrt(epsilon) of the largest where the two
+   least ones are equal, else rounding error. Smith 1961, Commun. ACM 4, 168. */
 SPH_FN sph_real sph_sym_least_eigenvalue(int dim, sph_sym s)
 {
     const sph_real mean = (s.xx + s.yy + s.zz) / SPH_R(3);
@@ -5695,6 +5695,8 @@ typedef enum sph_surface {
     SPH_SURFACE_BAND,   /* look closer */
     SPH_SURFACE_SPLASH  /* lambda < 0.2: at the surface, or outside */
 } sph_surface;
+/* INSIDE for lambda > 0.75, SPLASH for lambda < 0.2, BAND between. lambda comes from sph_free_surface.
+   Marrone et al. 2010, JCP 229, 3652. */
 SPH_FN sph_surface sph_surface_of(sph_real lambda)
 {
     if (lambda < SPH_R(0.2)) return SPH_SURFACE_SPLASH;
@@ -5848,16 +5850,16 @@ SPH_FN sph_real sph_shift_strength_sun(sph_real h, sph_real path, sph_real lengt
     SPH_ASSERT(length > SPH_R(0));
     return SPH_R(2) * path * h * h / length;
 }
-/* The shift that a free surface leaves: none for lambda < 0.4 (splash), only the part along the surface,
-   dx - n (n . dx), for lambda < 0.75, and all of it inside. lambda and n come from sph_free_surface. The
-   limits are those of Sun et al. 2019. */
+/* What a free surface leaves of a shift dx: none for lambda < 0.4 (splash), only the part along the surface,
+   dx - n (n . dx), for lambda < 0.75, and all of it inside. lambda and
+   the normal n come from sph_free_surface. The limits are those of Sun et al. 2019. */
 SPH_FN sph_vec sph_shift_at_surface(int dim, sph_vec shift, sph_real lambda, sph_vec normal)
 {
     if (lambda < SPH_R(0.4)) return sph_scale(SPH_R(0), shift);
     if (!(lambda < SPH_R(0.75))) return shift;
     return sph_subtract(dim, shift, sph_scale(sph_dot(dim, normal, shift), normal));
 }
-/* The same vector, made shorter if it is longer than `longest`. Needs longest >= 0. */
+/* The shift, made shorter if it is longer than `longest`. Needs longest >= 0. */
 SPH_FN sph_vec sph_shift_limited(int dim, sph_vec shift, sph_real longest)
 {
     const sph_real length = sph_length(dim, shift);
@@ -6025,7 +6027,7 @@ SPH_FN sph_index sphi_shift_rates_range(int uniform, sph_kernel k, int dim, sph_
     }
     return failed;
 }
-/* What particles that move with v + u instead of v, where u is a velocity of shifting, add to their
+/* What particles that move with v + u instead of v, where u = shift is a velocity, add to their
    acceleration and density rate: u . grad v and u . grad rho, by sph_shift_rate_pair.
    Sun et al. 2019. Of fluid, the members rho and v are read; out.heating is not written. A pair uses (h_i
    + h_j) / 2 (lists by SPH_MEAN).
@@ -6190,7 +6192,8 @@ SPH_FN sph_real sph_riemann_beta(sph_riemann_side left, sph_riemann_side right, 
     SPH_ASSERT(left.z > SPH_R(0) && right.z > SPH_R(0) && rho > SPH_R(0) && limiter >= SPH_R(0));
     return SPH_R(1) - sphi_pos(SPH_R(1) - limiter * sphi_pos(left.u - right.u) * (SPH_R(2) * rho * inverse));
 }
-/* The part of P_i - P_j that a fluid at rest has: rho g . x_ij, with the mean of the densities. */
+/* The part of P_i - P_j that a fluid at rest has: rho gravity . x_ij, with the mean of the
+   densities. */
 SPH_FN sph_real sph_riemann_rest(int dim, sph_real rho, sph_vec gravity, sph_vec x_ij)
 {
     return rho * sph_dot(dim, gravity, x_ij);
@@ -6372,7 +6375,7 @@ SPH_FN sph_unit_normal sph_unit_normal_of(int dim, sph_vec n, sph_real least)
     u.unit = sph_scale(u.good / (size + SPHI_TINY), n);
     return u;
 }
-/* What j adds to the sums of the curvature. Morris 2000. */
+/* What j, of the volume V_j, adds to the sums of the curvature. Morris 2000. */
 SPH_FN sph_curvature_sums sph_curvature_pair(int dim, sph_unit_normal i, sph_unit_normal j, sph_real V_j,
                                              sph_vec x_ij, sph_real f_ij)
 {
@@ -6390,7 +6393,7 @@ SPH_FN sph_real sph_curvature_value(int dim, sph_curvature_sums s)
     SPH_ASSERT(SPHI_IS_DIM(dim) && s.weight > SPH_R(0));
     return SPH_R(-dim) * s.flux / s.weight;
 }
-/* CSF: the acceleration sigma kappa n / rho. Needs rho > 0. */
+/* CSF: the acceleration sigma curvature n / rho. Needs rho > 0. */
 SPH_FN sph_vec sph_tension_csf_value(sph_real sigma, sph_real curvature, sph_vec n, sph_real rho)
 {
     SPH_ASSERT(rho > SPH_R(0));
@@ -6402,8 +6405,8 @@ SPH_FN sph_vec sph_tension_stress_times(int dim, sph_vec n, sph_vec x)
     const sph_real size = sph_length(dim, n);
     return sph_subtract(dim, sph_scale(size, x), sph_scale(sph_dot(dim, n, x) / (size + SPHI_TINY), n));
 }
-/* CSS: what j adds to the force by volume on i, V_j (T_i + T_j) grad_i W_ij; the acceleration is this sum by
-   rho_i. Times V_i it is equal and opposite for j. */
+/* CSS: what j adds to the force by volume on i, V_j (T_i + T_j) grad_i W_ij, T in proportion to
+   sigma; the acceleration is this sum by rho_i. Times V_i it is equal and opposite for j. */
 SPH_FN sph_vec sph_tension_pair_css(int dim, sph_real sigma, sph_vec n_i, sph_vec n_j, sph_real V_j,
                                     sph_vec x_ij, sph_real f_ij)
 {
@@ -6412,7 +6415,8 @@ SPH_FN sph_vec sph_tension_pair_css(int dim, sph_real sigma, sph_vec n_i, sph_ve
     return sph_scale(v, sph_subtract(dim, a, sph_scale(SPH_R(-1), b)));
 }
 /* Akinci's cohesion and curvature, for computer graphics: what j adds to the acceleration of i,
-       -gamma 2 rho0 / (rho_i + rho_j) (m_j C(r) x_ij / r + n_i - n_j),   n_i = support sum_j V_j grad_i W_ij.
+       -2 gamma_rho0 / (rho_i + rho_j) (m_j C(r) x_ij / r + n_ij),   n_ij = n_i - n_j,
+   with n_i = support sum_j V_j grad_i W_ij and gamma_rho0 = gamma rho0.
    C is sph_cohesion_kernel_akinci, which is normalised in 3D. gamma is found by trial. Equal and opposite for
    equal masses. Akinci, Akinci & Teschner 2013, (1), (4), (5). Of the sides m and rho are read, and m of j
    only. Needs rho > 0 on both sides. */

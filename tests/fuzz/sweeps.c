@@ -260,7 +260,7 @@ static sph_transport_out transport_out(const arguments *a)
 }
 
 /* One X(call, outputs, pairs, flags) each: the first `pairs` outputs have a number for each pair, the others one for each target (ONE: one at all). VECTOR: of the first three as many as there are dimensions;
-   VECTORS: of the first two times three; HESSIAN: of derivatives likewise; COUNTS: a->count; NO_COUNT: the answer is no number of targets that are not ok;
+   VECTORS: of the first two times three, and all three of them where there is a third velocity, if VECTOR does not stand beside it; HESSIAN: of derivatives likewise; COUNTS: a->count; NO_COUNT: the answer is no number of targets that are not ok;
    SOME: targets may be passed over. */
 enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16, THREE = 32, NO_COUNT = 64, ONE = 128, SOME = 256 };
 /* clang-format off */
@@ -317,7 +317,7 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_free_surface_cone(LIST, a->s[3], vectors(a, 5), a->status), 0, 0, STATUS | NO_COUNT) \
     X(sph_shift_displacement(SWEEP, shifting(a), vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_shift_rates(SWEEP, fluid(a), vectors(a, 8), (sph_fluid_out){.acceleration = vector_out(a, 0), .rate = OUT(3)}), 4, 0, VECTOR) \
-    X(sph_transport_adami(SWEEP, fluid(a), vectors(a, 8), a->number[0], transport_out(a)), 6, 0, VECTORS) \
+    X(sph_transport_adami(SWEEP, fluid(a), vectors(a, 8), a->number[0], transport_out(a)), 6, 0, VECTOR | VECTORS) \
     X(sph_tension_css(SWEEP, tension(a), vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_tension_csf(SWEEP, tension(a), (sph_tension_out){.acceleration = vector_out(a, 0), .curvature = OUT(3), .status = a->status}), 4, 0, VECTOR | STATUS) \
     X(sph_wall_gradient(SWEEP, wall_terms(a), a->s[3], vector_out(a, 0)), 3, 0, VECTOR) \
@@ -379,11 +379,11 @@ static void require(int holds, int line, const char *text, const arguments *a)
 /* must output o have been written at all? Those of directions that there are not, or of B and v of fewer components, need not. */
 static int is_written(const arguments *a, int o)
 {
-    const int flags = now->flags, parts = a->s[7].p ? 3 : a->dim;
+    const int flags = now->flags, parts = a->s[7].p && !(flags & VECTOR) ? 3 : a->dim;
     if (!a->out[o]) return 0;
+    if (flags & VECTORS) return o > 5 || o % 3 < parts;
     if (flags & VECTOR) return o > 2 || o < a->dim;
     if (flags & HESSIAN) return o < 3 ? o < a->dim : o > 8 || o - 3 < a->dim * (a->dim + 1) / 2;
-    if (flags & VECTORS) return o > 5 || o % 3 < parts;
     return 1;
 }
 

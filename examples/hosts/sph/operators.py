@@ -1373,7 +1373,7 @@ class Operators:
     ) -> Any:
         """sph_shift_rates: what particles that are shifted carry
 
-        What particles that move with v + u instead of v, where u is a velocity of shifting, add to their
+        What particles that move with v + u instead of v, where u = shift is a velocity, add to their
         acceleration and density rate: u . grad v and u . grad rho, by sph_shift_rate_pair. Sun et al. 2019.
         Of fluid, the members rho and v are read; out.heating is not written. A pair uses (h_i + h_j) / 2
         (lists by SPH_MEAN). For a constant f the rate is 2 f u_i . sum_j V_j grad_i W_ij: not 0 in disorder,
