@@ -15,7 +15,7 @@ if (there("fluids_patch_inviscid")) {
     set size ratio -1
     set xrange [-0.8:0.8]
     set yrange [-0.8:0.8]
-    set cbrange [-0.4:0.2]
+    set cbrange [-0.15:0.05]
     unset key
     array patch[6] = ["inviscid", "antuono_inviscid", "antuono", "sun", "riemann", "riemann_sun"]
     array patch_title[6] = ["plain, alpha = 0", "Antuono, alpha = 0", "Antuono", "Antuono, Sun 2017", "Riemann", "Riemann, Sun 2017"]
