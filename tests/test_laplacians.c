@@ -163,7 +163,7 @@ static double fatehi_manzari(const cloud *c, sph_index i)
                 for (int l = 0; l < dim; l++) s[k][l] = S1[k][l];
                 s[k][dim] = k == col ? -1.0 : 0.0;
             }
-            if (!solve(dim, s)) return NAN;
+            if (!solve(dim, s)) return (double)NAN;
             for (int k = 0; k < dim; k++) B[k][col] = s[k][dim];
         }
         for (int k = 0; k < dim; k++)
@@ -179,7 +179,7 @@ static double fatehi_manzari(const cloud *c, sph_index i)
                     }
                 a[at[k][l]][n] = k == l ? -1.0 : 0.0;
             }
-        if (!solve(n, a)) return NAN;
+        if (!solve(n, a)) return (double)NAN;
     }
     return sum;
 }
@@ -259,7 +259,7 @@ static double basic_degiuli_ban(const cloud *c, sph_index i, double *denominator
             all += w * r2 * pass;
         }
         for (int k = 0; k < dim && !pass; k++) s[k][dim] = o[k];
-        if (!pass && !solve(dim, s)) return NAN;
+        if (!pass && !solve(dim, s)) return (double)NAN;
     }
     *denominator = bottom / all;
     return 2.0 * dim * top / bottom;
