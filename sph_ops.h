@@ -181,7 +181,7 @@
  *                  sph_density_diffusion_rows_molteni(k, dim, cloud, diffusion, out)
  *                  sph_sym_least_eigenvalue  sph_surface_of  sph_surface_normal  sph_surface_covers
  *                  sph_free_surface(k, dim, cloud, out)              div r, lambda, normal
- *                  sph_free_surface_cone(dim, cloud, lambda, normal, flag)
+ *                  sph_free_surface_cone(dim, cloud, eigenvalue, normal, flag)
  *                      which particles are the surface
  *                  sph_shift_pair  sph_shift_strength_skillen  sph_shift_strength_sun
  *                  sph_shift_at_surface  sph_shift_limited  sph_shift_rate_pair  sph_transport_pair_adami
@@ -5729,7 +5729,7 @@ SPH_FN int sph_surface_covers(int dim, sph_vec normal, sph_vec x_ij, sph_real h)
 /* Where what is known of the surface goes. divergence, lambda and status may be null. The stride is that of
    divergence and lambda. */
 typedef struct sph_surface_out {
-    SPH_GLOBAL sph_real *divergence, *lambda; /* div r and lambda, pure numbers */
+    SPH_GLOBAL sph_real *divergence, *eigenvalue; /* div r and lambda, pure numbers */
     sph_vector_out normal;                    /* outward, of length 1 or 0 */
     size_t stride;
     SPH_GLOBAL unsigned char *status;
@@ -5763,7 +5763,7 @@ SPH_FN sph_index sph_free_surface(sph_kernel k, int dim, sph_cloud cloud, sph_su
         if (dim > 1) trace += moment.yy;
         if (dim > 2) trace += moment.zz;
         lost = sphi_put(out.divergence, stride, i, trace);
-        lost |= sphi_put(out.lambda, stride, i, sph_sym_least_eigenvalue(dim, moment));
+        lost |= sphi_put(out.eigenvalue, stride, i, sph_sym_least_eigenvalue(dim, moment));
         lost |= sphi_store_vector(dim, out.normal, i, normal);
         if (lost) state = SPH_NOT_FINITE;
         if (out.status) out.status[i] = (unsigned char)state;
@@ -5771,15 +5771,16 @@ SPH_FN sph_index sph_free_surface(sph_kernel k, int dim, sph_cloud cloud, sph_su
     }
     return failed;
 }
-/* flag[i] = 1 for the targets at the surface, else 0, from the lambda and the normals of sph_free_surface.
+/* flag[i] = 1 for the targets at the surface, else 0, from the eigenvalue lambda and the normals of
+   sph_free_surface.
    Only the band of sph_surface_of is scanned, until a neighbour covers the target (sph_surface_covers). In
    the band, a target without a normal is at the surface. h is that of the target; lists must hold every
    source with r < 2 h. Returns the number of targets at the surface, or a negative sph_error. */
-SPH_FN sph_index sph_free_surface_cone(int dim, sph_cloud cloud, sph_scalars lambda, sph_vectors normal,
+SPH_FN sph_index sph_free_surface_cone(int dim, sph_cloud cloud, sph_scalars eigenvalue, sph_vectors normal,
                                        SPH_GLOBAL unsigned char *flag)
 {
     /* any kernel that ends at 2 h checks what this sweep needs */
-    int error = sphi_check_sweep(SPH_WENDLAND_C2, dim, cloud, "lambda", lambda);
+    int error = sphi_check_sweep(SPH_WENDLAND_C2, dim, cloud, "eigenvalue", eigenvalue);
     sph_index i, p, found = 0;
     if (!error) error = sphi_check_vectors("normal", dim, normal, cloud.points.n);
     if (!error && !flag) error = sphi_refuse("flag", -1, SPH_ERROR_NULL);
@@ -5787,7 +5788,7 @@ SPH_FN sph_index sph_free_surface_cone(int dim, sph_cloud cloud, sph_scalars lam
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i), n_i = sphi_vector_at(dim, normal, i);
         const sph_real h_i = sphi_at(cloud.h, i);
-        const sph_surface kind = sph_surface_of(sphi_at(lambda, i));
+        const sph_surface kind = sph_surface_of(sphi_at(eigenvalue, i));
         int covered = kind == SPH_SURFACE_INSIDE;
         for (p = cloud.list.start[i]; kind == SPH_SURFACE_BAND && !covered && p < cloud.list.start[i + 1];
              p++)
@@ -5921,7 +5922,7 @@ typedef struct sph_shift {
     sph_scalars strength; /* an area, of each particle or of all. There is no default */
     sph_real tensile;     /* R; 0: no such term */
     sph_real spacing;     /* dx / h, of the particles as they should lie; is read if R is not 0 */
-    sph_scalars lambda;   /* of sph_free_surface. Null: there is no free surface */
+    sph_scalars eigenvalue; /* lambda of sph_free_surface. Null: there is no free surface */
     sph_vectors normal;   /* of sph_free_surface; is read with lambda */
     sph_real longest;     /* the longest shift, a length; 0 means 0.2 h, a negative number no limit */
 } sph_shift;
@@ -5952,9 +5953,10 @@ SPH_FN sph_index sphi_shift_range(int uniform, int tensile, sph_kernel k, int di
         shift.y = gy;
         shift.z = gz;
         shift = sph_scale(-sphi_at(s->strength, i), shift);
-        if (s->lambda.p)
+        if (s->eigenvalue.p)
             shift =
-                sph_shift_at_surface(dim, shift, sphi_at(s->lambda, i), sphi_vector_at(dim, s->normal, i));
+                sph_shift_at_surface(dim, shift, sphi_at(s->eigenvalue, i),
+                                     sphi_vector_at(dim, s->normal, i));
         if (!(s->longest < SPH_R(0)))
             shift = sph_shift_limited(dim, shift, s->longest > SPH_R(0) ? s->longest : SPH_R(0.2) * h_i);
         failed += sphi_store_vector(dim, out, i, shift);
@@ -5976,8 +5978,8 @@ SPH_FN sph_index sph_shift_displacement(sph_kernel k, int dim, sph_cloud cloud, 
         error = sphi_refuse("shift.tensile, longest", -1, SPH_ERROR_VALUE);
     if (!error && tensile && (!(shift.spacing > SPH_R(0)) || !(shift.spacing < sph_kernel_support_ratio(k))))
         error = sphi_refuse("shift.spacing", -1, SPH_ERROR_VALUE);
-    if (!error && shift.lambda.p) {
-        error = sphi_check_field("lambda", shift.lambda, cloud.points.n);
+    if (!error && shift.eigenvalue.p) {
+        error = sphi_check_field("eigenvalue", shift.eigenvalue, cloud.points.n);
         if (!error) error = sphi_check_vectors("normal", dim, shift.normal, cloud.points.n);
     }
     if (!error) error = sphi_check_out("out", dim, out);

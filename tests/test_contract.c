@@ -453,7 +453,7 @@ static sph_shift shift_of(const world *w)
     s.strength = scalars_of(w, U);
     s.tensile = SPH_R(w->number[PARAMETER_A]);
     s.spacing = SPH_R(w->number[RATIO]);
-    s.lambda = scalars_of(w, F);
+    s.eigenvalue = scalars_of(w, F);
     s.normal = vectors_of(w, BX);
     s.longest = SPH_R(w->number[PARAMETER_B]);
     return s;
@@ -614,7 +614,7 @@ static sph_index call_free_surface(const world *w)
     sph_surface_out o = {0};
     o.normal = vector_out_of(w, O0);
     o.divergence = R(S1);
-    o.lambda = R(S2);
+    o.eigenvalue = R(S2);
     o.stride = w->out_stride;
     o.status = STATE;
     return sph_free_surface(RANGE, o);
@@ -1262,10 +1262,10 @@ static const char *argument_of(const function *f, int a)
         const char *argument;
     } named[] = {{"sph_density_diffusion", BIT(U), "share"},
                  {"sph_density_diffusion", XYZ(BX), "gradient"},
-                 {"sph_free_surface", BIT(F), "lambda"},
+                 {"sph_free_surface", BIT(F), "eigenvalue"},
                  {"sph_free_surface", XYZ(BX), "normal"},
                  {"sph_shift_displacement", BIT(U), "strength"},
-                 {"sph_shift_displacement", BIT(F), "lambda"},
+                 {"sph_shift_displacement", BIT(F), "eigenvalue"},
                  {"sph_shift_displacement", XYZ(BX), "normal"},
                  {"sph_shift_rates", XYZ(BX), "shift"},
                  {"sph_transport", XYZ(BX), "transport"},

@@ -194,7 +194,7 @@ static sph_diffusion diffusion(const world *w)
     return d;
 }
 OPERATOR(diffusion_molteni, sph_density_diffusion_molteni(SWEEP, diffusion(w), SCALAR_OUT))
-OPERATOR(free_surface, sph_free_surface(SWEEP, (sph_surface_out){.divergence = OUT(3), .lambda = OUT(4), .normal = into(w, 0)}))
+OPERATOR(free_surface, sph_free_surface(SWEEP, (sph_surface_out){.divergence = OUT(3), .eigenvalue = OUT(4), .normal = into(w, 0)}))
 static sph_index shifted(world *w, sph_index first, sph_index last)
 {
     const sph_real strength = SPH_R(1);

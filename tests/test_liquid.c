@@ -390,9 +390,9 @@ static void test_shift_at_a_surface(void)
         l = liquid_of(cloud_lattice(dim, sides[dim], 1.3, 0.2, 12), 1);
         lambda = l.out;
         for (i = 0; i < l.c.n; i++) l.c.V[i] = SPH_R(pow(l.c.dx, dim));
-        CHECK(sph_free_surface(KERNEL, dim, view(&l, 0), (sph_surface_out){.lambda = lambda, .normal = to(l.u)}) == 0);
+        CHECK(sph_free_surface(KERNEL, dim, view(&l, 0), (sph_surface_out){.eigenvalue = lambda, .normal = to(l.u)}) == 0);
         CHECK(sph_shift_displacement(KERNEL, dim, view(&l, 0), s, to(l.a)) == 0);
-        s.lambda = sph_scalars_array(lambda);
+        s.eigenvalue = sph_scalars_array(lambda);
         s.normal = three(l.u);
         CHECK(sph_shift_displacement(KERNEL, dim, view(&l, 0), s, to(l.b)) == 0);
         for (i = 0; i < l.c.n; i++) {
@@ -723,7 +723,7 @@ static found detect(int which, double h_over_dx, double jitter, uint64_t seed)
     const int dim = l.c.dim;
     sph_real *const lambda = l.rho, *const divergence = l.m;
     unsigned char *const flag = (unsigned char *)cloud_memory((size_t)l.c.n, 1);
-    const sph_surface_out out = {.divergence = divergence, .lambda = lambda, .normal = to(l.u), .status = l.status};
+    const sph_surface_out out = {.divergence = divergence, .eigenvalue = lambda, .normal = to(l.u), .status = l.status};
     long count[2] = {0, 0}, hits[DETECTORS][2] = {{0, 0}}, flagged = 0, normals = 0;
     found f;
     sph_index i, said;
@@ -806,7 +806,7 @@ static void test_surface_limits(void)
             static const int even[] = {0, 40, 16, 10};
             liquid l = liquid_periodic(dim, even[dim], 1.6, jittered ? 0.1 : 0.0, 21);
             sph_index i;
-            CHECK(sph_free_surface(KERNEL, dim, view(&l, 0), (sph_surface_out){.divergence = l.m, .lambda = l.rho, .normal = to(l.u)}) == 0);
+            CHECK(sph_free_surface(KERNEL, dim, view(&l, 0), (sph_surface_out){.divergence = l.m, .eigenvalue = l.rho, .normal = to(l.u)}) == 0);
             CHECK(sph_free_surface_cone(dim, view(&l, 0), sph_scalars_array(l.rho), three(l.u), l.status) == 0);
             for (i = 0; i < l.c.n; i++) {
                 CHECK_NEAR("div r inside", i, l.m[i], dim, jittered ? 0.4 : 0.05);
@@ -821,7 +821,7 @@ static void test_surface_limits(void)
         l.c.x[2] = SPH_R(10);
         for (dim = 0; dim < 3; dim++) l.c.V[dim] = SPH_R(0.3);
         lists(&l, 2.0);
-        CHECK(sph_free_surface(KERNEL, 2, view(&l, 0), (sph_surface_out){.divergence = l.m, .lambda = l.rho, .normal = to(l.u), .status = l.status}) == 3);
+        CHECK(sph_free_surface(KERNEL, 2, view(&l, 0), (sph_surface_out){.divergence = l.m, .eigenvalue = l.rho, .normal = to(l.u), .status = l.status}) == 3);
         CHECK(l.status[0] == SPH_TOO_FEW && l.status[2] == SPH_TOO_FEW);
         CHECK((double)l.m[0] > 0.0 && (double)l.rho[0] == 0.0 && (double)l.m[2] == 0.0);
         CHECK(sph_free_surface_cone(2, view(&l, 0), sph_scalars_array(l.rho), three(l.u), l.status) == 3);

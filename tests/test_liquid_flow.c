@@ -20,7 +20,7 @@ typedef struct flow {
     double dx, h, c, dt, t, viscosity; /* alpha of artificial viscosity for a tank; nu for a box */
     double speed; /* that shifting takes for the largest of the flow; 0: the largest of the moment */
     int periodic, form, shifting, late; /* late: rates by the old velocities, the wrong order */
-    sph_real *x, *y, *vx, *vy, *ax, *ay, *sx, *sy, *rho, *p, *m, *V, *rate, *share, *gx, *gy, *kx, *ky, *lx, *ly, *lambda, *nx, *ny, *c0, *mu, *memory;
+    sph_real *x, *y, *vx, *vy, *ax, *ay, *sx, *sy, *rho, *p, *m, *V, *rate, *share, *gx, *gy, *kx, *ky, *lx, *ly, *eigenvalue, *nx, *ny, *c0, *mu, *memory;
 } flow;
 enum { ARRAYS = 25 };
 
@@ -28,7 +28,7 @@ static flow flow_new(sph_index n)
 {
     flow f;
     sph_real **const a[ARRAYS] = {&f.x, &f.y, &f.vx, &f.vy, &f.ax, &f.ay, &f.sx, &f.sy, &f.rho, &f.p, &f.m, &f.V, &f.rate,
-                                  &f.share, &f.gx, &f.gy, &f.kx, &f.ky, &f.lx, &f.ly, &f.lambda, &f.nx, &f.ny, &f.c0, &f.mu};
+                                  &f.share, &f.gx, &f.gy, &f.kx, &f.ky, &f.lx, &f.ly, &f.eigenvalue, &f.nx, &f.ny, &f.c0, &f.mu};
     int k;
     memset(&f, 0, sizeof f);
     f.n = f.wet = n;
@@ -120,8 +120,8 @@ static int step(flow *f, double *noise) /* 0: it has blown up. noise, if not nul
         shift.tensile = SPH_R(0.2);
         shift.spacing = SPH_R(f->dx / f->h);
         if (!f->periodic) {
-            CHECK(sph_free_surface(KERNEL, 2, all, (sph_surface_out){.lambda = f->lambda, .normal = to(f->nx, f->ny)}) >= 0);
-            shift.lambda = sph_scalars_array(f->lambda);
+            CHECK(sph_free_surface(KERNEL, 2, all, (sph_surface_out){.eigenvalue = f->eigenvalue, .normal = to(f->nx, f->ny)}) >= 0);
+            shift.eigenvalue = sph_scalars_array(f->eigenvalue);
             shift.normal = two(f->nx, f->ny);
         }
         CHECK(sph_shift_displacement(KERNEL, 2, wet, shift, to(f->sx, f->sy)) == 0);

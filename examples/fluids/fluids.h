@@ -125,7 +125,7 @@ typedef struct liquid {
     /* of each particle: gradient of rho or of another field; shift, or its velocity, or the velocity that
        moves a particle; least eigenvalue and normal; accelerations of a transport velocity, or of a shift; and what is
        needed for a moment, one number more than particles */
-    double *gradient[2], *shift[2], *lambda, *normal[2], *background[2], *stress[2], *scratch, *memory;
+    double *gradient[2], *shift[2], *eigenvalue, *normal[2], *background[2], *stress[2], *scratch, *memory;
 } liquid;
 static inline liquid *liquid_of(const flow *f) { return (liquid *)f->data; }
 
@@ -200,7 +200,7 @@ static inline long liquid_surface_part(void *data, long first, long last)
 {
     const flow *const f = (const flow *)data;
     const liquid *const l = liquid_of(f);
-    const sph_surface_out out = {.lambda = l->lambda, .normal = vectors_into(l->normal, 2)};
+    const sph_surface_out out = {.eigenvalue = l->eigenvalue, .normal = vectors_into(l->normal, 2)};
     sph_free_surface(SPH_WENDLAND_C2, 2, liquid_targets(f, first, last), out);
     return 0; /* a drop of spray has no normal, and is not moved */
 }
@@ -217,7 +217,7 @@ static inline long liquid_shift_part(void *data, long first, long last)
     const liquid *const l = liquid_of(f);
     sph_shift s = {.strength = sph_scalars_array(l->scratch)};
     if (l->surface) {
-        s.lambda = sph_scalars_array(l->lambda);
+        s.eigenvalue = sph_scalars_array(l->eigenvalue);
         s.normal = vectors_of(l->normal, 2);
     }
     if (l->method->shift != LIQUID_SKILLEN) {
@@ -454,7 +454,7 @@ static inline void liquid_open(liquid *l, const liquid_method *method, double dx
 static inline void liquid_start(liquid *l, double mu, const fluids_options *o)
 {
     double **const arrays[] = {&l->gradient[0], &l->gradient[1], &l->shift[0],      &l->shift[1],
-                               &l->lambda,      &l->normal[0],   &l->normal[1],     &l->background[0],
+                               &l->eigenvalue,      &l->normal[0],   &l->normal[1],     &l->background[0],
                                &l->background[1], &l->stress[0], &l->stress[1],     &l->scratch};
     enum { ARRAYS = sizeof arrays / sizeof *arrays };
     const size_t n = (size_t)l->f.n + 1;

@@ -29,14 +29,14 @@ enum { LAYERS = 3 }; /* of wall: as far as a support reaches */
 typedef struct column {
     int n, water;          /* all particles; the liquid, which comes first */
     double dx, h, one;
-    double *x, *y, *volume, *share, *lambda, *nx, *ny, *p;
+    double *x, *y, *volume, *share, *eigenvalue, *nx, *ny, *p;
     unsigned char *flag;
     search near;
 } column;
 
 static void column_open(column *c, int side, double jitter, int seed)
 {
-    double **const arrays[] = {&c->x, &c->y, &c->volume, &c->share, &c->lambda, &c->nx, &c->ny, &c->p};
+    double **const arrays[] = {&c->x, &c->y, &c->volume, &c->share, &c->eigenvalue, &c->nx, &c->ny, &c->p};
     const double reach = 2 * 1.6 / side;
     pcg32 g;
     size_t a;
@@ -65,7 +65,7 @@ static void column_open(column *c, int side, double jitter, int seed)
 }
 static void column_close(column *c)
 {
-    double *const arrays[] = {c->x, c->y, c->volume, c->share, c->lambda, c->nx, c->ny, c->p};
+    double *const arrays[] = {c->x, c->y, c->volume, c->share, c->eigenvalue, c->nx, c->ny, c->p};
     size_t a;
     for (a = 0; a < sizeof arrays / sizeof *arrays; a++) free(arrays[a]);
     free(c->flag);
@@ -122,9 +122,9 @@ static answer solve(int side, double jitter, int seed, rows_of which, int elimin
     source = (double *)need_zeros((size_t)c.n, sizeof *source);
     b = (double *)need_zeros((size_t)c.n, sizeof *b);
     {
-        const sph_surface_out found = {.lambda = c.lambda, .normal = sph_vector_out_separate(c.nx, c.ny, NULL)};
+        const sph_surface_out found = {.eigenvalue = c.eigenvalue, .normal = sph_vector_out_separate(c.nx, c.ny, NULL)};
         expect_all(sph_free_surface(KERNEL, 2, water, found));
-        a.surface = (int)expect(sph_free_surface_cone(2, water, sph_scalars_array(c.lambda),
+        a.surface = (int)expect(sph_free_surface_cone(2, water, sph_scalars_array(c.eigenvalue),
                                                       sph_vectors_separate(c.nx, c.ny, NULL), c.flag));
     }
     memset(&wall, 0, sizeof wall);

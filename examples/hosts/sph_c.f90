@@ -461,7 +461,7 @@ module sph_c
     ! of divergence and lambda.
     type, bind(c) :: sph_surface_out
         ! div r and lambda, pure numbers
-        type(c_ptr) :: divergence = c_null_ptr, lambda = c_null_ptr
+        type(c_ptr) :: divergence = c_null_ptr, eigenvalue = c_null_ptr
         ! outward, of length 1 or 0
         type(sph_vector_out) :: normal
         integer(c_size_t) :: stride = 0
@@ -476,8 +476,8 @@ module sph_c
         real(sph_real) :: tensile = 0.0_sph_real
         ! dx / h, of the particles as they should lie; is read if R is not 0
         real(sph_real) :: spacing = 0.0_sph_real
-        ! of sph_free_surface. Null: there is no free surface
-        type(sph_scalars) :: lambda
+        ! lambda of sph_free_surface. Null: there is no free surface
+        type(sph_scalars) :: eigenvalue
         ! of sph_free_surface; is read with lambda
         type(sph_vectors) :: normal
         ! the longest shift, a length; 0 means 0.2 h, a negative number no limit
@@ -1609,12 +1609,12 @@ module sph_c
             integer(sph_index) :: answer
         end function
         ! which particles are the surface
-        function sph_free_surface_cone(dim, cloud, lambda, normal, flag) &
+        function sph_free_surface_cone(dim, cloud, eigenvalue, normal, flag) &
             bind(c, name='sph_shim_free_surface_cone') result(answer)
             import
             integer(c_int), value :: dim
             type(sph_cloud), intent(in) :: cloud
-            type(sph_scalars), intent(in) :: lambda
+            type(sph_scalars), intent(in) :: eigenvalue
             type(sph_vectors), intent(in) :: normal
             integer(sph_state), intent(inout) :: flag(*)
             integer(sph_index) :: answer

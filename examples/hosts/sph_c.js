@@ -128,12 +128,12 @@ exports.structs = {
         ["share", "sph_scalars", 1], ["gradient", "sph_vectors", 1], ["gravity", "sph_vec", 1],
     ],
     sph_surface_out: [
-        ["divergence", "pointer", 1], ["lambda", "pointer", 1], ["normal", "sph_vector_out", 1],
+        ["divergence", "pointer", 1], ["eigenvalue", "pointer", 1], ["normal", "sph_vector_out", 1],
         ["stride", "size_t", 1], ["status", "pointer", 1],
     ],
     sph_shift: [
         ["strength", "sph_scalars", 1], ["tensile", "sph_real", 1], ["spacing", "sph_real", 1],
-        ["lambda", "sph_scalars", 1], ["normal", "sph_vectors", 1], ["longest", "sph_real", 1],
+        ["eigenvalue", "sph_scalars", 1], ["normal", "sph_vectors", 1], ["longest", "sph_real", 1],
     ],
     sph_transport_out: [
         ["background", "sph_vector_out", 1], ["stress", "sph_vector_out", 1], ["status", "pointer", 1],

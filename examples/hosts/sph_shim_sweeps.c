@@ -927,8 +927,8 @@ sph_index sph_shim_free_surface(int kernel, int dim, const sph_cloud *cloud, con
 #undef SWEEP
 
 #define SWEEP(D) \
-    sph_free_surface_cone(D, *cloud, GIVEN(sph_scalars, lambda), GIVEN(sph_vectors, normal), flag)
-sph_index sph_shim_free_surface_cone(int dim, const sph_cloud *cloud, const sph_scalars *lambda,
+    sph_free_surface_cone(D, *cloud, GIVEN(sph_scalars, eigenvalue), GIVEN(sph_vectors, normal), flag)
+sph_index sph_shim_free_surface_cone(int dim, const sph_cloud *cloud, const sph_scalars *eigenvalue,
                                      const sph_vectors *normal, unsigned char *flag)
 {
     sph_index answer = SPH_ERROR_DIM;

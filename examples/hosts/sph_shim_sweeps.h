@@ -237,7 +237,7 @@ SPH_SHIM_EXPORT sph_index sph_shim_density_diffusion_rows_molteni(int kernel, in
 SPH_SHIM_EXPORT sph_index sph_shim_free_surface(int kernel, int dim, const sph_cloud *cloud,
                                                 const sph_surface_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_free_surface_cone(int dim, const sph_cloud *cloud,
-                                                     const sph_scalars *lambda, const sph_vectors *normal,
+                                                     const sph_scalars *eigenvalue, const sph_vectors *normal,
                                                      unsigned char *flag);
 SPH_SHIM_EXPORT sph_index sph_shim_shift_displacement(int kernel, int dim, const sph_cloud *cloud,
                                                       const sph_shift *shift, const sph_vector_out *out);

@@ -263,7 +263,7 @@ static sph_index sweep_range(int which, sph_index first, sph_index last, const c
     }
     case FREE_SURFACE: /* div r, lambda, normal */
         return sph_free_surface(KERNEL, 3, targets,
-                                (sph_surface_out){.divergence = o->g[3], .lambda = o->g[4], .normal = a});
+                                (sph_surface_out){.divergence = o->g[3], .eigenvalue = o->g[4], .normal = a});
     case SHIFT: {
         const sph_shift s = {.strength = V, .tensile = SPH_R(0.2), .spacing = SPH_R(0.8)};
         return sph_shift_displacement(KERNEL, 3, targets, s, a);

@@ -239,7 +239,7 @@ static sph_shift shifting(const arguments *a)
     sph_shift s = {0};
     s.strength = a->s[4];
     s.tensile = a->number[0], s.spacing = a->number[1], s.longest = a->number[2];
-    if (a->what & 1) s.lambda = a->s[3];
+    if (a->what & 1) s.eigenvalue = a->s[3];
     s.normal = vectors(a, 8);
     return s;
 }
@@ -247,7 +247,7 @@ static sph_surface_out surface_out(const arguments *a)
 {
     sph_surface_out o = {0};
     o.normal = vector_out(a, 0);
-    o.divergence = OUT(3), o.lambda = OUT(4);
+    o.divergence = OUT(3), o.eigenvalue = OUT(4);
     o.status = a->status;
     return o;
 }

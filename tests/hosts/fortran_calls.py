@@ -142,6 +142,8 @@ class Call:
             k = self.input()
             self.set(path + ".p", f"all_in + {k}", f"c_loc(all_in({k + 1}))")
             self.set(path + ".stride", "1", "1")
+        elif field.type == "sph_points":
+            self.set(path, "cloud.points", "cloud%view%points")
         elif field.type in self.structs and not field.pointer:
             for inner in self.structs[field.type].fields:
                 self.fill(path + "." + inner.name, inner)

@@ -177,6 +177,8 @@ class InC:
             for axis in [f.name for f in self.structs[kind].fields]:
                 least = max("xyz".index(letter) for letter in axis)
                 self.lines.append(f"if (dim > {least}) {path}.{axis} = SPH_R(0.5);")
+        elif kind == "sph_points":
+            self.lines.append(f"{path} = points;")
         elif kind == "sph_real":
             self.lines.append(f"{path} = SPH_R({REALS.get(name, 0.3)});")
         elif kind in NUMBERS:
@@ -401,7 +403,7 @@ def through_python(path, sums):
                     vectors = [make(f"{p}.{axis}") for axis in "xyz"[:dim]]
                     if p == "kernel" or p == "dim":
                         arguments[p] = kernel if p == "kernel" else dim
-                    elif p == "sources":
+                    elif p in ("sources", "points"):
                         arguments[p] = x
                     elif p == "position":
                         parts = x.T if sph.numpy else x

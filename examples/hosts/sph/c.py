@@ -427,7 +427,7 @@ class sph_diffusion(Structure):
 class sph_surface_out(Structure):
     _fields_ = [
         ("divergence", c_void_p),
-        ("lambda", c_void_p),
+        ("eigenvalue", c_void_p),
         ("normal", sph_vector_out),
         ("stride", c_size_t),
         ("status", c_void_p),
@@ -439,7 +439,7 @@ class sph_shift(Structure):
         ("strength", sph_scalars),
         ("tensile", c_double),
         ("spacing", c_double),
-        ("lambda", sph_scalars),
+        ("eigenvalue", sph_scalars),
         ("normal", sph_vectors),
         ("longest", c_double),
     ]
@@ -1208,7 +1208,7 @@ FUNCTIONS = {
     "free_surface_cone": (c_int32, [
         ("dim", c_int),
         ("cloud", sph_cloud),
-        ("lambda", sph_scalars),
+        ("eigenvalue", sph_scalars),
         ("normal", sph_vectors),
         ("flag", (c_ubyte, False)),
     ]),

@@ -1321,10 +1321,10 @@ class Operators:
         """
         return self._call("free_surface", locals())
 
-    def free_surface_cone(self, lambda: Scalars, normal: Vectors) -> Any:
+    def free_surface_cone(self, eigenvalue: Scalars, normal: Vectors) -> Any:
         """sph_free_surface_cone: which particles are the surface
 
-        flag[i] = 1 for the targets at the surface, else 0, from the lambda and the normals of
+        flag[i] = 1 for the targets at the surface, else 0, from the eigenvalue lambda and the normals of
         sph_free_surface. Only the band of sph_surface_of is scanned, until a neighbour covers the target
         (sph_surface_covers). In the band, a target without a normal is at the surface. h is that of the
         target; lists must hold every source with r < 2 h. Returns the number of targets at the surface, or a
@@ -1337,7 +1337,7 @@ class Operators:
         strength: Scalars = None,
         tensile: float = 0.0,
         spacing: float = 0.0,
-        lambda: Scalars = None,
+        eigenvalue: Scalars = None,
         normal: Vectors = None,
         longest: float = 0.0,
     ) -> Array:
@@ -1352,7 +1352,7 @@ class Operators:
         strength: an area, of each particle or of all. There is no default
         tensile: R; 0: no such term
         spacing: dx / h, of the particles as they should lie; is read if R is not 0
-        lambda: of sph_free_surface. Null: there is no free surface
+        eigenvalue: lambda of sph_free_surface. Null: there is no free surface
         normal: of sph_free_surface; is read with lambda
         longest: the longest shift, a length; 0 means 0.2 h, a negative number no limit
         """
