@@ -6,7 +6,7 @@
  *     cc -O2 -o fluids_drop examples/fluids/fluids_drop.c -lm
  *     fluids_drop -out DIR -figures DIR [-full]       (-h for help)
  *
- * Periodic box of 1 x 1, 32 x 32 particles (-full: 64 x 64) on a square lattice, drop of R = 1/4, sigma = 1, rho = 1,
+ * Periodic box of 1 x 1, 32 x 32 particles (-full: 64 x 64, too; -side N) on a square lattice, drop of R = 1/4, sigma = 1, rho = 1,
  * c0 = 20, h = 2 dx, pressure p0 = 2 sigma / R, viscosity of Monaghan & Cleary.
  *   rest      nu = 0.05, to t = 0.6, which is five times sqrt(rho R^3 / sigma): jump of the mean pressure in sigma / R;
  *             rms speed as a capillary number mu U / sigma (parasitic currents: nothing should move); momentum that
@@ -170,28 +170,38 @@ static void run(const liquid_method *m, int seed, const fluids_options *o, doubl
 
 int main(int argc, char **argv)
 {
+#define FIGURES 4, {"jump / (sigma / R)", "mu U / sigma", "momentum", "length / 2 pi R"}, {2, 2, 2, 2}, run
     static const liquid_case cases[SHAPES] = {
-        {"drop at rest", 4, {"jump / (sigma / R)", "mu U / sigma", "momentum", "length / 2 pi R"}, {2, 2, 2, 2}, run},
-        {"from a square", 4, {"jump / (sigma / R)", "mu U / sigma", "momentum", "length / 2 pi R"}, {2, 2, 2, 2}, run},
+        {"at rest", FIGURES},
+        {"from a square", FIGURES},
         {"ellipse", 3, {"period / exact", "stretch after half of it", "momentum"}, {2, 2, 2}, run}};
     enum { CSS, CSF, METHODS = CSF + 3 };
     static const liquid_trial trial[METHODS] = {
         {METHOD_CSS, {0}, 0}, {METHOD_CSF, {0}, 0}, {METHOD_CSS_SUN, {0}, 1}, {METHOD_CSS_ANTUONO, {0}, 1}};
     fluids_options o = {".", ".", NULL, 0, 0, 0};
-    const option_spec specs[] = {FLUIDS_OPTIONS(o)};
+    int only = 0;
+    const option_spec specs[] = {
+        FLUIDS_OPTIONS(o),
+        {"side", "particles in a row; 0: 32, and with -full 64, too", OPTION_INT, &only, 0, 1024}};
     static report r;
     static liquid_results x[SHAPES];
     int k;
     options_parse(argc, argv, "A drop with surface tension: at rest, from a square, oscillating.", specs,
-                  FLUIDS_OPTION_COUNT);
+                  FLUIDS_OPTION_COUNT + 1);
     report_open(&r, "fluids_drop", o.out);
     figure_folder(o.figures, "fluids_drop");
-    side = o.full ? 64 : 32;
-    for (shape = 0; shape < SHAPES; shape++) {
-        report_section(&r, cases[shape].item);
-        liquid_compare(&r, &cases[shape], trial, METHODS, &o, &x[shape]);
+    for (k = o.full && !only; k >= 0; k--) { /* the finer ones first: what is judged are those of 32 */
+        side = only ? only : k ? 64 : 32;
+        for (shape = 0; shape < SHAPES; shape++) {
+            char item[48];
+            liquid_case now = cases[shape];
+            snprintf(item, sizeof item, "%s, %d x %d", now.item, side, side);
+            now.item = item;
+            report_section(&r, item);
+            liquid_compare(&r, &now, trial, METHODS, &o, &x[shape]);
+        }
     }
-    if (o.method) return report_close(&r) ? 1 : 0;
+    if (o.method || only) return report_close(&r) ? 1 : 0;
     report_section(&r, "What is known of drops");
     for (k = CSS; k <= CSF; k++) {
         const char *const name = trial[k].method.name;
