@@ -5821,7 +5821,8 @@ SPH_FN sph_index sph_free_surface_cone(int dim, sph_cloud cloud, sph_scalars eig
  * vortices is off by 3 % instead of 22 %. But it does not conserve angular momentum, and makes a liquid with
  * a free surface swell: a still tank rises by 1 % to 2 % of its depth in 6 sqrt(depth / gravity) where v_max
  * is a speed that the liquid never has, and hardly where v_max is that of the moment; density diffusion alone
- * leaves it where it is (tests/test_liquid_flow.c asserts all this). See also Jandaghian et al. 2021,
+ * leaves it where it is (tests/test_liquid_flow.c asserts all this, of particles that start from a lattice;
+ * other starts gave -0.2 % to 0.7 %: examples/fluids/README.md). See also Jandaghian et al. 2021,
  * arXiv:2110.10076. With walls, their particles must be sources.
  *
  * As a tool that packs particles: dx = -0.4 h^2 G, again and again with new lists, makes an even cloud of any
@@ -6339,8 +6340,9 @@ SPH_FN sph_index sph_fluid_rates_riemann(sph_kernel k, int dim, sph_cloud cloud,
  * the fringe n is short and its direction uncertain. The force of CSF on all particles together is not 0: in
  * a cloud that is disturbed by 0.2 dx it is 1 % of the sum of its magnitudes at R = 8 dx. With CSS it is 0;
  * but on the same cloud these magnitudes sum to 1.1 (8 dx) and 1.5 times (16 dx) what they should, and drive
- * currents beside the interface that do not cease. Prefer CSS; take CSF where a curvature is wanted. Where
- * the density jumps, both give the lighter fluid the larger acceleration.
+ * currents beside the interface that do not cease. CSS where momentum matters; CSF where a curvature is
+ * wanted, or finer particles are to make the currents smaller (examples/fluids/README.md). Where the density
+ * jumps, both give the lighter fluid the larger acceleration.
  *
  * Computer graphics has a third way, a cohesion between neighbours and a term that makes the surface small:
  * sph_tension_pair_akinci. It holds drops together, in fluids that have no second fluid around them. But its
