@@ -212,8 +212,10 @@ class InC:
             entries = (
                 kind == "sph_rows_out"
                 and field.name == "row"
-                or kind == "sph_gradient_rows_out"
+                or kind in ("sph_gradient_rows_out", "sph_interpolation_rows_out")
                 and field.name in "xyz"
+                or kind == "sph_interpolation_rows_out"
+                and field.name == "value"
             )
             if field.name == "status":
                 self.both += [f"a_{at} = states[0];", f"b_{at} = states[1];"]

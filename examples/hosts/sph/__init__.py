@@ -769,6 +769,14 @@ _ONLY_DIMS = {
 }
 
 
+# members of outputs that have a number for each entry of the lists
+_PER_ENTRY = {
+    c.sph_rows_out: ("row",),
+    c.sph_gradient_rows_out: ("x", "y", "z"),
+    c.sph_interpolation_rows_out: ("value", "x", "y", "z"),
+}
+
+
 class _Call:
     """the arguments of one call of a sweep, and its results"""
 
@@ -847,6 +855,8 @@ class _Call:
             own = f"{label}_{field}"  # where another struct has a member of this name
             get = self.struct if issubclass(of, ctypes.Structure) else self.simple
             setattr(struct, field, get(own if own in self.values else field, of))
+        if name == "sph_sources" and struct.points.n != cloud.n:
+            raise ValueError(f"points: {cloud.n} sources are wanted, as many as targets, not {struct.points.n}")
         return struct
 
     def scalars(self, label, value):
@@ -917,7 +927,7 @@ class _Call:
         if cloud.dim < _FROM_DIM.get(field, 1) or (self.name == "gradient_cspm" and field[0] in "hl"):
             return
         if (
-            kind is c.sph_gradient_rows_out
+            kind in (c.sph_gradient_rows_out, c.sph_interpolation_rows_out)
             and field in _COORDINATES
             and _COORDINATES.index(field) >= cloud.dim
         ):
@@ -931,7 +941,7 @@ class _Call:
             setattr(struct, field, parts[("gx", "gy", "gz").index(field)])
             return
         else:
-            per_entry = kind in (c.sph_rows_out, c.sph_gradient_rows_out) and field in ("row", "x", "y", "z")
+            per_entry = field in _PER_ENTRY.get(kind, ())
             out = _new("d", len(cloud.index) if per_entry else cloud.n)
         self.results[field] = out
         setattr(struct, field, _address(out))

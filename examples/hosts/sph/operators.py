@@ -1515,33 +1515,6 @@ class Operators:
         """
         return self._call("tension_csf", locals())
 
-    def wall_gamma(
-        self,
-        n: int = 0,
-        a: Vectors = None,
-        b: Vectors = None,
-        c: Vectors = None,
-        start: int = 0,
-        index: int = 0,
-    ) -> Any:
-        """sph_wall_gamma: gamma and grad gamma, exact
-
-        gamma and grad gamma of the targets, from the elements of the walls. The targets are in the fluid or
-        on its walls; for one outside, gamma is too large by 1. A target within sqrt(SPH_EPSILON) h of an
-        element, an edge or a corner is taken as many lengths further inside, which gives the limit (1/2 on a
-        plane, 1/4 in the corner of a square) with an error of this order. Of cloud, positions, h and the
-        range are read, no list and no volumes. In a periodic box an element and a support together must be
-        shorter than half of the box. The work is that of all elements for each target, unless elements.list
-        says which are near. Returns the number of targets whose result overflowed (it is 0 then), or a
-        negative sph_error: SPH_ERROR_KERNEL for the kernels that are not piecewise polynomials,
-        SPH_ERROR_COUNT for a negative number of elements.
-
-        a: one corner of each element; c is read in 3D only
-        b: one corner of each element; c is read in 3D only
-        c: one corner of each element; c is read in 3D only
-        """
-        return self._call("wall_gamma", locals())
-
     def wall_gradient(
         self,
         f: Scalars,
