@@ -57,7 +57,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_input in = {data, size, 0};
     unsigned char *spoilt;
-    size_t length, k, more_size = 0;
+    size_t length, more_size = 0;
     int how, changes;
     void *more = NULL;
     collapse g;
@@ -70,18 +70,18 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     length = saved_size;
     if (how == 0) length = fuzz_bits(&in, 2) % (saved_size + 1);
     for (changes = fuzz_below(&in, 8); changes > 0; changes--) { /* anywhere, or in what comes before the arrays */
-        const size_t at = fuzz_below(&in, 2) ? fuzz_bits(&in, 2) % saved_size : 16 + sizeof(collapse_model) + fuzz_bits(&in, 2) % (8 + sizeof(collapse_state));
+        const size_t at = fuzz_below(&in, 2) ? fuzz_bits(&in, 2) % saved_size : RESTART_MAGIC + sizeof(collapse_model) + fuzz_bits(&in, 2) % (8 + sizeof(collapse_state));
         spoilt[at] = (unsigned char)fuzz_byte(&in);
     }
     if (how >= 2) { /* as if it had been written like that: as long as its numbers say, with the right checksum */
-        const size_t start = 16 + sizeof(collapse_model);
-        uint64_t hash = 14695981039346656037u, size_of_more = 0;
+        const size_t start = RESTART_MAGIC + sizeof(collapse_model);
+        uint64_t hash, size_of_more = 0;
         sph_index n = 0;
         if (fuzz_below(&in, 2)) n = (sph_index)(fuzz_below(&in, 2 * N) - 2), memcpy(spoilt + start + 8 + offsetof(collapse_state, n), &n, sizeof n);
         memcpy(&size_of_more, spoilt + start, 8);
         memcpy(&n, spoilt + start + 8 + offsetof(collapse_state, n), sizeof n);
         length = start + 8 + sizeof(collapse_state) + (size_t)(n > 0 && n < 2 * N ? n : N) * (ARRAYS + EVOLVED) * sizeof(double) + (size_t)(size_of_more < MORE ? size_of_more : MORE) + 8;
-        for (k = 0; k < length - 8; k++) hash = (hash ^ spoilt[k]) * 1099511628211u;
+        hash = restart_hash(RESTART_EMPTY, spoilt, length - 8);
         memcpy(spoilt + length - 8, &hash, 8);
     }
     file = fopen(path, "wb");
