@@ -9,6 +9,7 @@
 #include "../sph.h"
 #include "check.h"
 #include "clouds.h"
+#include "flows.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -20,53 +21,9 @@ static double worse(double m, double a) { return fabs(a) <= m ? m : fabs(a); }
 
 /* ---- a cloud with a state ---- */
 
-typedef struct flow {
-    cloud c;
-    sph_real *m, *rho, *p, *cs, *v[3], *a[3], *rate, *heating;
-} flow;
-
-static flow flow_of(cloud c, uint64_t seed)
-{
-    flow f;
-    pcg32 g;
-    sph_index i;
-    int k;
-    f.c = c;
-    f.m = (sph_real *)cloud_memory(12 * (size_t)c.n, sizeof *f.m);
-    f.rho = f.m + c.n;
-    f.p = f.rho + c.n;
-    f.cs = f.p + c.n;
-    f.rate = f.cs + c.n;
-    f.heating = f.rate + c.n;
-    for (k = 0; k < 3; k++) {
-        f.v[k] = f.heating + (k + 1) * c.n;
-        f.a[k] = f.heating + (k + 4) * c.n;
-    }
-    pcg32_seed(&g, seed, 5);
-    for (i = 0; i < c.n; i++) {
-        f.m[i] = SPH_R(pow(c.dx, c.dim) * (1.0 + 0.8 * cloud_symmetric(&g)));
-        f.rho[i] = SPH_R(1.0 + 0.8 * cloud_symmetric(&g));
-        f.p[i] = SPH_R(cloud_symmetric(&g));
-        f.cs[i] = SPH_R(2.0 + cloud_symmetric(&g));
-        for (k = 0; k < 3; k++) f.v[k][i] = SPH_R(k < c.dim ? cloud_symmetric(&g) : 0.0);
-    }
-    return f;
-}
-static void flow_free(flow *f)
-{
-    cloud_free(&f->c);
-    free(f->m);
-}
-static sph_vectors flow_v(const flow *f) { return sph_vectors_separate(f->v[0], f->v[1], f->v[2]); }
-static sph_vector_out flow_a(const flow *f) { return sph_vector_out_separate(f->a[0], f->a[1], f->a[2]); }
 static sph_fluid fluid(const flow *f, int viscosity, double alpha, double beta)
 {
-    sph_fluid s;
-    s.m = sph_scalars_array(f->m);
-    s.rho = sph_scalars_array(f->rho);
-    s.p = sph_scalars_array(f->p);
-    s.c = sph_scalars_array(f->cs);
-    s.v = flow_v(f);
+    sph_fluid s = flow_fluid(f);
     s.viscosity = viscosity;
     s.alpha = SPH_R(alpha);
     s.beta = SPH_R(beta);
@@ -74,10 +31,6 @@ static sph_fluid fluid(const flow *f, int viscosity, double alpha, double beta)
     return s;
 }
 enum { MONAGHAN, COLAGROSSI, HU_ADAMS, FORMS };
-static sph_cloud flow_cloud(const flow *f, sph_scalars h)
-{
-    return sph_cloud_of(cloud_points(&f->c), cloud_list(&f->c), h, sph_scalars_none());
-}
 static sph_index rates(int form, const flow *f, sph_scalars h, sph_fluid s)
 {
     const sph_cloud all = flow_cloud(f, h);

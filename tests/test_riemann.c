@@ -6,6 +6,7 @@
 #include "../sph.h"
 #include "check.h"
 #include "clouds.h"
+#include "flows.h"
 
 #include <string.h>
 
@@ -63,67 +64,17 @@ static void test_contact(void)
 
 /* ---- a cloud with a state of two fluids ---- */
 
-typedef struct flow {
-    cloud c;
-    sph_real *m, *rho, *p, *cs, *h, *rate, *heating, *v[3], *a[3];
-} flow;
-
-static flow flow_new(cloud c, uint64_t seed)
-{
-    flow f;
-    pcg32 g;
-    sph_index i;
-    int k;
-    f.c = c;
-    f.m = (sph_real *)cloud_memory(13 * (size_t)c.n, sizeof *f.m);
-    f.rho = f.m + c.n;
-    f.p = f.rho + c.n;
-    f.cs = f.p + c.n;
-    f.h = f.cs + c.n;
-    f.rate = f.h + c.n;
-    f.heating = f.rate + c.n;
-    for (k = 0; k < 3; k++) {
-        f.v[k] = f.heating + (k + 1) * c.n;
-        f.a[k] = f.heating + (k + 4) * c.n;
-    }
-    pcg32_seed(&g, seed, 5);
-    for (i = 0; i < c.n; i++) {
-        f.m[i] = SPH_R(pow(c.dx, c.dim) * (1.0 + 0.8 * cloud_symmetric(&g)));
-        f.rho[i] = SPH_R(1.0 + 0.8 * cloud_symmetric(&g));
-        f.p[i] = SPH_R(cloud_symmetric(&g));
-        f.cs[i] = SPH_R(2.0 + cloud_symmetric(&g));
-        f.h[i] = c.h * SPH_R(1.0 - 0.3 * (i % 4) / 4.0);
-        for (k = 0; k < 3; k++) f.v[k][i] = SPH_R(k < c.dim ? cloud_symmetric(&g) : 0.0);
-    }
-    return f;
-}
-static void flow_free(flow *f)
-{
-    cloud_free(&f->c);
-    free(f->m);
-}
-static sph_fluid fluid(const flow *f)
-{
-    sph_fluid s;
-    memset(&s, 0, sizeof s);
-    s.m = sph_scalars_array(f->m);
-    s.rho = sph_scalars_array(f->rho);
-    s.p = sph_scalars_array(f->p);
-    s.c = sph_scalars_array(f->cs);
-    s.v = sph_vectors_separate(f->v[0], f->v[1], f->v[2]);
-    return s;
-}
 static sph_fluid_out into(const flow *f)
 {
     sph_fluid_out o;
     memset(&o, 0, sizeof o);
-    o.acceleration = sph_vector_out_separate(f->a[0], f->a[1], f->a[2]);
+    o.acceleration = flow_a(f);
     o.rate = f->rate;
     o.heating = f->heating;
     return o;
 }
 static sph_scalars lengths(const flow *f, int own) { return own ? sph_scalars_array(f->h) : cloud_h(&f->c); }
-static sph_cloud flow_cloud(const flow *f, int own) { return sph_cloud_of(cloud_points(&f->c), cloud_list(&f->c), lengths(f, own), sph_scalars_none()); }
+static sph_cloud view(const flow *f, int own) { return flow_cloud(f, lengths(f, own)); }
 static sph_riemann_options told(double limiter, double gx, double gy, double gz)
 {
     sph_riemann_options o;
@@ -144,14 +95,14 @@ static void test_sums(void)
     for (dim = 1; dim <= 3; dim++)
         for (own = 0; own < 2; own++)
             for (which = 0; which < 3; which++) {
-                flow f = flow_new(cloud_lattice(dim, edge[dim], 1.3, 0.2, 3), 17);
+                flow f = flow_of(cloud_lattice(dim, edge[dim], 1.3, 0.2, 3), 17);
                 const double g[3] = {0.0, which ? -1.3 : 0.0, which ? 0.4 : 0.0};
                 const double limiter = which ? limiters[which] : 3.0;
                 double a_off = 0.0, rate_off = 0.0, heat_off = 0.0, a_size = 0.0, rate_size = 0.0, heat_size = 0.0, push[3] = {0.0, 0.0, 0.0}, size = 0.0, energy = 0.0, lost = 0.0,
                        heat_lost = 0.0, heated = 0.0;
                 sph_index i, q;
                 int k;
-                CHECK(sph_fluid_rates_riemann(KERNEL, dim, flow_cloud(&f, own), fluid(&f), told(limiters[which], g[0], g[1], g[2]), into(&f)) == 0);
+                CHECK(sph_fluid_rates_riemann(KERNEL, dim, view(&f, own), flow_fluid(&f), told(limiters[which], g[0], g[1], g[2]), into(&f)) == 0);
                 for (i = 0; i < f.c.n; i++) {
                     double a[3] = {0.0, 0.0, 0.0}, rate = 0.0, heat = 0.0, xi[3], xj[3];
                     const double ri = (double)f.rho[i], Zi = ri * (double)f.cs[i], pi = (double)f.p[i], Vi = (double)f.m[i] / ri;
@@ -217,10 +168,10 @@ static void test_sums(void)
 
 static void test_without_beta(void)
 {
-    flow f = flow_new(cloud_lattice(2, 13, 1.4, 0.2, 8), 5);
+    flow f = flow_of(cloud_lattice(2, 13, 1.4, 0.2, 8), 5);
     sph_real *const a = (sph_real *)cloud_memory((size_t)f.c.n, sizeof *a);
-    const sph_cloud all = flow_cloud(&f, 1);
-    sph_fluid s = fluid(&f);
+    const sph_cloud all = view(&f, 1);
+    sph_fluid s = flow_fluid(&f);
     sph_fluid_out o = into(&f);
     double off = 0.0, size = 0.0;
     sph_index i;
@@ -248,7 +199,7 @@ static void test_at_rest(void)
     int dim;
     for (dim = 1; dim <= 3; dim++) {
         static const int edge[] = {0, 31, 11, 7};
-        flow f = flow_new(cloud_lattice(dim, edge[dim], 1.3, 0.2, 12), 6);
+        flow f = flow_of(cloud_lattice(dim, edge[dim], 1.3, 0.2, 12), 6);
         const double g[3] = {-2.0, 0.7, 0.3};
         double still = 0.0, moved = 0.0;
         sph_index i;
@@ -261,9 +212,9 @@ static void test_at_rest(void)
             f.p[i] = SPH_R(1.5 * p);
             for (k = 0; k < 3; k++) f.v[k][i] = SPH_R(0);
         }
-        CHECK(sph_fluid_rates_riemann(KERNEL, dim, flow_cloud(&f, 1), fluid(&f), told(0.0, 0.0, 0.0, 0.0), into(&f)) == 0);
+        CHECK(sph_fluid_rates_riemann(KERNEL, dim, view(&f, 1), flow_fluid(&f), told(0.0, 0.0, 0.0, 0.0), into(&f)) == 0);
         for (i = 0; i < f.c.n; i++) moved = worse(moved, (double)f.rate[i]);
-        CHECK(sph_fluid_rates_riemann(KERNEL, dim, flow_cloud(&f, 1), fluid(&f), told(0.0, g[0], g[1], g[2]), into(&f)) == 0);
+        CHECK(sph_fluid_rates_riemann(KERNEL, dim, view(&f, 1), flow_fluid(&f), told(0.0, g[0], g[1], g[2]), into(&f)) == 0);
         for (i = 0; i < f.c.n; i++) {
             still = worse(still, (double)f.rate[i]);
             CHECK_NEAR("heating at rest", i, f.heating[i], 0.0, 0.0);
@@ -284,7 +235,7 @@ static double tank_drift(int with_gravity)
     const sph_real zero = SPH_R(0);
     const sph_vectors still = {sph_scalars_same(&zero), sph_scalars_same(&zero), sph_scalars_same(&zero)};
     const sph_riemann_options options = told(0.0, 0.0, with_gravity ? -1.0 : 0.0, 0.0);
-    flow f = flow_new(cloud_new(2, ALL), 1);
+    flow f = flow_of(cloud_new(2, ALL), 1);
     sph_real share[ALL], scratch[2][ALL], start[WATER];
     double drift = 0.0;
     pcg32 random;
@@ -309,7 +260,7 @@ static double tank_drift(int with_gravity)
     for (step = 0; step * dt < 10.0; step++) {
         const sph_points points = sph_points_periodic(cloud_points(&f.c), SPH_R(width), zero, zero);
         sph_cloud all = sph_cloud_of(points, cloud_list(&f.c), cloud_h(&f.c), sph_scalars_none()), water;
-        const sph_fluid s = fluid(&f);
+        const sph_fluid s = flow_fluid(&f);
         const sph_wall wall = {sph_scalars_array(share), s.rho, s.p, s.v, still, sph_vectors_separate(0, 0, 0), {zero, SPH_R(-1), zero}};
         const sph_wall_out front = {.p = f.p, .v = sph_vector_out_separate(f.v[0], f.v[1], 0)};
         if (step % 20 == 0) { /* lists with room for what moves in 20 steps */
