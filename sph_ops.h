@@ -197,7 +197,7 @@
  *                  sph_tension_css(k, dim, cloud, tension, acceleration)   by the stress: keeps momentum
  *                  sph_tension_csf(k, dim, cloud, tension, out)      by the curvature, and the curvature
  *   walls by       sph_wall_kernel_of  sph_wall_point  sph_wall_segment  sph_wall_triangle
- *   boundary       sph_wall_pair_gradient  sph_wall_gradient_value  sph_wall_laplacian_value
+ *   boundary       sph_wall_gradient_value  sph_wall_laplacian_value
  *   integrals      sph_wall_gamma(k, dim, cloud, elements, out)      gamma and grad gamma, exact
  *                  sph_wall_gradient(k, dim, cloud, wall, f, out)    in sum form
  *                  sph_wall_laplacian(k, dim, cloud, wall, f, out)   BIM in more than one dimension
@@ -305,6 +305,23 @@ SPH_FN sph_vec sph_subtract(int dim, sph_vec a, sph_vec b)
     if (dim > 1) a.y -= b.y;
     if (dim > 2) a.z -= b.z;
     return a;
+}
+/* a + b, likewise. */
+SPH_FN sph_vec sphi_plus(int dim, sph_vec a, sph_vec b)
+{
+    a.x += b.x;
+    if (dim > 1) a.y += b.y;
+    if (dim > 2) a.z += b.z;
+    return a;
+}
+/* a x b, of three components each. */
+SPH_FN sph_vec sphi_cross(sph_vec a, sph_vec b)
+{
+    sph_vec c;
+    c.x = a.y * b.z - a.z * b.y;
+    c.y = a.z * b.x - a.x * b.z;
+    c.z = a.x * b.y - a.y * b.x;
+    return c;
 }
 /* |v| = sqrt(v . v), over dim components. */
 SPH_FN sph_real sph_length(int dim, sph_vec v) { return SPHI_SQRT(sph_dot(dim, v, v)); }
@@ -1675,29 +1692,33 @@ SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, 
 
 /* -------- two-point Laplacians: sweeps */
 
+/* The sum of a target. */
+SPH_FN sph_real sphi_brookshaw_sum(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f, sph_index i)
+{
+    const sph_vec x_i = sphi_point(dim, cloud.points, i);
+    const sph_real h_i = sphi_at(cloud.h, i), f_i = sphi_at(f, i);
+    sph_real sum = SPH_R(0);
+    sph_index p;
+    SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sum) {
+        const sph_index j = cloud.list.index[p];
+        const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+        sum += sph_laplacian_weight_brookshaw(k, dim, sph_length(dim, x_ij), h_i, sphi_at(cloud.volume, j)) *
+               (sphi_at(f, j) - f_i);
+    }
+    return sum;
+}
 /* L f_i = sum_j 2 V_j (f_i - f_j) F_ij. For source and errors see sph_laplacian_weight_brookshaw. Where the
    sum overflows, the result is 0 and SPH_NOT_FINITE. */
 SPH_FN sph_index sph_laplacian_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                          sph_scalar_out out)
 {
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
-    sph_index i, p, failed = 0;
+    sph_index i, failed = 0;
     if (!error) error = sphi_check_field("f", f, cloud.points.n);
     if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
-    for (i = cloud.first; i < cloud.last; i++) {
-        const sph_vec x_i = sphi_point(dim, cloud.points, i);
-        const sph_real h_i = sphi_at(cloud.h, i), f_i = sphi_at(f, i);
-        sph_real sum = SPH_R(0);
-        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sum) {
-            const sph_index j = cloud.list.index[p];
-            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
-            sum +=
-                sph_laplacian_weight_brookshaw(k, dim, sph_length(dim, x_ij), h_i, sphi_at(cloud.volume, j)) *
-                (sphi_at(f, j) - f_i);
-        }
-        failed += sphi_store(out, i, sum);
-    }
+    for (i = cloud.first; i < cloud.last; i++)
+        failed += sphi_store(out, i, sphi_brookshaw_sum(k, dim, cloud, f, i));
     return failed;
 }
 /* The same Laplacian as rows: L f_i = sum_p row[p] (f_j - f_i) with row[p] = -2 V_j F_ij >= 0, factor 1 and
@@ -2590,8 +2611,7 @@ SPH_FN sph_index sphi_derivative_rows(int method, sph_kernel k, int dim, sph_clo
         sph_real conditioning = SPH_R(0), sum = SPH_R(0);
         int state;
         c.factor = SPH_R(0);
-        sphi_moments(method, k, dim, 0, i, cloud.points, cloud.list, h_i, cloud.volume, cloud.volume, &t,
-                     &m);
+        sphi_moments(method, k, dim, 0, i, cloud.points, cloud.list, h_i, cloud.volume, cloud.volume, &t, &m);
         state = method == SPHI_CSPM
                     ? sph_coefficients_cspm(dim, &m, h_i, d, &c, out.conditioning ? &conditioning : 0)
                     : sph_coefficients_block(dim, method != SPHI_WLS, &m, h_i, d, &c,
@@ -5339,14 +5359,13 @@ SPH_FN sph_index sph_wall_rows_adami(sph_kernel k, int dim, sph_cloud cloud, sph
         sums.p = pressure;
         sums.v.x = sums.v.y = sums.v.z = SPH_R(0);
         if (!(weight > SPH_R(0))) state = SPH_TOO_FEW;
-        if (state)
-            for (q = cloud.list.start[i]; q < end; q++) row[q] = SPH_R(0);
-        else
+        else {
             SPH_EACH(q, cloud.list.start[i], end) row[q] = sph_wall_row_weight(row[q], sums);
-        pressure = state ? SPH_R(0) : sph_wall_pressure(sums);
-        if (sphi_row_finite(row, cloud.list.start[i], end) || !sphi_finite(pressure)) state = SPH_NOT_FINITE;
-        if (state == SPH_NOT_FINITE)
-            for (q = cloud.list.start[i]; q < end; q++) row[q] = SPH_R(0);
+            pressure = sph_wall_pressure(sums);
+            if (sphi_row_finite(row, cloud.list.start[i], end) || !sphi_finite(pressure))
+                state = SPH_NOT_FINITE;
+        }
+        for (q = cloud.list.start[i]; state && q < end; q++) row[q] = SPH_R(0);
         source.p[(size_t)i * sphi_stride(source.stride)] = state ? SPH_R(0) : pressure;
         sphi_put(out.diagonal, sphi_stride(out.stride), i, SPH_R(1));
         sphi_row_answer(out, cloud.list, i, 0, SPH_R(1), state);
@@ -5459,10 +5478,10 @@ SPH_FN sph_real sph_density_diffusion_weight(sph_real V_j, sph_real strength, sp
     return -strength * f_ij * V_j;
 }
 /* The longest step in which density diffusion makes no new extreme: h / (S delta c), with
-   S = h^2 sum_j 2 V_j |F_ij| in the limit of many neighbours. In 2D S = 4 pi h^2 W(0), 7 for
-   the C2 kernel of Wendland. Twice that step is the limit
-   of stability. With delta = 0.1 it is longer than that of sound (sph_time_step_sound). Where nothing limits
-   the step the answer is 1/SPHI_TINY. Needs h > 0, delta >= 0 and c >= 0. */
+   S = h^2 sum_j 2 V_j |F_ij| in the limit of many neighbours. In 2D S = 4 pi h^2 W(0), 7 for the C2 kernel of
+   Wendland. Twice that step is the limit of stability. With delta = 0.1 it is longer than that of sound
+   (sph_time_step_sound). Where nothing limits the step the answer is 1/SPHI_TINY. Needs h > 0, delta >= 0 and
+   c >= 0. */
 SPH_FN sph_real sph_time_step_density_diffusion(sph_kernel k, int dim, sph_real h, sph_real delta, sph_real c)
 {
     const sph_real dq = sph_kernel_support_ratio(k) / SPH_R(64);
@@ -5485,8 +5504,8 @@ SPH_FN sph_real sph_time_step_density_diffusion(sph_kernel k, int dim, sph_real 
 /* What density diffusion needs to know. */
 typedef struct sph_diffusion {
     sph_fluid fluid; /* rho is read, and v; where v is null there is no density rate beside the diffusion */
-    sph_real delta; /* its strength; 0 means the usual 0.1, a negative number none */
-    sph_tait tait;  /* of the liquid: c >= 0 is read, and by fourtakas rho0 */
+    sph_real delta;  /* its strength; 0 means the usual 0.1, a negative number none */
+    sph_tait tait;   /* of the liquid: c >= 0 is read, and by fourtakas rho0 */
     /* A pair has the factor share_i share_j: 1 for the liquid, 0 for walls and other fluids. Null: all take
        part. */
     sph_scalars share;
@@ -5585,12 +5604,12 @@ SPH_FN sph_index sphi_diffusion(int form, sph_kernel k, int dim, sph_cloud cloud
 
 /* drho_i/dt = rho_i sum_j V_j v_ij . grad_i W_ij + D_i: the density rate of the liquid with the density
    diffusion of Molteni & Colagrossi. V is the volume of the cloud, m / rho of the same moment. Where
-   diffusion.fluid.v is null, the answer is D_i alone. Take the new velocities, as the order
-   of a step in the chapter of fluids says. A pair uses (h_i + h_j) / 2: lists by SPH_MEAN, or by any
-   criterion if all particles have the same h.
+   diffusion.fluid.v is null, the answer is D_i alone. Take the new velocities, as the order of a step in the
+   chapter of fluids says. A pair uses (h_i + h_j) / 2: lists by SPH_MEAN, or by any criterion if all
+   particles have the same h.
      D      is delta c h times sph_laplacian_brookshaw of the density, if all have the same h. It conserves
-            sum_i V_i rho_i to round-off, and is dissipative: sum_i V_i rho_i D_i <= 0. It
-            is 0 for constants only: it takes the density of a column at rest for noise.
+            sum_i V_i rho_i to round-off, and is dissipative: sum_i V_i rho_i D_i <= 0. It is 0 for
+            constants only: it takes the density of a column at rest for noise.
    Across a jump of rho0 diffuse rho / rho0 instead, or give the other fluid the share 0. Where the sum
    overflows, the result is 0 and SPH_NOT_FINITE. Returns the number of these targets, or a negative
    sph_error. Sources stand at the head of the chapter. */
@@ -5730,7 +5749,7 @@ SPH_FN int sph_surface_covers(int dim, sph_vec normal, sph_vec x_ij, sph_real h)
    divergence and lambda. */
 typedef struct sph_surface_out {
     SPH_GLOBAL sph_real *divergence, *eigenvalue; /* div r and lambda, pure numbers */
-    sph_vector_out normal;                    /* outward, of length 1 or 0 */
+    sph_vector_out normal;                        /* outward, of length 1 or 0 */
     size_t stride;
     SPH_GLOBAL unsigned char *status;
 } sph_surface_out;
@@ -5772,10 +5791,10 @@ SPH_FN sph_index sph_free_surface(sph_kernel k, int dim, sph_cloud cloud, sph_su
     return failed;
 }
 /* flag[i] = 1 for the targets at the surface, else 0, from the eigenvalue lambda and the normals of
-   sph_free_surface.
-   Only the band of sph_surface_of is scanned, until a neighbour covers the target (sph_surface_covers). In
-   the band, a target without a normal is at the surface. h is that of the target; lists must hold every
-   source with r < 2 h. Returns the number of targets at the surface, or a negative sph_error. */
+   sph_free_surface. Only the band of sph_surface_of is scanned, until a neighbour covers the target
+   (sph_surface_covers). In the band, a target without a normal is at the surface. h is that of the target;
+   lists must hold every source with r < 2 h. Returns the number of targets at the surface, or a negative
+   sph_error. */
 SPH_FN sph_index sph_free_surface_cone(int dim, sph_cloud cloud, sph_scalars eigenvalue, sph_vectors normal,
                                        SPH_GLOBAL unsigned char *flag)
 {
@@ -5853,8 +5872,8 @@ SPH_FN sph_real sph_shift_strength_sun(sph_real h, sph_real path, sph_real lengt
     return SPH_R(2) * path * h * h / length;
 }
 /* What a free surface leaves of a shift dx: none for lambda < 0.4 (splash), only the part along the surface,
-   dx - n (n . dx), for lambda < 0.75, and all of it inside. lambda and
-   the normal n come from sph_free_surface. The limits are those of Sun et al. 2019. */
+   dx - n (n . dx), for lambda < 0.75, and all of it inside. lambda and the normal n come from
+   sph_free_surface. The limits are those of Sun et al. 2019. */
 SPH_FN sph_vec sph_shift_at_surface(int dim, sph_vec shift, sph_real lambda, sph_vec normal)
 {
     if (lambda < SPH_R(0.4)) return sph_scale(SPH_R(0), shift);
@@ -5920,12 +5939,12 @@ SPH_FN sph_transport_change sph_transport_pair_adami(int dim, sph_transport_side
 
 /* How particles are shifted. Zeros are the defaults where nothing else is said. */
 typedef struct sph_shift {
-    sph_scalars strength; /* an area, of each particle or of all. There is no default */
-    sph_real tensile;     /* R; 0: no such term */
-    sph_real spacing;     /* dx / h, of the particles as they should lie; is read if R is not 0 */
+    sph_scalars strength;   /* an area, of each particle or of all. There is no default */
+    sph_real tensile;       /* R; 0: no such term */
+    sph_real spacing;       /* dx / h, of the particles as they should lie; is read if R is not 0 */
     sph_scalars eigenvalue; /* lambda of sph_free_surface. Null: there is no free surface */
-    sph_vectors normal;   /* of sph_free_surface; is read with lambda */
-    sph_real longest;     /* the longest shift, a length; 0 means 0.2 h, a negative number no limit */
+    sph_vectors normal;     /* of sph_free_surface; is read with lambda */
+    sph_real longest;       /* the longest shift, a length; 0 means 0.2 h, a negative number no limit */
 } sph_shift;
 
 SPH_FN sph_index sphi_shift_range(int uniform, int tensile, sph_kernel k, int dim, sph_cloud cloud,
@@ -5955,9 +5974,8 @@ SPH_FN sph_index sphi_shift_range(int uniform, int tensile, sph_kernel k, int di
         shift.z = gz;
         shift = sph_scale(-sphi_at(s->strength, i), shift);
         if (s->eigenvalue.p)
-            shift =
-                sph_shift_at_surface(dim, shift, sphi_at(s->eigenvalue, i),
-                                     sphi_vector_at(dim, s->normal, i));
+            shift = sph_shift_at_surface(dim, shift, sphi_at(s->eigenvalue, i),
+                                         sphi_vector_at(dim, s->normal, i));
         if (!(s->longest < SPH_R(0)))
             shift = sph_shift_limited(dim, shift, s->longest > SPH_R(0) ? s->longest : SPH_R(0.2) * h_i);
         failed += sphi_store_vector(dim, out, i, shift);
@@ -6030,10 +6048,9 @@ SPH_FN sph_index sphi_shift_rates_range(int uniform, sph_kernel k, int dim, sph_
     }
     return failed;
 }
-/* What particles that move with v + u instead of v, where u = shift is a velocity, add to their
-   acceleration and density rate: u . grad v and u . grad rho, by sph_shift_rate_pair.
-   Sun et al. 2019. Of fluid, the members rho and v are read; out.heating is not written. A pair uses (h_i
-   + h_j) / 2 (lists by SPH_MEAN).
+/* What particles that move with v + u instead of v, where u = shift is a velocity, add to their acceleration
+   and density rate: u . grad v and u . grad rho, by sph_shift_rate_pair. Sun et al. 2019. Of fluid, the
+   members rho and v are read; out.heating is not written. A pair uses (h_i + h_j) / 2 (lists by SPH_MEAN).
    For a constant f the rate is 2 f u_i . sum_j V_j grad_i W_ij: not 0 in disorder, so that it depends on the
    frame, and momentum is not conserved. (sum_i V_i of the part div(rho u) is 0 to round-off.) u . grad f
    with sph_gradient_cspm is exact for linear f instead, and conserves nothing. Returns the number of targets
@@ -6195,8 +6212,7 @@ SPH_FN sph_real sph_riemann_beta(sph_riemann_side left, sph_riemann_side right, 
     SPH_ASSERT(left.z > SPH_R(0) && right.z > SPH_R(0) && rho > SPH_R(0) && limiter >= SPH_R(0));
     return SPH_R(1) - sphi_pos(SPH_R(1) - limiter * sphi_pos(left.u - right.u) * (SPH_R(2) * rho * inverse));
 }
-/* The part of P_i - P_j that a fluid at rest has: rho gravity . x_ij, with the mean of the
-   densities. */
+/* The part of P_i - P_j that a fluid at rest has: rho gravity . x_ij, with the mean of the densities. */
 SPH_FN sph_real sph_riemann_rest(int dim, sph_real rho, sph_vec gravity, sph_vec x_ij)
 {
     return rho * sph_dot(dim, gravity, x_ij);
@@ -6416,14 +6432,14 @@ SPH_FN sph_vec sph_tension_pair_css(int dim, sph_real sigma, sph_vec n_i, sph_ve
 {
     const sph_vec a = sph_tension_stress_times(dim, n_i, x_ij), b = sph_tension_stress_times(dim, n_j, x_ij);
     const sph_real v = sigma * V_j * f_ij;
-    return sph_scale(v, sph_subtract(dim, a, sph_scale(SPH_R(-1), b)));
+    return sph_scale(v, sphi_plus(dim, a, b));
 }
 /* Akinci's cohesion and curvature, for computer graphics: what j adds to the acceleration of i,
        -2 gamma_rho0 / (rho_i + rho_j) (m_j C(r) x_ij / r + n_ij),   n_ij = n_i - n_j,
-   with n_i = support sum_j V_j grad_i W_ij and gamma_rho0 = gamma rho0.
-   C is sph_cohesion_kernel_akinci, which is normalised in 3D. gamma is found by trial. Equal and opposite for
-   equal masses. Akinci, Akinci & Teschner 2013, (1), (4), (5). Of the sides m and rho are read, and m of j
-   only. Needs rho > 0 on both sides. */
+   with n_i = support sum_j V_j grad_i W_ij and gamma_rho0 = gamma rho0. C is sph_cohesion_kernel_akinci,
+   which is normalised in 3D. gamma is found by trial. Equal and opposite for equal masses. Akinci, Akinci &
+   Teschner 2013, (1), (4), (5). Of the sides m and rho are read, and m of j only. Needs rho > 0 on both
+   sides. */
 SPH_FN sph_vec sph_tension_pair_akinci(sph_fluid_side i, sph_fluid_side j, sph_vec x_ij, sph_vec n_ij,
                                        sph_real r, sph_real support, sph_real gamma_rho0)
 {
@@ -6431,8 +6447,7 @@ SPH_FN sph_vec sph_tension_pair_akinci(sph_fluid_side i, sph_fluid_side j, sph_v
     SPH_ASSERT(i.rho > SPH_R(0) && j.rho > SPH_R(0));
     return sph_scale(
         factor,
-        sph_subtract(3, n_ij,
-                     sph_scale(-j.m * sph_cohesion_kernel_akinci(r, support) / (r + SPHI_TINY), x_ij)));
+        sphi_plus(3, n_ij, sph_scale(j.m * sph_cohesion_kernel_akinci(r, support) / (r + SPHI_TINY), x_ij)));
 }
 
 /* -------- surface tension: sweeps */
@@ -6881,14 +6896,6 @@ SPH_FN sph_wall_part sph_wall_segment(const sph_wall_kernel *t, sph_vec a, sph_v
     part.gradient.z = SPH_R(0);
     return part;
 }
-SPH_FN sph_vec sphi_cross(sph_vec a, sph_vec b)
-{
-    sph_vec c;
-    c.x = a.y * b.z - a.z * b.y;
-    c.y = a.z * b.x - a.x * b.z;
-    c.z = a.x * b.y - a.y * b.x;
-    return c;
-}
 /* The part of a triangle, in 3D, with the corners a, b, c relative to x. The normal (b - a) x (c - a) points
    out of the fluid. In its plane the integral by r dr is done first; the edges remain. */
 SPH_FN sph_wall_part sph_wall_triangle(const sph_wall_kernel *t, sph_vec a, sph_vec b, sph_vec c, sph_real h)
@@ -6923,12 +6930,8 @@ SPH_FN sph_wall_part sph_wall_triangle(const sph_wall_kernel *t, sph_vec a, sph_
     return part;
 }
 
-/* The gradient in sum form: what j adds, V_j f_j F x_ij. */
-SPH_FN sph_vec sph_wall_pair_gradient(sph_real V_j, sph_real f_j, sph_vec x_ij, sph_real f_ij)
-{
-    return sph_scale(V_j * f_j * f_ij, x_ij);
-}
-/* The gradient from this sum, f_w at the wall, gamma and its gradient. Needs gamma > 0. */
+/* The gradient from the sum of sph_gradient_pair_difference for f_j in the place of f_j - f_i, f_w at the
+   wall, gamma and its gradient. Needs gamma > 0. */
 SPH_FN sph_vec sph_wall_gradient_value(int dim, sph_vec sum, sph_real f_w, sph_real gamma, sph_vec gradient)
 {
     SPH_ASSERT(gamma > SPH_R(0));
@@ -6980,11 +6983,11 @@ SPH_FN sphi_wall_corners sphi_wall_element(int dim, sph_points points, const sph
     at.b = sphi_vector_at(dim, elements->b, e);
     at.c = dim > 2 ? sphi_vector_at(dim, elements->c, e) : at.b;
     {
-        const sph_vec middle = sph_scale(SPH_R(-0.5), sph_subtract(dim, sph_scale(SPH_R(-1), at.a), at.b));
+        const sph_vec middle = sph_scale(SPH_R(0.5), sphi_plus(dim, at.a, at.b));
         const sph_vec home = sph_subtract(dim, sphi_separation(dim, points, middle, x), middle);
-        at.a = sph_subtract(dim, home, sph_scale(SPH_R(-1), at.a));
-        at.b = sph_subtract(dim, home, sph_scale(SPH_R(-1), at.b));
-        at.c = sph_subtract(dim, home, sph_scale(SPH_R(-1), at.c));
+        at.a = sphi_plus(dim, home, at.a);
+        at.b = sphi_plus(dim, home, at.b);
+        at.c = sphi_plus(dim, home, at.c);
     }
     return at;
 }
@@ -7069,10 +7072,9 @@ SPH_FN sph_index sph_wall_gamma(sph_kernel k, int dim, sph_cloud cloud, sph_wall
         int lost;
         for (p = from; p < to; p++) {
             const sph_index e = listed ? elements.list.index[p] : p;
-            out_of = sph_subtract(
+            out_of = sphi_plus(
                 dim, out_of,
-                sph_scale(SPH_R(-1), sphi_wall_touched(
-                                         dim, sphi_wall_element(dim, cloud.points, &elements, e, x), reach)));
+                sphi_wall_touched(dim, sphi_wall_element(dim, cloud.points, &elements, e, x), reach));
         }
         x = sph_subtract(dim, x, sph_scale(SPH_R(2) * reach / (sph_length(dim, out_of) + SPHI_TINY), out_of));
         for (p = from; p < to; p++) {
@@ -7101,9 +7103,9 @@ SPH_FN int sphi_check_wall(sph_kernel k, int dim, sph_cloud cloud, sph_wall_term
 }
 /* grad f_i = (sum_j V_j f_j grad_i W_ij - f_w grad gamma_i) / gamma_i, the particles of the fluid being all
    sources, with wall.value the f_w of each target. Ferrand et al. 2013. W has the h of the target. As rows:
-   V_j F_ij x_ij / gamma_i for each neighbour, and -grad gamma_i / gamma_i for f_w. For its
-   error see above. SPH_ERROR_VALUE for a gamma that is not positive. Returns the number of targets
-   whose result overflowed (it is 0 then), or a negative sph_error. */
+   V_j F_ij x_ij / gamma_i for each neighbour, and -grad gamma_i / gamma_i for f_w. For its error see above.
+   SPH_ERROR_VALUE for a gamma that is not positive. Returns the number of targets whose result overflowed (it
+   is 0 then), or a negative sph_error. */
 SPH_FN sph_index sph_wall_gradient(sph_kernel k, int dim, sph_cloud cloud, sph_wall_terms wall, sph_scalars f,
                                    sph_vector_out out)
 {
@@ -7120,8 +7122,8 @@ SPH_FN sph_index sph_wall_gradient(sph_kernel k, int dim, sph_cloud cloud, sph_w
         SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sx, sy, sz) {
             const sph_index j = cloud.list.index[p];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
-            const sph_vec g = sph_wall_pair_gradient(sphi_at(cloud.volume, j), sphi_at(f, j), x_ij,
-                                                     sph_kernel_f(k, dim, sph_length(dim, x_ij), h_i));
+            const sph_vec g = sph_gradient_pair_difference(k, dim, sphi_at(cloud.volume, j), sphi_at(f, j),
+                                                           x_ij, sph_length(dim, x_ij), h_i);
             sx += g.x;
             sy += g.y;
             sz += g.z;
@@ -7145,26 +7147,16 @@ SPH_FN sph_index sph_wall_laplacian(sph_kernel k, int dim, sph_cloud cloud, sph_
                                     sph_scalars f, sph_scalar_out out)
 {
     int error = sphi_check_wall(k, dim, cloud, wall, f);
-    sph_index i, p, failed = 0;
+    sph_index i, failed = 0;
     if (!error) error = sphi_check_vectors("wall.slope", dim, wall.slope, cloud.points.n);
     if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
-    for (i = cloud.first; i < cloud.last; i++) {
-        const sph_vec x_i = sphi_point(dim, cloud.points, i);
-        const sph_real h_i = sphi_at(cloud.h, i), f_i = sphi_at(f, i);
-        sph_real sum = SPH_R(0);
-        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sum) {
-            const sph_index j = cloud.list.index[p];
-            const sph_real r =
-                sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)));
-            sum += sph_laplacian_weight_brookshaw(k, dim, r, h_i, sphi_at(cloud.volume, j)) *
-                   (sphi_at(f, j) - f_i);
-        }
-        failed += sphi_store(out, i,
-                             sph_wall_laplacian_value(dim, sum, sphi_vector_at(dim, wall.slope, i),
-                                                      sphi_at(wall.gamma, i),
-                                                      sphi_vector_at(dim, wall.gradient, i)));
-    }
+    for (i = cloud.first; i < cloud.last; i++)
+        failed +=
+            sphi_store(out, i,
+                       sph_wall_laplacian_value(dim, sphi_brookshaw_sum(k, dim, cloud, f, i),
+                                                sphi_vector_at(dim, wall.slope, i), sphi_at(wall.gamma, i),
+                                                sphi_vector_at(dim, wall.gradient, i)));
     return failed;
 }
 
@@ -7522,11 +7514,7 @@ SPH_FN sph_real sph_cleaning_rate_velocity(sph_cleaning_wave w, sph_real psi, sp
    0.075 n windings (examples/papers/cleaning_euler_potentials.c). */
 SPH_FN sph_vec sph_euler_potentials(sph_vec grad_alpha, sph_vec grad_beta)
 {
-    sph_vec field;
-    field.x = grad_alpha.y * grad_beta.z - grad_alpha.z * grad_beta.y;
-    field.y = grad_alpha.z * grad_beta.x - grad_alpha.x * grad_beta.z;
-    field.z = grad_alpha.x * grad_beta.y - grad_alpha.y * grad_beta.x;
-    return field;
+    return sphi_cross(grad_alpha, grad_beta);
 }
 /* The present value of a switch, and its bounds. */
 typedef struct sph_switch {
@@ -7598,12 +7586,7 @@ SPH_FN sph_real sph_divergence_pair_difference(int dim, sph_real weight, sph_vec
    each component: note the sign. Price 2012, (79). Exact for constants. */
 SPH_FN sph_vec sph_curl_pair_difference(sph_real weight, sph_vec a_ij, sph_vec x_ij)
 {
-    const sph_vec d = sph_scale(weight, a_ij);
-    sph_vec c;
-    c.x = d.y * x_ij.z - d.z * x_ij.y;
-    c.y = d.z * x_ij.x - d.x * x_ij.z;
-    c.z = d.x * x_ij.y - d.y * x_ij.x;
-    return c;
+    return sphi_cross(sph_scale(weight, a_ij), x_ij);
 }
 /* Makes the derivative at i of a sum of difference forms with the weights m_j F_i: -sum / (Omega_i rho_i).
    Needs rho > 0 and Omega > 0. */
@@ -8542,7 +8525,7 @@ SPH_FN sph_index sph_conserved_sums(int dim, sph_cloud cloud, sph_scalars m, sph
     if (error < 0) return error;
     for (c = 0; c < 8; c++) sum[c] = lost[c] = SPH_R(0);
     for (i = cloud.first; i < cloud.last; i++) {
-        const sph_vec r = sphi_point(dim, x, i), u = sphi_vector_at(dim, v, i);
+        const sph_vec r = sphi_point(dim, x, i), u = sphi_vector_at(dim, v, i), turn = sphi_cross(r, u);
         const sph_real m_i = sphi_at(m, i);
         sph_real term[8];
         term[0] = m_i;
@@ -8550,9 +8533,9 @@ SPH_FN sph_index sph_conserved_sums(int dim, sph_cloud cloud, sph_scalars m, sph
         term[2] = m_i * u.x;
         term[3] = m_i * u.y;
         term[4] = m_i * u.z;
-        term[5] = m_i * (r.y * u.z - r.z * u.y);
-        term[6] = m_i * (r.z * u.x - r.x * u.z);
-        term[7] = m_i * (r.x * u.y - r.y * u.x);
+        term[5] = m_i * turn.x;
+        term[6] = m_i * turn.y;
+        term[7] = m_i * turn.z;
         for (c = 0; c < 8; c++) sphi_add_compensated(&sum[c], &lost[c], term[c]);
     }
     for (c = 0; c < 8; c++) ok = ok && sphi_finite(sum[c]);

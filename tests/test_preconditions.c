@@ -860,8 +860,6 @@ static void fluids(void)
         FORBIDDEN(sph_wall_triangle(&points, nothing, nothing, nothing, one))
         FORBIDDEN_LENGTH(x, sph_wall_triangle(&triangles, nothing, nothing, nothing, x))
     }
-    FUNCTION(sph_wall_pair_gradient)
-    ALLOWED(sph_vec, sph_wall_pair_gradient(zero, zero, nothing, zero))
     FUNCTION(sph_wall_gradient_value)
     ALLOWED(sph_vec, sph_wall_gradient_value(3, nothing, zero, small_number, nothing))
     FORBIDDEN_LENGTH(x, sph_wall_gradient_value(3, nothing, one, x, nothing))

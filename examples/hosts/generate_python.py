@@ -37,7 +37,7 @@ BY_HAND = {
     "sph_grid_renumber",
     "sph_grid_workspace",
     "sph_cloud_examine",
-    "sph_wall_gamma",  # not there at all: its elements are no particles, and have a number of their own
+    "sph_wall_gamma",  # its elements are no particles, and have a number of their own
 }
 
 
