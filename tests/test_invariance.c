@@ -427,7 +427,8 @@ static const operation operations[] = {
     {"wall_adami-free-slip", wall_slips, ALL, 1, {{VECTOR, 0, 0, 0}, {SCALAR, 3, 0, 0}}},
     {"density_diffusion_molteni", diffusion_molteni, ALL, 1, {{SCALAR, 0, -1, 0}}},
     {"free_surface", free_surface, ALL, 20, {{VECTOR, 0, 0, 0}, {SCALAR, 3, 0, 0}, {SCALAR, 4, 0, 0}}},
-    {"shift_displacement", shifted, ALL, 1, {{VECTOR, 0, -1, 0}}},
+    /* the fourth power of W / W(dx) has four times the roundings of W */
+    {"shift_displacement", shifted, ALL, 4, {{VECTOR, 0, -1, 0}}},
     {"shift_rates", shift_rates, ALL, 1, {{VECTOR, 0, -1, 0}, {SCALAR, 3, -1, 0}}},
     {"transport_adami", transport, ALL, 1, {{VECTOR, 0, -1, -1}, {VECTOR, 3, -1, -1}}},
     {"collision_change_weighted", collisions, ALL, 1, {{VECTOR, 0, 0, 0}}},
