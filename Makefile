@@ -8,12 +8,13 @@
 CC ?= cc
 CFLAGS ?= -O2
 WARN = -std=c99 -Wall -Wextra -Wpedantic
+# the flags $(1), if the compiler can make something of the program $(2) with them; never -o /dev/null, because there
+# are compilers (tcc) that first remove what they write
+if_compiles = $(shell f=$$(mktemp) && printf '$(2)\n' | $(CC) $(1) -x c -c -o "$$f" - > /dev/null 2>&1 && echo '$(1)'; rm -f "$$f")
 # an older gcc vectorises the drivers' sweeps with it alone; compilers that know not the pragma (tcc, which accepts any flag) go without
-SIMD := $(shell echo 'double f(int n) { double s = 0; int i; _Pragma("omp simd reduction(+ : s)") for (i = 0; i < n; i++) s += i; return s; }' | \
-    $(CC) -fopenmp-simd -x c -c -o /dev/null - > /dev/null 2>&1 && echo -fopenmp-simd -DSPH_SIMD=1)
+SIMD := $(call if_compiles,-fopenmp-simd -DSPH_SIMD=1,double f(int n) { double s = 0; int i; _Pragma("omp simd reduction(+ : s)") for (i = 0; i < n; i++) s += i; return s; })
 # the drivers' sweeps are shared by threads where there are POSIX threads; else one does all
-PTHREADS := $(shell printf '\043include <pthread.h>\n\043include <unistd.h>\nlong processors(void) { return sysconf(_SC_NPROCESSORS_ONLN); }\n' | \
-    $(CC) -std=c99 -pthread -x c -c -o /dev/null - > /dev/null 2>&1 && echo -DTHREADS=1 -pthread)
+PTHREADS := $(call if_compiles,-DTHREADS=1 -pthread,\043include <pthread.h>\n\043include <unistd.h>\nlong processors(void) { return sysconf(_SC_NPROCESSORS_ONLN); })
 LDLIBS = -lm
 BUILD = build
 # make cannot name files whose names have spaces: such a BUILD is reached by a link

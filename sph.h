@@ -64,14 +64,26 @@
  *                                                         sorts the sources
  *   sph_query sph_query_of(points, criterion, radius, flags)
  *                                                         the neighbours of points among themselves
+ *   sph_query sph_query_range(query, first, last)         of its targets those from first to last - 1
  *   sph_index sph_grid_count(dim, grid, query, start, pairs)
  *                                                         only the lengths of the lists
  *   sph_index sph_grid_lists(dim, grid, query, start, index, capacity, pairs)
  *                                                         the neighbour lists
  *   const sph_index *sph_grid_permutation(grid)           order[slot] = particle: into the grid's order
  *   sph_index sph_grid_renumber(grid)                     tells the grid that the arrays have been permuted
+ *   sph_index sph_grid_permutation_own(grid, n, permutation)
+ *                                                         the same for the first n particles alone,
+ *   sph_index sph_grid_renumber_own(grid, n)              where the others stay behind them
  *   sph_index sph_permute(n, order, in, stride, out)      out[slot] = in[order[slot]], for each array
  *   sph_index sph_permute_inverse(n, order, inverse)      inverse[order[slot]] = slot
+ *   sph_index sph_part_of(dim, points, radius, part)      several machines: where particles are, and how far
+ *                                                         they reach
+ *   sph_index sph_select_near(dim, points, radius, criterion, part, chosen, count)
+ *                                                         which of them another machine needs
+ *   sph_index sph_list_prune(n, n_total, start, index, kept, count)
+ *                                                         without the sources that no row names
+ *   sph_index sph_list_sort(n, n_total, start, index, key)
+ *                                                         rows in the order of the host's keys
  *   int       sph_rebuild_due(dim, now, then, skin)       1 if a particle moved by more than skin / 2
  *
  * OPTIONS, besides those of sph_kernels.h, and set in the same way
@@ -181,7 +193,8 @@ typedef struct sph_grid {
     sph_index n;
     int dim, hashed, levels; /* levels: of the tree; 0 if there are cells */
     int scattered;           /* 1 if many particles that follow each other are not near each other */
-    int64_t cells[3];        /* along each axis */
+    int64_t cells[3];        /* along each axis; around the box, if the axis is periodic */
+    int64_t held[3];         /* of these the first ones, which may hold particles: the others are empty */
     size_t buckets;          /* a power of two if hashed */
     sph_real radius;         /* of all sources, or their mean */
     sph_real largest;        /* radius of a source */
@@ -273,6 +286,7 @@ SPH_FN sph_vec sphi_wrap_point(int dim, const sph_grid *g, sph_vec p)
     return p;
 }
 
+SPH_FN sph_real sphi_lesser(sph_real a, sph_real b) { return a < b ? a : b; }
 SPH_FN int sphi_boxed(int dim, sph_vec box)
 {
     return box.x > SPH_R(0) || (dim > 1 && box.y > SPH_R(0)) || (dim > 2 && box.z > SPH_R(0));
@@ -281,7 +295,7 @@ SPH_FN int sphi_boxed(int dim, sph_vec box)
 /* The bucket of the first cell of a row along x. */
 SPH_FN size_t sphi_row_bucket(const sph_grid *g, int64_t cy, int64_t cz)
 {
-    if (!g->hashed) return (size_t)((cz * g->cells[1] + cy) * g->cells[0]);
+    if (!g->hashed) return (size_t)((cz * g->held[1] + cy) * g->held[0]);
     {
         const uint64_t h =
             (uint64_t)cy * 0x9e3779b97f4a7c15u ^ ((uint64_t)cz + 0x7f4a7c15u) * 0xc2b2ae3d27d4eb4fu;
@@ -290,10 +304,10 @@ SPH_FN size_t sphi_row_bucket(const sph_grid *g, int64_t cy, int64_t cz)
 }
 SPH_FN size_t sphi_bucket(int dim, const sph_grid *g, sph_vec p)
 {
-    const int64_t cy = dim > 1 ? sphi_cell(p.y, g->low.y, g->inverse_width.y, g->cells[1]) : 0;
-    const int64_t cz = dim > 2 ? sphi_cell(p.z, g->low.z, g->inverse_width.z, g->cells[2]) : 0;
+    const int64_t cy = dim > 1 ? sphi_cell(p.y, g->low.y, g->inverse_width.y, g->held[1]) : 0;
+    const int64_t cz = dim > 2 ? sphi_cell(p.z, g->low.z, g->inverse_width.z, g->held[2]) : 0;
     const size_t b =
-        sphi_row_bucket(g, cy, cz) + (size_t)sphi_cell(p.x, g->low.x, g->inverse_width.x, g->cells[0]);
+        sphi_row_bucket(g, cy, cz) + (size_t)sphi_cell(p.x, g->low.x, g->inverse_width.x, g->held[0]);
     return g->hashed ? b & (g->buckets - 1) : b;
 }
 
@@ -320,8 +334,8 @@ SPH_FN void sphi_enclose(sph_vec p, sph_vec *low, sph_vec *high)
     high->y = p.y > high->y ? p.y : high->y;
     high->z = p.z > high->z ? p.z : high->z;
 }
-/* Divides the axes into cells: sets low, inverse_width and cells. Along x there are `fine` cells per radius.
-   Returns the number of all cells, which may be huge. */
+/* Divides the axes into cells: sets low, inverse_width, cells and held. Along x there are `fine` cells per
+   radius. Returns the number of all that may hold particles, which may be huge. */
 SPH_FN double sphi_axes(int dim, sph_grid *g, sph_vec low, sph_vec high, sph_real radius, int fine)
 {
     sph_real lows[3] = {low.x, low.y, low.z};
@@ -331,25 +345,32 @@ SPH_FN double sphi_axes(int dim, sph_grid *g, sph_vec low, sph_vec high, sph_rea
     int c;
     for (c = 0; c < 3; c++) {
         sph_real count;
-        g->cells[c] = 1;
+        g->cells[c] = g->held[c] = 1;
         if (c >= dim) continue;
         inverse[c] = SPH_R(c == 0 ? fine : 1) / radius;
-        if (box[c] > SPH_R(0) && !(highs[c] - lows[c] < box[c]))
-            lows[c] = SPH_R(0); /* some are moved, into [0, box) */
         if (box[c] > SPH_R(0)) {
+            const int part = highs[c] - lows[c] < box[c];
+            sph_real most;
+            if (!part) lows[c] = SPH_R(0); /* some are moved, into [0, box) */
             /* a whole number of cells around the box, none of them so narrow that rounding matters (see
                sphi_range) */
-            const sph_real most = box[c] / (SPH_R(64) * SPH_EPSILON * (box[c] + SPHI_ABS(lows[c])));
+            most = box[c] / (SPH_R(64) * SPH_EPSILON * (box[c] + SPHI_ABS(lows[c])));
             count = box[c] * inverse[c] < most ? box[c] * inverse[c] : most;
             g->cells[c] = count < SPH_R(1) ? 1 : (int64_t)count;
             inverse[c] = (sph_real)g->cells[c] / box[c];
+            g->held[c] = g->cells[c];
+            if (part) /* as far as the last particle, whatever the rounding */
+                g->held[c] = sphi_cell(highs[c] + SPH_R(16) * SPH_EPSILON * (box[c] + SPHI_ABS(lows[c])),
+                                       lows[c], inverse[c], g->cells[c]) +
+                             1;
         } else {
             count = (highs[c] - lows[c]) * inverse[c];
             g->cells[c] = count < SPH_R(4e18)
                               ? (int64_t)count + 1
                               : (int64_t)4000000000000000000; /* beyond: the last cell is wide */
+            g->held[c] = g->cells[c];
         }
-        product *= (double)g->cells[c];
+        product *= (double)g->held[c];
     }
     g->low.x = lows[0];
     g->low.y = lows[1];
@@ -409,6 +430,67 @@ SPH_FN void sphi_bounds(int dim, sph_points s, sph_vec *low, sph_vec *high)
     }
 }
 
+/* Finds where the particles are, if they fill a part of a periodic box and have been moved into it, so that
+   they may lie at both of its ends: low ... high then begins behind the longest stretch without particles,
+   and may end beyond the box. Returns 1 if that is shorter than it was along an axis, else 0. */
+SPHI_LARGE int sphi_arcs(int dim, sph_points s, sph_vec *low, sph_vec *high)
+{
+    enum { BINS = 256 };
+    const sph_real box[3] = {s.box.x, s.box.y, s.box.z};
+    sph_real lows[3] = {low->x, low->y, low->z}, highs[3] = {high->x, high->y, high->z};
+    int c, shorter = 0;
+    for (c = 0; c < dim; c++) {
+        unsigned char held[BINS] = {0};
+        /* where a particle is moved to depends on low, by this rounding: none may pass low */
+        const sph_real margin = SPH_R(16) * SPH_EPSILON * (box[c] + SPHI_ABS(lows[c]) + SPHI_ABS(highs[c]));
+        sph_real edge, first, last;
+        int b, empty = 0, longest = 0, end = 0;
+        sph_index i;
+        if (!(box[c] > SPH_R(0))) continue;
+        for (i = 0; i < s.n; i++) {
+            const sph_vec p = sphi_point(dim, s, i);
+            const sph_real x = sphi_wrap(c == 0 ? p.x : c == 1 ? p.y : p.z, SPH_R(0), box[c]);
+            held[sphi_cell(x, SPH_R(0), SPH_R(BINS) / box[c], BINS)] = 1;
+        }
+        for (b = 0; b < 2 * BINS; b++) { /* twice around */
+            empty = held[b % BINS] ? 0 : empty + 1;
+            if (empty > longest) {
+                longest = empty;
+                end = b + 1;
+            }
+        }
+        if (longest < 2) continue;
+        edge = (sph_real)(end % BINS) * (box[c] / SPH_R(BINS));
+        first = edge + box[c];
+        last = edge;
+        for (i = 0; i < s.n; i++) {
+            const sph_vec p = sphi_point(dim, s, i);
+            const sph_real x = sphi_wrap(c == 0 ? p.x : c == 1 ? p.y : p.z, edge, box[c]);
+            if (x < first) first = x;
+            if (x > last) last = x;
+        }
+        if (!(last - first + SPH_R(4) * margin < sphi_lesser(box[c], highs[c] - lows[c]))) continue;
+        lows[c] = first - margin;
+        highs[c] = last + margin;
+        shorter = 1;
+    }
+    low->x = lows[0];
+    low->y = lows[1];
+    low->z = lows[2];
+    high->x = highs[0];
+    high->y = highs[1];
+    high->z = highs[2];
+    return shorter;
+}
+/* Divides the axes so that there are no more than `most` cells, with as many per radius along x as there can
+   be. Returns that number, or 0 if there are too many cells even with one. */
+SPH_FN int sphi_fineness(int dim, sph_grid *g, sph_vec low, sph_vec high, double most)
+{
+    int fine = SPHI_FINE;
+    while (fine > 0 && sphi_axes(dim, g, low, high, g->radius, fine) > most) fine /= 2;
+    return fine;
+}
+
 /* Three loops over the particles find buckets, slots and coordinates. Only the second one cannot run in
    parallel. If the particles are stored in an order far from that of the cells, each loop then waits for one
    kind of distant memory only, and for many such accesses at a time. */
@@ -423,14 +505,13 @@ SPHI_LARGE void sphi_cells_fill(int dim, sph_points s, sph_scalars radius, sph_g
     size_t b;
     int fine, part;
     sphi_bounds(dim, s, &low, &high);
-    for (fine = SPHI_FINE; sphi_axes(dim, g, low, high, g->radius, fine) > most; fine /= 2)
-        if (fine == 1) {
-            g->hashed = 1;
-            break;
-        }
+    fine = sphi_fineness(dim, g, low, high, most);
+    if (fine < SPHI_FINE && boxed && sphi_arcs(dim, s, &low, &high))
+        fine = sphi_fineness(dim, g, low, high, most);
+    g->hashed = fine == 0;
     if (g->hashed)
         for (g->buckets = 1; g->buckets <= (size_t)s.n; g->buckets *= 2) {}
-    else g->buckets = (size_t)(g->cells[0] * g->cells[1] * g->cells[2]);
+    else g->buckets = (size_t)(g->held[0] * g->held[1] * g->held[2]);
 
 #if SPH_OPENMP
 #pragma omp parallel for
@@ -614,6 +695,7 @@ SPH_FN void sphi_grid_empty(int dim, sph_grid *grid)
     grid->dim = dim;
     grid->hashed = grid->levels = grid->scattered = 0;
     grid->cells[0] = grid->cells[1] = grid->cells[2] = 0;
+    grid->held[0] = grid->held[1] = grid->held[2] = 0;
     grid->buckets = 0;
     grid->radius = grid->largest = SPH_R(0);
     grid->low.x = grid->low.y = grid->low.z = SPH_R(0);
@@ -707,17 +789,40 @@ SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_scalars radius,
 /* The permutation into the grid's order: order[slot] = particle. It is null if grid is null, or empty. */
 SPH_FN const sph_index *sph_grid_permutation(const sph_grid *grid) { return grid ? grid->member : 0; }
 
-/* For a host that has put all its arrays into this order (sph_permute with sph_grid_permutation).
-   The grid then uses the new numbers of the particles, as if it had been built from the new arrays,
-   and sph_grid_permutation is the identity. The old order is lost, so permute first. Returns 0, or
-   SPH_ERROR_NULL. */
-SPH_FN sph_index sph_grid_renumber(sph_grid *grid)
+/* The permutation for a host whose first n particles are its own, and whose other ones are copies of those of
+   other machines, which stay behind: permutation[0 ... grid->n - 1] puts the own ones into the grid's order,
+   and leaves the others where they are. For sph_permute, and then for sph_grid_renumber_own. Returns 0 or a
+   negative sph_error. */
+SPH_FN sph_index sph_grid_permutation_own(const sph_grid *grid, sph_index n, sph_index *permutation)
 {
-    sph_index s;
+    sph_index s, next = 0;
     if (!grid) return sphi_refuse("grid", -1, SPH_ERROR_NULL);
-    for (s = 0; s < grid->n; s++) grid->member[s] = s;
+    if (n < 0 || n > grid->n) return sphi_refuse("n", -1, SPH_ERROR_COUNT);
+    if (grid->n == 0) return 0;
+    if (!permutation) return sphi_refuse("permutation", -1, SPH_ERROR_NULL);
+    for (s = 0; s < grid->n; s++)
+        if (grid->member[s] < n) permutation[next++] = grid->member[s];
+    for (s = n; s < grid->n; s++) permutation[s] = s;
+    return 0;
+}
+/* For a host that has put its first n particles into the grid's order, and has left the others. The grid then
+   uses the new numbers. Returns 0 or a negative sph_error. */
+SPH_FN sph_index sph_grid_renumber_own(sph_grid *grid, sph_index n)
+{
+    sph_index s, next = 0;
+    if (!grid) return sphi_refuse("grid", -1, SPH_ERROR_NULL);
+    if (n < 0 || n > grid->n) return sphi_refuse("n", -1, SPH_ERROR_COUNT);
+    for (s = 0; s < grid->n; s++)
+        if (grid->member[s] < n) grid->member[s] = next++;
     grid->scattered = 0;
     return 0;
+}
+/* The same for a host that has put all its arrays into this order (sph_permute with sph_grid_permutation).
+   The grid is then as if it had been built from the new arrays, and sph_grid_permutation is the identity.
+   The old order is lost, so permute first. Returns 0, or SPH_ERROR_NULL. */
+SPH_FN sph_index sph_grid_renumber(sph_grid *grid)
+{
+    return grid ? sph_grid_renumber_own(grid, grid->n) : sphi_refuse("grid", -1, SPH_ERROR_NULL);
 }
 
 /* ================================================================ lists */
@@ -780,7 +885,6 @@ typedef struct sphi_run {
     int met; /* becomes 1 where it was found, or would have been */
 } sphi_run;
 
-SPH_FN sph_real sphi_lesser(sph_real a, sph_real b) { return a < b ? a : b; }
 SPH_FN sph_real sphi_pair_radius(int criterion, sph_real R_i, sph_real R_j)
 {
     switch (criterion) {
@@ -808,10 +912,10 @@ SPH_FN sph_vec sphi_slot(int dim, const sph_grid *g, sph_index slot)
    must count in its own row only. */
 SPH_FN int sphi_in_run(int dim, const sph_grid *g, sph_vec p, const sphi_run *run)
 {
-    const int64_t x = sphi_cell(p.x, g->low.x, g->inverse_width.x, g->cells[0]);
+    const int64_t x = sphi_cell(p.x, g->low.x, g->inverse_width.x, g->held[0]);
     if (x < run->x0 || x > run->x1) return 0;
-    if (dim > 1 && sphi_cell(p.y, g->low.y, g->inverse_width.y, g->cells[1]) != run->y) return 0;
-    return dim < 3 || sphi_cell(p.z, g->low.z, g->inverse_width.z, g->cells[2]) == run->z;
+    if (dim > 1 && sphi_cell(p.y, g->low.y, g->inverse_width.y, g->held[1]) != run->y) return 0;
+    return dim < 3 || sphi_cell(p.z, g->low.z, g->inverse_width.z, g->held[2]) == run->z;
 }
 
 /* What is known when the loops are compiled: that there is a tree, or that cells are hashed, with any radii;
@@ -1339,7 +1443,7 @@ SPH_FN int64_t sphi_rows_open(int dim, const sph_grid *g, const sphi_search *s, 
     int64_t y, z, count = 0;
     for (z = k->z0; z <= k->z1; z++)
         for (y = k->y0; y <= k->y1; y++) {
-            const size_t row = (size_t)((z * g->cells[1] + y) * g->cells[0]), from = row + (size_t)k->x0,
+            const size_t row = (size_t)((z * g->held[1] + y) * g->held[0]), from = row + (size_t)k->x0,
                          to = row + (size_t)k->x1 + 1;
             run->own = careful || (y == k->y && z == k->z);
             *candidates += g->first[to] - g->first[from];
@@ -1354,22 +1458,25 @@ SPH_FN int64_t sphi_rows_any(int dim, int kind, const sph_grid *g, const sphi_se
 {
     const int hashed = kind == SPHI_HASHED;
     const sph_vec box = g->box;
-    int64_t x, y, z, count = 0;
+    int64_t x, y, z, stretch, count = 0;
     for (z = k->z0; z <= k->z1; z++) {
         run->z = z;
         run->shift.z = dim > 2 ? sphi_row_shift(box.z, g->cells[2], &run->z) : SPH_R(0);
+        if (run->z >= g->held[2]) continue;
         for (y = k->y0; y <= k->y1; y++) {
             size_t row;
             run->y = y;
             run->shift.y = dim > 1 ? sphi_row_shift(box.y, g->cells[1], &run->y) : SPH_R(0);
+            if (run->y >= g->held[1]) continue;
             run->own = careful || (y == k->y && z == k->z);
             row = sphi_row_bucket(g, run->y, run->z);
-            for (x = k->x0; x <= k->x1;
-                 x += run->x1 - run->x0 + 1) { /* more than once only if a row passes the end of the box */
+            for (x = k->x0; x <= k->x1; x += stretch) { /* once, unless the row passes the end of the box */
                 size_t from, left;
                 run->x0 = x;
                 run->shift.x = sphi_row_shift(box.x, g->cells[0], &run->x0);
-                run->x1 = run->x0 + (k->x1 - x) < g->cells[0] ? run->x0 + (k->x1 - x) : g->cells[0] - 1;
+                stretch = k->x1 - x < g->cells[0] - run->x0 ? k->x1 - x + 1 : g->cells[0] - run->x0;
+                run->x1 = (run->x0 + stretch < g->held[0] ? run->x0 + stretch : g->held[0]) - 1;
+                if (run->x0 > run->x1) continue;
                 from = row + (size_t)run->x0;
                 left = (size_t)(run->x1 - run->x0) + 1;
                 if (hashed && left > g->buckets) left = g->buckets;
@@ -1592,8 +1699,10 @@ SPH_FN int64_t sphi_row(int dim, int kind, const sph_grid *g, const sphi_search 
     return count;
 }
 
+/* By what a row is sorted: the key of a source, or its number if there are no keys. */
+SPH_FN int64_t sphi_key(const int64_t *key, sph_index j) { return key ? key[j] : j; }
 /* Sorts a row in ascending order. It is a heapsort, because a row of a collapsed cloud may be long. */
-SPH_FN void sphi_sort(sph_index *a, sph_index n)
+SPH_FN void sphi_sort(sph_index *a, sph_index n, const int64_t *key)
 {
     sph_index i, parent, child, v;
     for (i = n / 2; n > 1;) {
@@ -1604,8 +1713,8 @@ SPH_FN void sphi_sort(sph_index *a, sph_index n)
         }
         parent = i;
         while ((child = 2 * parent + 1) < n) {
-            if (child + 1 < n && a[child + 1] > a[child]) child++;
-            if (a[child] <= v) break;
+            if (child + 1 < n && sphi_key(key, a[child + 1]) > sphi_key(key, a[child])) child++;
+            if (sphi_key(key, a[child]) <= sphi_key(key, v)) break;
             a[parent] = a[child];
             parent = child;
         }
@@ -1621,6 +1730,7 @@ struct sphi_job {
     const sph_grid *g;
     sph_points targets;
     sphi_pass_function pass;
+    sph_index number; /* target 0 is the source with this number */
     int kind, flags;
     int criterion; /* of the query */
     int plain;     /* the radius of a pair depends on the target alone */
@@ -1639,19 +1749,19 @@ struct sphi_job {
    near targets follow each other. */
 enum { SPHI_APPEND, SPHI_LENGTHS, SPHI_PLACE, SPHI_BUFFER = 512 };
 
-/* The target at place k of a pass. Returns its number. */
+/* The target at place k of a pass. Returns its number among the targets, or -1 if it is a source only. */
 SPH_FN sph_index sphi_target(int dim, int kind, const sphi_job *job, sph_index k, sphi_search *s)
 {
     const sph_grid *const g = job->g;
-    const sph_index i = job->by_slots ? g->member[k] : k;
-    if (i >= job->targets.n) return i; /* a source only */
+    const sph_index i = job->by_slots ? g->member[k] - job->number : k, source = i + job->number;
+    if (i < 0 || i >= job->targets.n) return -1;
     s->p = job->by_slots ? sphi_slot(dim, g, k) : sphi_wrap_point(dim, g, sphi_point(dim, job->targets, i));
     s->own = job->criterion == SPH_SCATTER ? SPH_R(0) : sphi_at(job->radius, i);
     if (job->plain) s->own = sphi_pair_radius(job->criterion, s->own, g->largest);
     s->radius = kind > SPHI_RADII ? s->own : sphi_pair_radius(s->criterion, s->own, g->largest);
     s->radius = sphi_lesser(s->radius, s->widest);
-    s->skip = job->flags & (SPH_LIST_SELF | SPH_LIST_FOREIGN) ? -1 : i;
-    s->least = job->flags & SPH_LIST_HALF ? i : 0;
+    s->skip = job->flags & (SPH_LIST_SELF | SPH_LIST_FOREIGN) ? -1 : source;
+    s->least = job->flags & SPH_LIST_HALF ? source : 0;
     return i;
 }
 /* Makes a group of s, the target at place k, and those that follow and are near, and finds the leaves that
@@ -1668,7 +1778,7 @@ SPHI_LARGE void sphi_view_begin(int dim, const sphi_job *job, sph_index k, sph_i
         for (v->until = k + 1; v->until < k + most; v->until++) {
             sph_vec l = low, h = high;
             sph_real wide;
-            if (sphi_target(dim, SPHI_TREE, job, v->until, &other) >= job->targets.n) continue;
+            if (sphi_target(dim, SPHI_TREE, job, v->until, &other) < 0) continue;
             sphi_enclose(other.p, &l, &h);
             wide = SPH_R(1.5) * (job->criterion == SPH_SCATTER ? job->g->radius : other.own);
             if (other.own > SPH_R(2) * s->own || h.x - l.x > wide || h.y - l.y > wide || h.z - l.z > wide)
@@ -1723,7 +1833,7 @@ SPH_FN int64_t sphi_pass(int dim, int kind, sphi_view *view, int mode, const sph
         int64_t row_room = left;
         int buffered;
         i = sphi_target(dim, kind, job, k, &s);
-        if (i >= job->targets.n) continue;
+        if (i < 0) continue;
         if (kind == SPHI_TREE && k >= view->until && total <= SPHI_INDEX_MAX)
             sphi_view_begin(dim, job, k, last, &s);
         if (left > 0) row = index + total;
@@ -1737,7 +1847,7 @@ SPH_FN int64_t sphi_pass(int dim, int kind, sphi_view *view, int mode, const sph
         SPH_ASSERT(mode != SPHI_PLACE || count == row_room);
         for (p = 0; buffered && p < (sph_index)row_room; p++) row[p] = buffer[p];
         if (mode != SPHI_LENGTHS && (job->flags & SPH_LIST_SORTED) && count <= row_room)
-            sphi_sort(row, (sph_index)count);
+            sphi_sort(row, (sph_index)count, 0);
         if (mode != SPHI_PLACE) {
             SPH_ASSERT(count <= g->n);
             total += count;
@@ -1884,7 +1994,8 @@ typedef struct sph_query {
     sph_points targets;
     int criterion; /* an sph_criterion */
     sph_scalars radius;
-    int flags; /* of sph_list_flags, added up */
+    int flags;       /* of sph_list_flags, added up */
+    sph_index first; /* target 0 is this source, target 1 the next, and so on; not with SPH_LIST_FOREIGN */
 } sph_query;
 
 /* The neighbours of points among themselves: one radius for each particle, or one for all; flags of
@@ -1896,7 +2007,30 @@ SPH_FN sph_query sph_query_of(sph_points points, int criterion, sph_scalars radi
     q.criterion = criterion;
     q.radius = radius;
     q.flags = flags;
+    q.first = 0;
     return q;
+}
+
+/* Of the targets of a query those from first to last - 1: for a host that shares the search among its own
+   threads, or whose own particles lie behind others. Their rows are the same as without the range, and begin
+   at start[0] = 0. Needs 0 <= first <= last <= query.targets.n; else the query has no targets that are
+   allowed, and is refused. */
+SPH_FN sph_query sph_query_range(sph_query query, sph_index first, sph_index last)
+{
+    if (first < 0 || first > last || last > query.targets.n) {
+        query.targets.n = -1;
+        return query;
+    }
+    if (first > 0) {
+        const size_t skipped = (size_t)first * query.targets.stride;
+        if (query.targets.x) query.targets.x += skipped;
+        if (query.targets.y) query.targets.y += skipped;
+        if (query.targets.z) query.targets.z += skipped;
+        if (query.radius.p) query.radius.p += (size_t)first * query.radius.stride;
+    }
+    query.targets.n = last - first;
+    query.first += first;
+    return query;
 }
 
 /* Checks what is asked for and makes a job of it, still without the room for its lists. */
@@ -1911,8 +2045,9 @@ SPH_FN int sphi_job_of(int dim, const sph_grid *grid, sph_query query, sph_index
     sph_index i;
     int error;
     if (grid && grid->dim != dim) return sphi_refuse("dim", -1, SPH_ERROR_DIM);
-    if (grid && !(flags & SPH_LIST_FOREIGN) && targets.n > grid->n)
-        return sphi_refuse("query.targets.n", -1, SPH_ERROR_RANGE);
+    if (grid && !(flags & SPH_LIST_FOREIGN) &&
+        (query.first < 0 || query.first > grid->n || targets.n > grid->n - query.first))
+        return sphi_refuse("query.targets.n, first", -1, SPH_ERROR_RANGE);
     error = sphi_check_points(dim, targets);
     if (error) return error;
     if (!grid || !start) return sphi_refuse("grid, start", -1, SPH_ERROR_NULL);
@@ -1923,10 +2058,11 @@ SPH_FN int sphi_job_of(int dim, const sph_grid *grid, sph_query query, sph_index
         return sphi_refuse("query.flags", -1, SPH_ERROR_VALUE);
     job->g = grid;
     job->targets = targets;
+    job->number = query.first;
     job->start = start;
     job->index = 0;
     job->capacity = 0;
-    job->by_slots = grid->scattered && !(flags & SPH_LIST_FOREIGN);
+    job->by_slots = grid->scattered && !(flags & SPH_LIST_FOREIGN) && targets.n > grid->n / 4;
     if (targets.n == 0 || grid->n == 0) return 0; /* nothing to look at */
     if (by_target && !radius.p) return sphi_refuse("query.radius", -1, SPH_ERROR_NULL);
     largest = by_source ? grid->largest : SPH_R(0);
@@ -1967,11 +2103,11 @@ SPH_FN sph_index sphi_job_do(const sphi_job *job, int64_t *pairs)
 }
 
 /* The neighbour lists of the n = query.targets.n targets: start[0 ... n], and for target i the entries
-   index[start[i]] ... index[start[i + 1] - 1]. Unless query.flags has SPH_LIST_FOREIGN, target i is source i
-   (the targets may be the first of the sources). index has room for capacity entries, of which those beyond
-   *pairs may be overwritten; it may be null if capacity is 0. *pairs is the number of entries of the lists.
-   It is set on every return, to 0 if nothing is known. Without targets start[0] is set to 0, and without
-   sources all of start is; the radii may then be null.
+   index[start[i]] ... index[start[i + 1] - 1]. Unless query.flags has SPH_LIST_FOREIGN, target i is source
+   query.first + i (the targets may be some of the sources). index has room for capacity entries, of which
+   those beyond *pairs may be overwritten; it may be null if capacity is 0. *pairs is the number of entries of
+   the lists. It is set on every return, to 0 if nothing is known. Without targets start[0] is set to 0, and
+   without sources all of start is; the radii may then be null.
    Returns 0 or a negative sph_error.
    SPH_ERROR_CAPACITY: index has room for fewer than *pairs entries, which is their exact number. start and
    index then hold nothing of use, and nothing beyond capacity was written.
@@ -2089,6 +2225,164 @@ SPH_FN sph_index sph_search(int dim, sph_points points, sph_scalars radius, int 
     }
     found->list.start = start;
     found->list.index = index;
+    return 0;
+}
+
+/* ================================================================ parts of a cloud, on several machines
+
+   Each machine owns some particles, its targets. It needs copies of those of the others that are neighbours
+   of its targets: they stand behind its own ones, and are sources only. What goes where is the host's
+   business; which particles are needed is decided here:
+
+       sph_part_of(dim, own, radius, &mine);                      where my targets are, and how far they reach
+       ... each machine tells the others its sph_part ...
+       sph_select_near(dim, own, radius, criterion, part[k], chosen, &count);      what part k needs of mine
+
+   A copy is sent once, and as it is: a periodic box finds its images. */
+
+/* Where the points of a part are, and how far their radii reach: two boxes along the axes. low > high if the
+   part is empty. Numbers only, so that it can be sent to other machines. */
+typedef struct sph_part {
+    sph_vec low, high, reach_low, reach_high;
+} sph_part;
+
+SPH_FN int sphi_part_ok(int dim, sph_part part)
+{
+    if (!sphi_finite(part.low.x + part.high.x + part.reach_low.x + part.reach_high.x)) return 0;
+    if (dim > 1 && !sphi_finite(part.low.y + part.high.y + part.reach_low.y + part.reach_high.y)) return 0;
+    return dim < 3 || sphi_finite(part.low.z + part.high.z + part.reach_low.z + part.reach_high.z);
+}
+/* Rows of n targets that name n_total sources, of which the targets may be some. */
+SPH_FN int sphi_check_part_rows(sph_index n, sph_index n_total, const sph_index *start,
+                                const sph_index *index)
+{
+    sph_list list;
+    if (n < 0 || n_total < n) return sphi_refuse("n, n_total", -1, SPH_ERROR_COUNT);
+    if (n > 0 && !start) return sphi_refuse("start", -1, SPH_ERROR_NULL);
+    list.start = start;
+    list.index = index;
+    return sphi_check_entries(0, n, list, n_total, 1);
+}
+
+/* The part of these points: low is the least of x_i along each axis, and reach_low that of x_i - R_i; high
+   and reach_high likewise. Along a periodic axis the part begins behind the longest stretch without points,
+   and may end beyond the box. radius: R_i of each point, or one for all; it must be finite, and not negative.
+   Returns 0 or a negative sph_error. */
+SPH_FN sph_index sph_part_of(int dim, sph_points points, sph_scalars radius, sph_part *part)
+{
+    const sph_real beyond = SPH_R(1) / SPHI_TINY;
+    sph_vec low, high;
+    sph_index i;
+    int error = sphi_check_points(dim, points);
+    if (error) return error;
+    if (!part) return sphi_refuse("part", -1, SPH_ERROR_NULL);
+    if (points.n > 0) error = sphi_check_not_negative("radius", radius, points.n);
+    if (!error) error = sphi_check_box(dim, points, SPH_R(0), 0);
+    if (error) return error;
+    part->low.x = part->low.y = part->low.z = beyond;
+    part->high.x = part->high.y = part->high.z = -beyond;
+    part->reach_low = part->low;
+    part->reach_high = part->high;
+    if (points.n == 0) return 0;
+    sphi_bounds(dim, points, &low, &high);
+    if (sphi_boxed(dim, points.box)) sphi_arcs(dim, points, &low, &high);
+    for (i = 0; i < points.n; i++) {
+        const sph_real reach = sphi_at(radius, i);
+        sph_vec p = sphi_point(dim, points, i), l, h;
+        p.x = sphi_wrap(p.x, low.x, points.box.x);
+        p.y = dim > 1 ? sphi_wrap(p.y, low.y, points.box.y) : SPH_R(0);
+        p.z = dim > 2 ? sphi_wrap(p.z, low.z, points.box.z) : SPH_R(0);
+        sphi_enclose(p, &part->low, &part->high);
+        l.x = p.x - reach;
+        l.y = p.y - reach;
+        l.z = p.z - reach;
+        h.x = p.x + reach;
+        h.y = p.y + reach;
+        h.z = p.z + reach;
+        sphi_enclose(l, &part->reach_low, &part->reach_high);
+        sphi_enclose(h, &part->reach_low, &part->reach_high);
+    }
+    return 0;
+}
+/* 1 if x, or an image of it, lies between low - reach and high + reach, and by some roundings beyond. */
+SPH_FN int sphi_between(sph_real x, sph_real reach, sph_real low, sph_real high, sph_real length)
+{
+    const sph_real more =
+        reach + SPH_R(32) * SPH_EPSILON * (length + reach + SPHI_ABS(x) + SPHI_ABS(low) + SPHI_ABS(high));
+    if (length > SPH_R(0)) x = sphi_wrap(x, low - more, length); /* the first image that is not below */
+    return low <= high && x >= low - more && x <= high + more;
+}
+/* Of these points those that may be neighbours of a target of the part: chosen[0 ... *count - 1] are their
+   numbers, in ascending order; it has room for points.n. By SPH_GATHER they lie within the reach of the part,
+   by SPH_SCATTER the part lies within theirs, and by the others one or the other. radius: of each point, or
+   one for all; SPH_GATHER does not read it. The boxes of the part are larger than what it reaches, so that
+   some are not needed: sph_list_prune tells which. Returns 0, or a negative sph_error, and then *count
+   is 0. */
+SPH_FN sph_index sph_select_near(int dim, sph_points points, sph_scalars radius, int criterion, sph_part part,
+                                 sph_index *chosen, int64_t *count)
+{
+    const sph_vec box = points.box;
+    sph_index i;
+    int error = sphi_check_points(dim, points);
+    if (!count) return sphi_refuse("count", -1, SPH_ERROR_NULL);
+    *count = 0;
+    if (!error && (criterion < (int)SPH_GATHER || criterion > (int)SPH_MEAN))
+        error = sphi_refuse("criterion", -1, SPH_ERROR_VALUE);
+    if (error || points.n == 0) return error;
+    if (!chosen) return sphi_refuse("chosen", -1, SPH_ERROR_NULL);
+    if (criterion != (int)SPH_GATHER) error = sphi_check_not_negative("radius", radius, points.n);
+    if (!error) error = sphi_check_box(dim, points, SPH_R(0), 0);
+    if (!error && !sphi_part_ok(dim, part)) error = sphi_refuse("part", -1, SPH_ERROR_VALUE);
+    if (error) return error;
+    for (i = 0; i < points.n; i++) {
+        const sph_vec p = sphi_point(dim, points, i);
+        const sph_real reach = criterion == (int)SPH_GATHER ? SPH_R(0) : sphi_at(radius, i);
+        int needed = 0;
+        if (criterion != (int)SPH_SCATTER)
+            needed = sphi_between(p.x, SPH_R(0), part.reach_low.x, part.reach_high.x, box.x) &&
+                     (dim < 2 || sphi_between(p.y, SPH_R(0), part.reach_low.y, part.reach_high.y, box.y)) &&
+                     (dim < 3 || sphi_between(p.z, SPH_R(0), part.reach_low.z, part.reach_high.z, box.z));
+        if (!needed && criterion != (int)SPH_GATHER)
+            needed = sphi_between(p.x, reach, part.low.x, part.high.x, box.x) &&
+                     (dim < 2 || sphi_between(p.y, reach, part.low.y, part.high.y, box.y)) &&
+                     (dim < 3 || sphi_between(p.z, reach, part.low.z, part.high.z, box.z));
+        if (needed) chosen[(*count)++] = i;
+    }
+    return 0;
+}
+/* Leaves out the sources that no row names: of n_total sources the first n stay, and of the others those that
+   an entry of index names. These get the numbers n, n + 1, ... in the same order, and index is changed to
+   them. kept[new] = old for all that stay, of which there are *count; it has room for n_total. start and
+   index: rows of n targets. Returns 0 or a negative sph_error. */
+SPH_FN sph_index sph_list_prune(sph_index n, sph_index n_total, const sph_index *start, sph_index *index,
+                                sph_index *kept, int64_t *count)
+{
+    sph_index j, p, first, last, next = 0;
+    const int error = sphi_check_part_rows(n, n_total, start, index);
+    if (error) return error;
+    if (!count || (!kept && n_total > 0)) return sphi_refuse("kept, count", -1, SPH_ERROR_NULL);
+    first = n > 0 ? start[0] : 0;
+    last = n > 0 ? start[n] : 0;
+    for (j = 0; j < n_total; j++) kept[j] = j < n;
+    for (p = first; p < last; p++) kept[index[p]] = 1;
+    for (j = 0; j < n_total; j++) kept[j] = kept[j] ? next++ : -1;
+    for (p = first; p < last; p++) index[p] = kept[index[p]];
+    for (j = 0; j < n_total; j++) /* in place: a new number is never above the old one */
+        if (kept[j] >= 0) kept[kept[j]] = j;
+    *count = next;
+    return 0;
+}
+/* Puts each of the rows of n targets into the order of the keys of its sources, of which there are n_total.
+   With keys that belong to the particles (global numbers, of 64 bits) sums have the same roundings on any
+   number of machines. Null: by the numbers of the sources here. Entries with equal keys come in any order.
+   Returns 0 or a negative sph_error. */
+SPH_FN sph_index sph_list_sort(sph_index n, sph_index n_total, const sph_index *start, sph_index *index,
+                               const int64_t *key)
+{
+    sph_index i;
+    const int error = sphi_check_part_rows(n, n_total, start, index);
+    if (error) return error;
+    for (i = 0; i < n; i++) sphi_sort(index + start[i], start[i + 1] - start[i], key);
     return 0;
 }
 

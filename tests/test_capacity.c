@@ -214,7 +214,7 @@ static void check_rooms(const sample *s, const sph_grid *g, int criterion, int f
                     for (i = 0; i < s->n; i++) {
                         for (q = start[i]; q < start[i + 1]; q++)
                             if (index[q] < 0 || index[q] >= s->n || !near(s, criterion, i, index[q])) wrong = "an entry that is no neighbour";
-                        sphi_sort(index + start[i], start[i + 1] - start[i]);
+                        sphi_sort(index + start[i], start[i + 1] - start[i], 0);
                     }
                     if (!wrong && memcmp(index, wanted, (size_t)pairs * sizeof *index) != 0) wrong = "a row of wrong neighbours";
                 } else if (memcmp(index, first, (size_t)pairs * sizeof *index) != 0) wrong = "another list than with just enough room and one thread";
