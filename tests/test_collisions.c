@@ -2,6 +2,8 @@
 /*
  * test_collisions.c - collisions of particles: what a pair keeps and loses, that the sequential and the weighted form never gain energy, and that the form as printed does.
  */
+#include "one_copy.h"
+
 #include "../examples/papers/collision_literal.h"
 #include "../sph.h"
 #include "check.h"

@@ -6,6 +6,8 @@
  * Linear fields come out exactly, in the cloud and outside of it, where Shepard's mean is off by two or three spacings; rows say the same as the sweeps; where the
  * neighbours are too few or lie on a line the fallback is Shepard's mean. A column of water at rest, solved with the rows of walls, has its weight as its pressure.
  */
+#include "one_copy.h"
+
 #include "../sph.h"
 #include "check.h"
 #include "clouds.h"
@@ -371,9 +373,6 @@ static void test_wall_rows(void)
         for (int disorder = 0; disorder < 2; disorder++)
             for (int scheme = 0; scheme < (int)SCHEMES; scheme++) {
                 const double off = still_water(scheme, kept, 0.2 * disorder);
-#ifdef SHOW
-                printf("still water, %s, walls %s, jitter %g: %.2e\n", scheme_name[scheme], kept ? "kept" : "eliminated", 0.2 * disorder, off);
-#endif
                 if (scheme != BROOKSHAW) CHECK_WORST(check_words("still water, %s, walls %s", scheme_name[scheme], kept ? "kept" : "eliminated"), off, BY_PRECISION(1e-9, 1e-3));
                 else CHECK(off > 1e-3); /* its rows are not exact for linear fields */
             }

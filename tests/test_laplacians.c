@@ -5,6 +5,8 @@
  * Each is computed a second time by the formula of its paper, pair by pair, with sums of this file. Then: what is exact and, where the claim is bounded, what is not;
  * orders of convergence in the interior and at the boundary, beside Brookshaw's (which does not converge) and those of WLS; signs of rows; statuses and the fallback.
  */
+#include "one_copy.h"
+
 #include "../sph.h"
 #include "check.h"
 #include "clouds.h"
@@ -360,10 +362,6 @@ static void test_orders(void)
                 CHECK_NEAR(check_words("%s, jitter %g, interior: order", method_name[method], 0.2 * disorder), 0, log2(inside[0] / inside[1]), order[method][disorder][0], 0.15);
             if (order[method][disorder][1] < 8)
                 CHECK_NEAR(check_words("%s, jitter %g, edge: order", method_name[method], 0.2 * disorder), 0, log2(edge[0] / edge[1]), order[method][disorder][1], 0.15);
-#ifdef SHOW
-            printf("%s jitter %g: interior %.2e %.2e order %.2f, edge %.2e %.2e order %.2f\n", method_name[method], 0.2 * disorder, inside[0], inside[1], log2(inside[0] / inside[1]),
-                   edge[0], edge[1], log2(edge[0] / edge[1]));
-#endif
         }
 }
 static void test_signs(void)
@@ -383,9 +381,6 @@ static void test_signs(void)
         for (sph_index i = 0; i < c.n; i++)
             if (depth_of(&c, i) > 2.0 * (double)c.h) inside++, others += !monotone[i];
         CHECK_AT(check_words("%s: %d of %d rows of the interior are not monotone", method_name[method], others, inside), 0, method == ICSPM ? others > 0.6 * inside : others == 0);
-#ifdef SHOW
-        printf("%s: %d of %d not monotone\n", method_name[method], others, inside);
-#endif
         free(row), free(diagonal), free(monotone);
         cloud_free(&c);
     }

@@ -2,6 +2,8 @@
 /*
  * test_tension.c - surface tension: pair functions and sweeps beside sums by hand, what CSS conserves and CSF does not, the pressure in drops, flat interfaces, and Akinci's pair.
  */
+#include "one_copy.h"
+
 #include "../sph.h"
 #include "check.h"
 #include "clouds.h"

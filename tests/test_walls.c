@@ -6,6 +6,8 @@
  * The quadrature knows the kernel alone: the share of it in the pyramid (triangle, interval) between x and an element is g(r) integrated over the solid angle of the element, where
  * g(r) is the integral of W s^(dim-1) up to r.
  */
+#include "one_copy.h"
+
 #include "../sph.h"
 #include "check.h"
 #include "clouds.h"
@@ -503,9 +505,6 @@ static void test_operators(void)
         for (i = 0; i < n; i++) bare = worse(bare, ((double)out[i] - 2.0) * (fabs((double)c.y[i] - 0.5) < 0.2));
         CHECK(bare > 10.0 * laplacian && laplacian < before_laplacian);
         before_laplacian = laplacian;
-#ifdef SAY
-        printf("h/dx %g: sum V W - gamma %.3g, gradient %.3g (difference form %.3g, without wall %.3g), Laplacian %.3g (without %.3g)\n", ratio[k], off, wrong, difference, without, laplacian, bare);
-#endif
         free(gamma);
         cloud_free(&c);
     }
