@@ -2266,17 +2266,18 @@ SPH_FN int sphi_check_part_rows(sph_index n, sph_index n_total, const sph_index 
 
 /* The part of these points: low is the least of x_i along each axis, and reach_low that of x_i - R_i; high
    and reach_high likewise. Along a periodic axis the part begins behind the longest stretch without points,
-   and may end beyond the box. radius: R_i of each point, or one for all; it must be finite, and not negative.
-   Returns 0 or a negative sph_error. */
+   and may end beyond the box. radius: R_i of each point, or one for all. Returns 0 or a
+   negative sph_error; SPH_ERROR_H as for sph_grid_lists. */
 SPH_FN sph_index sph_part_of(int dim, sph_points points, sph_scalars radius, sph_part *part)
 {
     const sph_real beyond = SPH_R(1) / SPHI_TINY;
     sph_vec low, high;
+    sph_real mean, largest;
     sph_index i;
-    int error = sphi_check_points(dim, points);
+    int alike, error = sphi_check_points(dim, points);
     if (error) return error;
     if (!part) return sphi_refuse("part", -1, SPH_ERROR_NULL);
-    if (points.n > 0) error = sphi_check_not_negative("radius", radius, points.n);
+    if (points.n > 0) error = sphi_radii(points.n, radius, &mean, &largest, &alike);
     if (!error) error = sphi_check_box(dim, points, SPH_R(0), 0);
     if (error) return error;
     part->low.x = part->low.y = part->low.z = beyond;
@@ -2322,15 +2323,16 @@ SPH_FN sph_index sph_select_near(int dim, sph_points points, sph_scalars radius,
                                  sph_index *chosen, int64_t *count)
 {
     const sph_vec box = points.box;
+    sph_real mean, largest;
     sph_index i;
-    int error = sphi_check_points(dim, points);
-    if (!count) return sphi_refuse("count", -1, SPH_ERROR_NULL);
-    *count = 0;
+    int alike, error = sphi_check_points(dim, points);
+    if (count) *count = 0;
+    if (!error && !count) error = sphi_refuse("count", -1, SPH_ERROR_NULL);
     if (!error && (criterion < (int)SPH_GATHER || criterion > (int)SPH_MEAN))
         error = sphi_refuse("criterion", -1, SPH_ERROR_VALUE);
     if (error || points.n == 0) return error;
     if (!chosen) return sphi_refuse("chosen", -1, SPH_ERROR_NULL);
-    if (criterion != (int)SPH_GATHER) error = sphi_check_not_negative("radius", radius, points.n);
+    if (criterion != (int)SPH_GATHER) error = sphi_radii(points.n, radius, &mean, &largest, &alike);
     if (!error) error = sphi_check_box(dim, points, SPH_R(0), 0);
     if (!error && !sphi_part_ok(dim, part)) error = sphi_refuse("part", -1, SPH_ERROR_VALUE);
     if (error) return error;
@@ -2353,14 +2355,15 @@ SPH_FN sph_index sph_select_near(int dim, sph_points points, sph_scalars radius,
 /* Leaves out the sources that no row names: of n_total sources the first n stay, and of the others those that
    an entry of index names. These get the numbers n, n + 1, ... in the same order, and index is changed to
    them. kept[new] = old for all that stay, of which there are *count; it has room for n_total. start and
-   index: rows of n targets. Returns 0 or a negative sph_error. */
+   index: rows of n targets. Returns 0, or a negative sph_error, and then *count is 0. */
 SPH_FN sph_index sph_list_prune(sph_index n, sph_index n_total, const sph_index *start, sph_index *index,
                                 sph_index *kept, int64_t *count)
 {
     sph_index j, p, first, last, next = 0;
-    const int error = sphi_check_part_rows(n, n_total, start, index);
+    int error = sphi_check_part_rows(n, n_total, start, index);
+    if (count) *count = 0;
+    if (!error && (!count || (!kept && n_total > 0))) error = sphi_refuse("kept, count", -1, SPH_ERROR_NULL);
     if (error) return error;
-    if (!count || (!kept && n_total > 0)) return sphi_refuse("kept, count", -1, SPH_ERROR_NULL);
     first = n > 0 ? start[0] : 0;
     last = n > 0 ? start[n] : 0;
     for (j = 0; j < n_total; j++) kept[j] = j < n;

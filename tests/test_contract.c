@@ -143,6 +143,13 @@ static sph_points points_of(const world *w)
                                SPH_R(w->box[2]));
 }
 static sph_points others_of(const world *w) { return sph_points_strided(w->m, real_of(w, QX), real_of(w, QY), real_of(w, QZ), w->other_stride); }
+static sph_part whole_part(void) /* of which everything is near */
+{
+    sph_part p;
+    p.low.x = p.low.y = p.low.z = p.reach_low.x = p.reach_low.y = p.reach_low.z = SPH_R(-9);
+    p.high.x = p.high.y = p.high.z = p.reach_high.x = p.reach_high.y = p.reach_high.z = SPH_R(9);
+    return p;
+}
 static sph_list list_of(const world *w)
 {
     sph_list l;
@@ -558,6 +565,12 @@ CALL(grid_lists, w->dim, (const sph_grid *)w->a[GRID], query_of(w), I(I0), I(I1)
 CALL(grid_count, w->dim, (const sph_grid *)w->a[GRID], query_of(w), I(I0),
      (int64_t *)w->a[REPORT])
 CALL(grid_renumber, (sph_grid *)w->a[GRID])
+CALL(grid_permutation_own, (const sph_grid *)w->a[GRID], w->n, I(I0))
+CALL(grid_renumber_own, (sph_grid *)w->a[GRID], w->n)
+CALL(part_of, w->dim, points_of(w), A(REACH), (sph_part *)w->a[REPORT])
+CALL(select_near, w->dim, points_of(w), A(REACH), (int)w->number[CRITERION], whole_part(), I(I0), (int64_t *)w->a[REPORT])
+CALL(list_prune, w->n, w->n, I(START), I(INDEX), I(I0), (int64_t *)w->a[REPORT])
+CALL(list_sort, w->n, w->n, I(START), I(INDEX), 0)
 CALL(search, w->dim, points_of(w), A(REACH), (int)w->number[CRITERION], w->a[WORK], w->block_size, (sph_neighbors *)w->a[REPORT])
 CALL(search_size, w->dim, w->n, (int64_t)w->number[CAPACITY])
 CALL(permute, w->n, I(ORDER), R(F), w->array_stride, R(S0))
@@ -702,7 +715,7 @@ static sph_index call_mhd_rates(const world *w)
    not looked at. HEAVY: masses must be positive. KEEPS: only the first scalar output is 0 where there is no answer. SIZE: it answers a size.
    SAYS: REPORT begins with a number of pairs, and is written whatever the answer. TOTALS: it answers a total,
    which is given for no particles, too. CALLER: a function of sph.h. PARTS: of what has no answer only that is
-   0 which overflowed. */
+   0 which overflowed. CHOOSES: the first entry of I0 or REPORT is no total that is 0 for nothing. */
 enum {
     DIM = 1,
     KERNEL = 2,
@@ -721,7 +734,8 @@ enum {
     SAYS = 16384,
     TOTALS = 32768,
     CALLER = 65536,
-    PARTS = 131072
+    PARTS = 131072,
+    CHOOSES = 262144
 };
 
 typedef struct function {
@@ -853,6 +867,12 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(search_size, CALLER | DIM | COUNTED | SIZE, ALL, 0, 0, 0, 0, 0),
     FUNCTION(grid_permutation, CALLER | SIZE, ALL, BIT(GRID), 0, 0, 0, 0),
     FUNCTION(grid_renumber, CALLER | OPAQUE, ALL, 0, 0, BIT(GRID) | BIT(WORK), 0, 0),
+    FUNCTION(grid_permutation_own, CALLER | OPAQUE, ALL, BIT(GRID), 0, BIT(I0), 0, 0),
+    FUNCTION(grid_renumber_own, CALLER | OPAQUE, ALL, 0, 0, BIT(GRID) | BIT(WORK), 0, 0),
+    FUNCTION(part_of, CALLER | DIM | COUNTED | OPAQUE | TOTALS | CHOOSES, ALL, XYZ(PX) | BIT(REACH), 0, BIT(REPORT), 0, 0),
+    FUNCTION(select_near, CALLER | DIM | COUNTED | OPAQUE | SAYS | TOTALS | CHOOSES, ALL, XYZ(PX) | BIT(REACH), 0, BIT(I0) | BIT(REPORT), 0, N(CRITERION)),
+    FUNCTION(list_prune, CALLER | COUNTED | OPAQUE | SAYS | TOTALS | CHOOSES, ALL, ROWS_OF, 0, BIT(INDEX) | BIT(I0) | BIT(REPORT), 0, 0),
+    FUNCTION(list_sort, CALLER | COUNTED | OPAQUE, ALL, ROWS_OF, 0, BIT(INDEX), 0, 0),
     FUNCTION(permute, CALLER | COUNTED | STRIDE | RAW, ALL, BIT(ORDER) | BIT(F), 0, BIT(S0), 0, 0),
     FUNCTION(permute_inverse, CALLER | COUNTED | OPAQUE, ALL, BIT(ORDER), 0, BIT(I0), 0, 0),
     FUNCTION(rebuild_due, CALLER | DIM | COUNTED | COUNTS, ALL, POSITIONS, 0, 0, 0, N(SKIN)),
@@ -1059,7 +1079,7 @@ static int set_either(const function *f, world *w, uint64_t set, int v, double o
 
 static int spoil_null(const function *f, world *w, int v)
 {
-    const int a = nth(there(w->dim, f->reads | f->writes) & ~(f->call == call_grid_renumber ? BIT(WORK) : 0), v); /* the grid knows where it is */
+    const int a = nth(there(w->dim, f->reads | f->writes) & ~(f->call == call_grid_renumber || f->call == call_grid_renumber_own ? BIT(WORK) : 0), v); /* the grid knows where it is */
     if (a < 0) return END;
     snprintf(what, sizeof what, "%s", arrays[a].name);
     w->a[a] = 0;
@@ -1509,7 +1529,7 @@ static int spoil_1e_30(const function *f, world *w, int v) { return v > 0 ? END 
 static int spoil_denormal_x(const function *f, world *w, int v)
 {
     if (v > 1) return END;
-    if (v == 1 && (f->reads & BIT(GRID) || f->writes & BIT(GRID) || f->call == call_search)) return NOT_THIS;
+    if (v == 1 && (f->reads & BIT(GRID) || f->writes & BIT(GRID) || f->call == call_search || f->has & CHOOSES)) return NOT_THIS;
     return scale(f, w, denormal(), v ? denormal() : 1.0);
 }
 static int set_values(const function *f, world *w, double size)
@@ -1721,7 +1741,7 @@ static const char *judge_totals(const function *f, const world *w, sph_index ans
               is_step = f->call == call_rows_time_step;
     static const int totals[] = {S0, I0, REPORT};
     size_t k, b;
-    if (!(f->has & TOTALS) || answer < 0) return 0;
+    if (!(f->has & TOTALS) || f->has & CHOOSES || answer < 0) return 0;
     for (k = 0; k < 3; k++) {
         const unsigned char *const at = (const unsigned char *)w->a[totals[k]];
         const size_t size = k == 0   ? (is_step ? 1 : 8) * sizeof(sph_real)
