@@ -188,6 +188,8 @@
  *                  sph_shift_displacement(k, dim, cloud, shift, out) keeps particles even
  *                  sph_shift_rates(k, dim, cloud, fluid, shift, out) what particles that are shifted carry
  *                  sph_transport_adami(k, dim, cloud, fluid, transport, background, out)
+ *                  sph_pressure_factor_pair_dfsph  sph_pressure_factor_value_dfsph
+ *                  sph_pressure_factor_dfsph(k, dim, cloud, fluid, moves, out)      alpha of DFSPH
  *   Riemann        sph_riemann_side_of  sph_riemann_beta  sph_riemann_rest  sph_riemann_acoustic
  *   solver         sph_fluid_pair_riemann
  *                  sph_fluid_rates_riemann(k, dim, cloud, fluid, options, out)
@@ -200,7 +202,9 @@
  *   boundary       sph_wall_gradient_value  sph_wall_laplacian_value
  *   integrals      sph_wall_gamma(k, dim, cloud, elements, out)      gamma and grad gamma, exact
  *                  sph_wall_gradient(k, dim, cloud, wall, f, out)    in sum form
+ *                  sph_wall_gradient_rows(k, dim, cloud, wall, out, source)         the same as rows
  *                  sph_wall_laplacian(k, dim, cloud, wall, f, out)   BIM in more than one dimension
+ *                  sph_wall_laplacian_rows(k, dim, cloud, wall, out, source)
  *   collisions     sph_collision_pair
  *                  sph_collision_sequential(dim, cloud, collision, velocity, out)
  *                  sph_collision_count(dim, cloud, collision, v, count)
@@ -664,6 +668,20 @@ SPH_FN int sphi_row_finite(SPH_GLOBAL sph_real *row, sph_index first, sph_index 
     lost = !sphi_finite(sum);
     if (lost)
         for (p = first; p < last; p++) row[p] = SPH_R(0);
+    return lost;
+}
+/* The same of the rows of a gradient: if one component overflowed, or lost is 1 already, all are 0. */
+SPH_FN int sphi_gradient_row_finite(int dim, sph_gradient_rows_out out, sph_list list, sph_index i, int lost)
+{
+    sph_index p;
+    lost |= sphi_row_finite(out.x, list.start[i], list.start[i + 1]);
+    if (dim > 1) lost |= sphi_row_finite(out.y, list.start[i], list.start[i + 1]);
+    if (dim > 2) lost |= sphi_row_finite(out.z, list.start[i], list.start[i + 1]);
+    for (p = list.start[i]; lost && p < list.start[i + 1]; p++) {
+        out.x[p] = SPH_R(0);
+        if (dim > 1) out.y[p] = SPH_R(0);
+        if (dim > 2) out.z[p] = SPH_R(0);
+    }
     return lost;
 }
 /* Stores what belongs to the row of a target: the factor 1, the conditioning, the status, and the diagonal
@@ -1672,17 +1690,7 @@ SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, 
             if (dim > 1) wy[p] = w.y;
             if (dim > 2) wz[p] = w.z;
         }
-        {
-            int lost = sphi_row_finite(wx, cloud.list.start[i], cloud.list.start[i + 1]);
-            if (dim > 1) lost |= sphi_row_finite(wy, cloud.list.start[i], cloud.list.start[i + 1]);
-            if (dim > 2) lost |= sphi_row_finite(wz, cloud.list.start[i], cloud.list.start[i + 1]);
-            if (lost) state = SPH_NOT_FINITE;
-            for (p = cloud.list.start[i]; lost && p < cloud.list.start[i + 1]; p++) {
-                wx[p] = SPH_R(0);
-                if (dim > 1) wy[p] = SPH_R(0);
-                if (dim > 2) wz[p] = SPH_R(0);
-            }
-        }
+        if (sphi_gradient_row_finite(dim, out, cloud.list, i, 0)) state = SPH_NOT_FINITE;
         sphi_put(out.conditioning, sphi_stride(out.stride), i, pivot);
         if (out.status) out.status[i] = (unsigned char)state;
         failed += state != SPH_OK;
@@ -6148,6 +6156,99 @@ SPH_FN sph_index sph_transport_adami(sph_kernel k, int dim, sph_cloud cloud, sph
                           : sphi_transport_range(1, k, dim, cloud, &fluid, &transport, background, out);
 }
 
+/* -------- divergence-free SPH: functions of values
+ *
+ * A solver of the pressure that keeps drho_i/dt = 0 (and then rho_i = rho0) without a matrix gives each
+ * particle a kappa_i from its own error, changes the velocities by
+ *     v_i -= dt sum_j m_j (kappa_i / rho_i + kappa_j / rho_j) grad_i W_ij,
+ * and repeats that. kappa_i = alpha_i drho_i/dt / dt, with
+ *     alpha_i = rho_i / (|sum_j m_j grad_i W_ij|^2 + m_i sum_j m_j |grad_i W_ij|^2),
+ * takes all of the error of i away if no other particle changes its kappa: alpha is the diagonal of the
+ * matrix, and the iteration is Jacobi's. Bender & Koschier 2015, Divergence-free smoothed particle
+ * hydrodynamics, SCA '15, 147. They have equal masses, m_j^2 in place of m_i m_j: with unequal ones the
+ * change above acts on j with m_i, so that only this form takes the error away.
+ *
+ * WHAT IT CANNOT DO. Particles that correct all at once correct each other, too. With a part w of kappa the
+ * passes converge only for w < 2 / L, where L, the largest eigenvalue, grows with the number of neighbours:
+ * for wendland-c2 with h = 1.4 spacings it is 2.4, 3.4 and 5.9 in 1D, 2D and 3D (tests/test_liquid.c), so
+ * that the whole kappa, w = 1, diverges. At a free surface the density rate is that of a cut support: take
+ * errors of compression only, max(drho_i/dt, 0). A particle with hardly any neighbours gets a huge factor:
+ * such codes pass over particles with fewer than about 20 of them (3D).
+ */
+
+/* What j adds to the sums of alpha. */
+typedef struct sph_dfsph_sums {
+    sph_vec gradient; /* m_j grad_i W_ij */
+    sph_real square;  /* m_j |grad_i W_ij|^2, if j moves */
+    SPHI_TCC_PAD
+} sph_dfsph_sums;
+/* m_j F x_ij and moves_j m_j |F x_ij|^2. moves_j = 1, or 0 for a wall particle that no pressure moves. */
+SPH_FN sph_dfsph_sums sph_pressure_factor_pair_dfsph(int dim, sph_real m_j, sph_real moves_j, sph_vec x_ij,
+                                                     sph_real f_ij)
+{
+    sph_dfsph_sums s;
+    s.gradient = sph_scale(m_j * f_ij, x_ij);
+    s.square = moves_j * f_ij * sph_dot(dim, s.gradient, x_ij);
+    return s;
+}
+/* alpha_i = rho_i / (|s.gradient|^2 + m_i s.square), from the sums. Where nothing pushes, the denominator is
+   0 and the answer not finite. */
+SPH_FN sph_real sph_pressure_factor_value_dfsph(int dim, sph_fluid_side i, sph_dfsph_sums s)
+{
+    return i.rho / (sph_dot(dim, s.gradient, s.gradient) + i.m * s.square);
+}
+
+/* -------- divergence-free SPH: sweep */
+
+SPH_FN sph_index sphi_dfsph_range(int walls, sph_kernel k, int dim, sph_cloud cloud, const sph_fluid *f,
+                                  sph_scalars moves, sph_scalar_out out)
+{
+    sph_index i, p, failed = 0;
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        sph_real gx = SPH_R(0), gy = SPH_R(0), gz = SPH_R(0), square = SPH_R(0);
+        sph_dfsph_sums sums;
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], gx, gy, gz, square) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_dfsph_sums c = sph_pressure_factor_pair_dfsph(
+                dim, sphi_at(f->m, j), walls ? sphi_at(moves, j) : SPH_R(1), x_ij,
+                sph_kernel_f(k, dim, sph_length(dim, x_ij), sphi_mean_h(0, cloud.h, h_i, j)));
+            gx += c.gradient.x;
+            if (dim > 1) gy += c.gradient.y;
+            if (dim > 2) gz += c.gradient.z;
+            square += c.square;
+        }
+        sums.gradient.x = gx;
+        sums.gradient.y = gy;
+        sums.gradient.z = gz;
+        sums.square = square;
+        failed += square == SPH_R(0) && gx == SPH_R(0) && gy == SPH_R(0) && gz == SPH_R(0)
+                      ? sphi_answer(out, i, SPH_R(0), SPH_TOO_FEW)
+                      : sphi_store(out, i,
+                                   sph_pressure_factor_value_dfsph(
+                                       dim, sphi_fluid_side(SPHI_READ_M + SPHI_READ_RHO, f, f->m, i), sums));
+    }
+    return failed;
+}
+/* The factor alpha of DFSPH, see above. Of fluid, the members m and rho are read. moves: 1 for particles that
+   pressure moves, 0 for walls; null: all move. The targets are particles that move. A pair uses
+   (h_i + h_j) / 2 (lists by SPH_MEAN). A target that no neighbour can push has the factor 0 and
+   SPH_TOO_FEW. Returns the number of targets that are not SPH_OK, or a negative sph_error. */
+SPH_FN sph_index sph_pressure_factor_dfsph(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                           sph_scalars moves, sph_scalar_out out)
+{
+    int error = sphi_check_sweep(k, dim, cloud, "m", fluid.m);
+    if (!error) error = sphi_check_positive("m", fluid.m, cloud.points.n);
+    if (!error) error = sphi_check_positive("rho", fluid.rho, cloud.points.n);
+    if (!error && moves.p) error = sphi_check_field("moves", moves, cloud.points.n);
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
+    return moves.p ? sphi_dfsph_range(1, k, dim, cloud, &fluid, moves, out)
+                   : sphi_dfsph_range(0, k, dim, cloud, &fluid, moves, out);
+}
+
 /* ================================================================ Riemann solver for fluids
  *
  * Two neighbours i and j are the left and the right state of a Riemann problem along the line from i to j,
@@ -6619,7 +6720,11 @@ typedef struct sph_wall_part {
 /* -------- walls by boundary integrals: pair functions */
 
 /* w(q) = sum over t of factor[t] (knot[t] - q)_+^power, of which the first term has the factor
-   1 + p[0] q + p[1] q^2 + p[2] q^3: the formulas of sph_kernel_shape. Knots descend. */
+   1 + p[0] q + p[1] q^2 + p[2] q^3. Knots descend. These are the formulas of sph_kernel_shape once more, as
+   coefficients: there they are code that neither branches nor cancels, and a sum over such terms would be
+   slower. Coefficients that are fitted to values of sph_kernel_shape have lost three digits (6e-5 for
+   wendland-c6 in float). tests/test_walls.c holds each kernel's gamma beside a quadrature of its
+   sph_kernel_w. */
 typedef struct sphi_truncated {
     int terms, power;
     sph_real knot[SPH_WALL_PIECES], factor[SPH_WALL_PIECES], p[3];
@@ -7094,23 +7199,22 @@ SPH_FN sph_index sph_wall_gamma(sph_kernel k, int dim, sph_cloud cloud, sph_wall
     return failed;
 }
 
-SPH_FN int sphi_check_wall(sph_kernel k, int dim, sph_cloud cloud, sph_wall_terms wall, sph_scalars f)
+SPH_FN int sphi_check_wall(sph_kernel k, int dim, sph_cloud cloud, sph_wall_terms wall)
 {
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     if (!error) error = sphi_check_positive("wall.gamma", wall.gamma, cloud.points.n);
-    if (!error) error = sphi_check_vectors("wall.gradient", dim, wall.gradient, cloud.points.n);
-    return error ? error : sphi_check_field("f", f, cloud.points.n);
+    return error ? error : sphi_check_vectors("wall.gradient", dim, wall.gradient, cloud.points.n);
 }
 /* grad f_i = (sum_j V_j f_j grad_i W_ij - f_w grad gamma_i) / gamma_i, the particles of the fluid being all
-   sources, with wall.value the f_w of each target. Ferrand et al. 2013. W has the h of the target. As rows:
-   V_j F_ij x_ij / gamma_i for each neighbour, and -grad gamma_i / gamma_i for f_w. For its error see above.
-   SPH_ERROR_VALUE for a gamma that is not positive. Returns the number of targets whose result overflowed (it
-   is 0 then), or a negative sph_error. */
+   sources, with wall.value the f_w of each target. Ferrand et al. 2013. W has the h of the target. For its
+   error see above. SPH_ERROR_VALUE for a gamma that is not positive. Returns the number of targets whose
+   result overflowed (it is 0 then), or a negative sph_error. */
 SPH_FN sph_index sph_wall_gradient(sph_kernel k, int dim, sph_cloud cloud, sph_wall_terms wall, sph_scalars f,
                                    sph_vector_out out)
 {
-    int error = sphi_check_wall(k, dim, cloud, wall, f);
+    int error = sphi_check_wall(k, dim, cloud, wall);
     sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_field("f", f, cloud.points.n);
     if (!error) error = sphi_check_field("wall.value", wall.value, cloud.points.n);
     if (!error) error = sphi_check_out("out", dim, out);
     if (error) return sphi_answer_of(error);
@@ -7138,16 +7242,58 @@ SPH_FN sph_index sph_wall_gradient(sph_kernel k, int dim, sph_cloud cloud, sph_w
     }
     return failed;
 }
+/* The same gradient as rows, for an f that is not known yet:
+       grad f_i = sum_p (x[p], y[p], z[p]) f_j + source_i,
+   with the weights V_j F_ij x_ij / gamma_i, and source_i = -f_w grad gamma_i / gamma_i. In contrast to
+   sph_gradient_rows_cspm they multiply f_j, not f_j - f_i: this is the sum form. The conditioning of out is
+   1. The weight of f_w itself is the source for wall.value = 1. Where a row or its source overflows, both are
+   0, with SPH_NOT_FINITE. Returns the number of these targets, or a negative sph_error. */
+SPH_FN sph_index sph_wall_gradient_rows(sph_kernel k, int dim, sph_cloud cloud, sph_wall_terms wall,
+                                        sph_gradient_rows_out out, sph_vector_out source)
+{
+    SPH_GLOBAL sph_real *const SPH_RESTRICT wx = out.x, *const SPH_RESTRICT wy = out.y,
+                                            *const SPH_RESTRICT wz = out.z;
+    const sph_vec none = {SPH_R(0), SPH_R(0), SPH_R(0)};
+    int error = sphi_check_wall(k, dim, cloud, wall);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_field("wall.value", wall.value, cloud.points.n);
+    if (!error) error = sphi_check_out("out", dim, sph_vector_out_separate(wx, wy, wz));
+    if (!error) error = sphi_check_out("source", dim, source);
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), nabla = sphi_vector_at(dim, wall.gradient, i);
+        const sph_real h_i = sphi_at(cloud.h, i), gamma = sphi_at(wall.gamma, i);
+        int lost;
+        SPH_EACH(p, cloud.list.start[i], cloud.list.start[i + 1]) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_vec pair = sph_gradient_pair_difference(k, dim, sphi_at(cloud.volume, j), SPH_R(1),
+                                                              x_ij, sph_length(dim, x_ij), h_i);
+            const sph_vec w = sph_wall_gradient_value(dim, pair, SPH_R(0), gamma, nabla);
+            wx[p] = w.x;
+            if (dim > 1) wy[p] = w.y;
+            if (dim > 2) wz[p] = w.z;
+        }
+        lost = sphi_store_vector(dim, source, i,
+                                 sph_wall_gradient_value(dim, none, sphi_at(wall.value, i), gamma, nabla));
+        lost = sphi_gradient_row_finite(dim, out, cloud.list, i, lost);
+        if (lost) sphi_store_vector(dim, source, i, none);
+        sphi_put(out.conditioning, sphi_stride(out.stride), i, SPH_R(1));
+        sphi_tell(out.status, i, lost);
+        failed += lost;
+    }
+    return failed;
+}
 /* lap f_i = (sum_j 2 V_j (f_i - f_j) F_ij - 2 g_w . grad gamma_i) / gamma_i, with wall.slope the g_w of each
    target: the gradient of f at the wall, of which the part along the normal counts. Where f_w is given
    instead, at the distance d in front of one wall, g_w = (f_w - f_i) / d n. Macia et al. 2012; Ferrand et al.
-   2013, who take the mean of the gradients on both sides. The rows are those of sph_laplacian_rows_brookshaw
-   by gamma_i. Errors and answer as above. */
+   2013, who take the mean of the gradients on both sides. Errors and answer as above. */
 SPH_FN sph_index sph_wall_laplacian(sph_kernel k, int dim, sph_cloud cloud, sph_wall_terms wall,
                                     sph_scalars f, sph_scalar_out out)
 {
-    int error = sphi_check_wall(k, dim, cloud, wall, f);
+    int error = sphi_check_wall(k, dim, cloud, wall);
     sph_index i, failed = 0;
+    if (!error) error = sphi_check_field("f", f, cloud.points.n);
     if (!error) error = sphi_check_vectors("wall.slope", dim, wall.slope, cloud.points.n);
     if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
@@ -7157,6 +7303,45 @@ SPH_FN sph_index sph_wall_laplacian(sph_kernel k, int dim, sph_cloud cloud, sph_
                        sph_wall_laplacian_value(dim, sphi_brookshaw_sum(k, dim, cloud, f, i),
                                                 sphi_vector_at(dim, wall.slope, i), sphi_at(wall.gamma, i),
                                                 sphi_vector_at(dim, wall.gradient, i)));
+    return failed;
+}
+
+/* The same Laplacian as rows, for an f that is not known yet:
+       lap f_i = sum_p row[p] (f_j - f_i) + source_i,
+   with row[p] = -2 V_j F_ij / gamma_i >= 0, factor 1 and conditioning 1, and
+   source_i = -2 g_w . grad gamma_i / gamma_i. Answers as above; the status of out is written, that of source
+   is not. */
+SPH_FN sph_index sph_wall_laplacian_rows(sph_kernel k, int dim, sph_cloud cloud, sph_wall_terms wall,
+                                         sph_rows_out out, sph_scalar_out source)
+{
+    SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
+    const sph_vec none = {SPH_R(0), SPH_R(0), SPH_R(0)};
+    int error = sphi_check_wall(k, dim, cloud, wall);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_vectors("wall.slope", dim, wall.slope, cloud.points.n);
+    if (!error && !row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
+    if (!error && !source.p) error = sphi_refuse("source", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), nabla = sphi_vector_at(dim, wall.gradient, i);
+        const sph_real h_i = sphi_at(cloud.h, i), gamma = sphi_at(wall.gamma, i);
+        sph_real value =
+            sph_wall_laplacian_value(dim, SPH_R(0), sphi_vector_at(dim, wall.slope, i), gamma, nabla);
+        int lost;
+        SPH_EACH(p, cloud.list.start[i], cloud.list.start[i + 1]) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            row[p] = sph_wall_laplacian_value(
+                dim,
+                sph_laplacian_weight_brookshaw(k, dim, sph_length(dim, x_ij), h_i, sphi_at(cloud.volume, j)),
+                none, gamma, nabla);
+        }
+        lost = sphi_row_finite(row, cloud.list.start[i], cloud.list.start[i + 1]) | !sphi_finite(value);
+        for (p = cloud.list.start[i]; lost && p < cloud.list.start[i + 1]; p++) row[p] = SPH_R(0);
+        source.p[(size_t)i * sphi_stride(source.stride)] = lost ? SPH_R(0) : value;
+        sphi_row_answer(out, cloud.list, i, 1, SPH_R(1), lost ? (int)SPH_NOT_FINITE : (int)SPH_OK);
+        failed += lost;
+    }
     return failed;
 }
 

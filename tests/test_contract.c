@@ -543,6 +543,9 @@ CALL(tension_csf, RANGE, tension_of(w), tension_out_of(w))
 CALL(wall_gamma, RANGE, elements_of(w), gamma_out_of(w))
 CALL(wall_gradient, RANGE, wall_terms_of(w), A(F), vector_out_of(w, O0))
 CALL(wall_laplacian, RANGE, wall_terms_of(w), A(F), scalar_out_of(w))
+CALL(wall_gradient_rows, RANGE, wall_terms_of(w), gradient_row_out_of(w), vector_out_of(w, O0))
+CALL(wall_laplacian_rows, RANGE, wall_terms_of(w), row_out_of(w), sph_scalar_out_strided(R(S3), w->out_stride, 0))
+CALL(pressure_factor_dfsph, RANGE, still_of(w), A(U), scalar_out_of(w))
 CALL(collision_count, LIST, collision_of(w), vectors_of(w, VX), I(I0))
 CALL(collision_change_weighted, LIST, collision_of(w), vectors_of(w, VX), I(COUNT), vector_out_of(w, O0))
 CALL(nearest_distance, w->dim, others_with_list(w), points_of(w), scalar_out_of(w))
@@ -839,6 +842,9 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(wall_gamma, DIM | KERNEL | TARGETS | COUNTED | PARTS, ALL, XYZ(PX) | BIT(H) | XYZ(BX) | XYZ(VX), 0, BIT(S0) | XYZ(O0), BIT(STATUS), 0),
     FUNCTION(wall_gradient, SMOOTHED, ALL, VOLUMES | BIT(RHO) | XYZ(BX) | BIT(U) | BIT(F), 0, XYZ(O0), 0, 0),
     FUNCTION(wall_laplacian, SMOOTHED, ALL, VOLUMES | BIT(RHO) | XYZ(BX) | XYZ(VX) | BIT(F), 0, BIT(S0), BIT(STATUS), 0),
+    FUNCTION(wall_gradient_rows, SMOOTHED, ALL, VOLUMES | BIT(RHO) | XYZ(BX) | BIT(U), 0, XYZ(R0) | XYZ(O0), BIT(S1) | BIT(STATUS), 0),
+    FUNCTION(wall_laplacian_rows, SMOOTHED, ALL, VOLUMES | BIT(RHO) | XYZ(BX) | XYZ(VX), 0, BIT(R0) | BIT(S3), ROW_EXTRAS, 0),
+    FUNCTION(pressure_factor_dfsph, SMOOTHED | HEAVY, ALL, MASSES | BIT(RHO), BIT(U), BIT(S0), BIT(STATUS), 0),
     FUNCTION(collision_sequential, LISTED | OPAQUE | TOTALS, ALL, COLLIDERS, 0, XYZ(VX), BIT(REPORT),
              N(DISTANCE) | N(RESTITUTION)),
     FUNCTION(collision_count, LISTED | COUNTS, ALL, COLLIDERS, 0, BIT(I0), 0, N(DISTANCE)),
@@ -1303,6 +1309,7 @@ static const char *argument_of(const function *f, int a)
                  {"sph_wall_laplacian", BIT(RHO), "wall.gamma"},
                  {"sph_wall_laplacian", XYZ(BX), "wall.gradient"},
                  {"sph_wall_laplacian", XYZ(VX), "wall.slope"},
+                 {"sph_pressure_factor", BIT(U), "moves"},
                  {"sph_tension_css", XYZ(BX), "normal"},
                  {"sph_tension_csf", XYZ(BX), "normal"},
                  {"sph_wall_adami", BIT(U), "rho"},

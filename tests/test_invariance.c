@@ -22,13 +22,14 @@
 /* ---- a cloud with a field of every kind ---- */
 
 enum { M, RHO, OMEGA, V, P, U, CS, ALPHA, PSI, F, MU, ZETA, SHARE, H, REACH, VX, VY, VZ, BX, BY, BZ, FIELDS };
-enum { OUTPUTS = 12 };
+enum { OUTPUTS = 12, ELEMENTS = 12 };
 typedef struct world {
     cloud c;
     sph_real *a[FIELDS], *out[OUTPUTS];
     unsigned char *status;
     sph_real sigma; /* damping of the cleaning */
     int marked;     /* 1: the cloud is checked once, before all calls */
+    sph_real corner[3][3][ELEMENTS]; /* of elements of a wall: a, b, c; axis */
     sph_vec gravity;
 } world;
 
@@ -42,6 +43,7 @@ static world world_new(int dim, sph_index n)
     w.status = (unsigned char *)cloud_memory((size_t)n, 1);
     w.sigma = SPH_R(1);
     w.marked = 0;
+    memset(w.corner, 0, sizeof w.corner);
     w.gravity.x = SPH_R(0.3);
     w.gravity.y = SPH_R(dim > 1 ? -1 : 0);
     w.gravity.z = SPH_R(dim > 2 ? 0.4 : 0);
@@ -93,6 +95,11 @@ static world first_world(int dim)
         for (j = 0; j < w.c.n; j++)
             if (j != i && distance(&w.c, i, j) < SPH_R(3.3) * lattice.h) *index++ = j;
         w.c.start[i + 1] = (sph_index)(index - w.c.index);
+    }
+    for (i = 0; i < ELEMENTS; i++) { /* anywhere: of elements that close nothing gamma means little, but moves with them */
+        int corner, axis;
+        for (corner = 0; corner < 3; corner++)
+            for (axis = 0; axis < dim; axis++) w.corner[corner][axis][i] = SPH_R((float)(0.5 + 0.5 * cloud_symmetric(&g)));
     }
     cloud_free(&lattice);
     return w;
@@ -310,6 +317,20 @@ static sph_index wall_gradient(world *w, sph_index first, sph_index last)
     t.value = sph_scalars_same(&none);
     return sph_wall_gradient(SWEEP, t, at(w, F), into(w, 0));
 }
+OPERATOR(pressure_factor, sph_pressure_factor_dfsph(SWEEP, fluid(w), at(w, SHARE), SCALAR_OUT))
+static sph_index wall_gamma(world *w, sph_index first, sph_index last)
+{
+    sph_wall_elements e;
+    sph_wall_gamma_out o = {0};
+    memset(&e, 0, sizeof e);
+    e.n = ELEMENTS;
+    e.a = sph_vectors_separate(w->corner[0][0], w->corner[0][1], w->corner[0][2]);
+    e.b = sph_vectors_separate(w->corner[1][0], w->corner[1][1], w->corner[1][2]);
+    e.c = sph_vectors_separate(w->corner[2][0], w->corner[2][1], w->corner[2][2]);
+    o.gamma = OUT(3);
+    o.gradient = into(w, 0);
+    return sph_wall_gamma(SWEEP, e, o);
+}
 static sph_index wall_laplacian(world *w, sph_index first, sph_index last)
 {
     sph_wall_terms t = wall_terms(w);
@@ -415,6 +436,9 @@ static const operation operations[] = {
     {"tension_csf", tension_csf, ALL, 5, {{VECTOR, 0, -1, 0}, {SCALAR, 3, -1, 0}}},
     {"wall_gradient", wall_gradient, ALL, 1, {{VECTOR, 0, -1, 0}}},
     {"wall_laplacian", wall_laplacian, ALL, 1, {{SCALAR, 0, -2, 0}}},
+    /* the closed forms are differences of powers up to q^14 */
+    {"wall_gamma", wall_gamma, ALL, 10, {{VECTOR, 0, -1, 0}, {SCALAR, 3, 0, 0}}},
+    {"pressure_factor_dfsph", pressure_factor, ALL, 1, {{SCALAR, 0, 2, 2}}},
     {"viscous_mu_morris", viscous_morris, ALL, 1, {{VECTOR, 0, -2, -1}}},
     {"viscous_mu_monaghan_cleary", viscous_cleary, ALL, 1, {{VECTOR, 0, -2, -1}}},
     {"viscous_mu_espanol_revenga", viscous_espanol, ALL, 1, {{VECTOR, 0, -2, -1}}},
@@ -517,6 +541,14 @@ static world seen(const world *w, const view *v)
             for (a = 0; a < 3; a++) s.a[f + a][j] = SPH_R(q[a]);
         }
     }
+    for (i = 0; i < ELEMENTS; i++)
+        for (f = 0; f < 3; f++) {
+            const int to = v->determinant < 0.0 && w->c.dim > 1 ? w->c.dim - 1 - f : f; /* the order of corners says where the fluid is */
+            int a;
+            for (a = 0; a < 3; a++) p[a] = (double)w->corner[f][a][i];
+            turned(v, p, q);
+            for (a = 0; a < w->c.dim; a++) s.corner[to < 0 ? 2 : to][a][i] = SPH_R(v->unit * q[a] + v->shift[a]);
+        }
     s.c.index = (sph_index *)cloud_memory((size_t)w->c.start[n], sizeof *s.c.index);
     for (i = 0; i < n; i++) { /* the same neighbours; with new names also in another order */
         const sph_index from = w->c.start[old[i]], count = w->c.start[old[i] + 1] - from;

@@ -48,6 +48,7 @@ static void assertion(void)
 #define NUMBERS_sph_fit ((int)(sizeof(sph_fit) / sizeof(sph_real)))
 #define NUMBERS_sph_fit_rows 16
 #define NUMBERS_sph_wall_sums 5
+#define NUMBERS_sph_dfsph_sums 4
 #define NUMBERS_sph_transport_change 6
 #define NUMBERS_sph_riemann_side 3
 #define NUMBERS_sph_wall_part 4
@@ -999,6 +1000,12 @@ static void liquids(void)
     FORBIDDEN_BELOW_0(x, sph_shift_limited(3, along, x))
     FUNCTION(sph_shift_rate_pair)
     ALLOWED(sph_real, sph_shift_rate_pair(drifts, -one, zero))
+    FUNCTION(sph_pressure_factor_pair_dfsph)
+    ALLOWED(sph_dfsph_sums, sph_pressure_factor_pair_dfsph(3, zero, zero, nothing, zero))
+    FORBIDDEN(sph_pressure_factor_pair_dfsph(0, one, one, along, -one))
+    FUNCTION(sph_pressure_factor_value_dfsph)
+    ALLOWED(sph_real, sph_pressure_factor_value_dfsph(3, fluid(one, one, zero, zero), sph_pressure_factor_pair_dfsph(3, one, one, along, -one)))
+    FORBIDDEN(sph_pressure_factor_value_dfsph(4, fluid(one, one, zero, zero), sph_pressure_factor_pair_dfsph(3, one, one, along, -one)))
     FUNCTION(sph_transport_pair_adami)
     ALLOWED(sph_transport_change, sph_transport_pair_adami(3, carried(one, small_number), carried(small_number, one), nothing, zero))
     FORBIDDEN(sph_transport_pair_adami(0, carried(one, one), carried(one, one), along, -one))

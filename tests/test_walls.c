@@ -509,6 +509,68 @@ static void test_operators(void)
         cloud_free(&c);
     }
 }
+/* What can be applied can also be given as rows: both agree to rounding, in all dimensions, for a state of the wall that is any. */
+static void test_rows(void)
+{
+    int dim;
+    for (dim = 1; dim <= 3; dim++) {
+        cloud c = cloud_lattice(dim, dim == 1 ? 40 : dim == 2 ? 12 : 7, 1.4, 0.2, 8);
+        const sph_index n = c.n, pairs = c.start[n];
+        sph_real *const a = (sph_real *)cloud_memory(18 * (size_t)n + 3 * (size_t)pairs, sizeof *a), *const gamma = a, *const nabla = a + n, *const slope = a + 4 * n, *const value = a + 7 * n,
+                        *const out = a + 8 * n, *const source = a + 11 * n, *const applied = a + 14 * n, *const diagonal = a + 15 * n, *const conditioning = a + 16 * n, *const factor = a + 17 * n,
+                        *const row = a + 18 * n;
+        unsigned char *const status = (unsigned char *)cloud_memory((size_t)n, 1);
+        double off = 0.0, size = 0.0, laplacian = 0.0, laplacian_size = 0.0;
+        sph_gradient_rows_out rows = {0};
+        sph_rows_out r = {0};
+        sph_wall_terms wall;
+        sph_index i;
+        pcg32 g;
+        int k;
+        pcg32_seed(&g, 4, (uint64_t)dim);
+        cloud_set(&c, field_smooth);
+        for (i = 0; i < 8 * n; i++) a[i] = SPH_R(i < n ? 0.6 + 0.4 * pcg32_uniform(&g) : cloud_symmetric(&g));
+        memset(&wall, 0, sizeof wall);
+        wall.gamma = sph_scalars_array(gamma);
+        wall.gradient = sph_vectors_separate(nabla, nabla + n, nabla + 2 * n);
+        wall.value = sph_scalars_array(value);
+        wall.slope = sph_vectors_separate(slope, slope + n, slope + 2 * n);
+        rows.x = row, rows.y = row + pairs, rows.z = row + 2 * pairs, rows.conditioning = conditioning, rows.status = status;
+        CHECK(sph_wall_gradient(SPH_WENDLAND_C2, dim, cloud_view(&c), wall, cloud_f(&c), sph_vector_out_separate(out, out + n, out + 2 * n)) == 0);
+        CHECK(sph_wall_gradient_rows(SPH_WENDLAND_C2, dim, cloud_view(&c), wall, rows, sph_vector_out_separate(source, source + n, source + 2 * n)) == 0);
+        for (k = 0; k < dim; k++) {
+            sph_real *const zero = diagonal; /* these rows multiply f_j */
+            for (i = 0; i < n; i++) zero[i] = SPH_R(0);
+            CHECK(sph_rows_apply(cloud_view(&c), row + k * pairs, sph_scalars_array(zero), cloud_f(&c), sph_scalar_out_array(applied, 0)) == 0);
+            for (i = 0; i < n; i++) {
+                off = worse(off, (double)(applied[i] + source[i + k * n] - out[i + k * n]));
+                size = worse(size, (double)out[i + k * n]);
+                CHECK(status[i] == SPH_OK && (double)conditioning[i] == 1.0);
+            }
+        }
+        CHECK(size > 1.0);
+        CHECK_WORST("rows of the wall's gradient", off / size, 200.0 * EPSILON);
+        CHECK(sph_wall_laplacian(SPH_WENDLAND_C2, dim, cloud_view(&c), wall, cloud_f(&c), sph_scalar_out_array(out, 0)) == 0);
+        r.row = row, r.diagonal = diagonal, r.factor = factor, r.conditioning = conditioning, r.status = status;
+        CHECK(sph_wall_laplacian_rows(SPH_WENDLAND_C2, dim, cloud_view(&c), wall, r, sph_scalar_out_array(source, 0)) == 0);
+        CHECK(sph_rows_apply(cloud_view(&c), row, sph_scalars_array(diagonal), cloud_f(&c), sph_scalar_out_array(applied, 0)) == 0);
+        for (i = 0; i < n; i++) {
+            laplacian = worse(laplacian, (double)(applied[i] + source[i] - out[i]));
+            laplacian_size = worse(laplacian_size, (double)diagonal[i]);
+            CHECK(status[i] == SPH_OK && (double)factor[i] == 1.0 && (double)diagonal[i] < 0.0);
+        }
+        CHECK(sph_rows_monotone(cloud_view(&c), row, sph_scalars_array(diagonal), 0) == 0);
+        CHECK_WORST("rows of the wall's Laplacian", laplacian / laplacian_size, 200.0 * EPSILON);
+        /* what the wall adds to one target overflows: it is 0, its row too, and the others stay */
+        gamma[1] = SPH_R(BY_PRECISION(1e-300, 1e-30));
+        value[1] = SPH_R(1e30);
+        CHECK(sph_wall_gradient_rows(SPH_WENDLAND_C2, dim, cloud_view(&c), wall, rows, sph_vector_out_separate(source, source + n, source + 2 * n)) == 1);
+        CHECK(status[1] == SPH_NOT_FINITE && status[0] == SPH_OK && row[c.start[1]] == SPH_R(0) && source[1] == SPH_R(0));
+        free(a);
+        free(status);
+        cloud_free(&c);
+    }
+}
 /* In 1D, with the Shepard sum for gamma, it is the boundary integral method. */
 static void test_bim(void)
 {
@@ -554,6 +616,7 @@ int main(void)
     test_sweep();
     test_periodic();
     test_operators();
+    test_rows();
     test_bim();
     return check_report("test_walls");
 }

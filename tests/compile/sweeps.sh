@@ -51,7 +51,9 @@ END
             'css|sph_tension_css(SPH_WENDLAND_C2, D, x, (sph_tension){.rho = f, .normal = {f, f, f}, .sigma = 1}, sph_vector_out_separate(a, b, c))' \
             'csf|sph_tension_csf(SPH_WENDLAND_C2, D, x, (sph_tension){.rho = f, .normal = {f, f, f}, .sigma = 1}, (sph_tension_out){.acceleration = sph_vector_out_separate(a, b, c)})' \
             'wallgradient|sph_wall_gradient(SPH_WENDLAND_C2, D, x, (sph_wall_terms){.gamma = f, .gradient = {f, f, f}, .value = f}, f, sph_vector_out_separate(a, b, c))' \
-            'walllaplacian|sph_wall_laplacian(SPH_WENDLAND_C2, D, x, (sph_wall_terms){.gamma = f, .gradient = {f, f, f}, .slope = {f, f, f}}, f, sph_scalar_out_array(a, 0))'; do
+            'walllaplacian|sph_wall_laplacian(SPH_WENDLAND_C2, D, x, (sph_wall_terms){.gamma = f, .gradient = {f, f, f}, .slope = {f, f, f}}, f, sph_scalar_out_array(a, 0))' \
+            'wallrows|sph_wall_laplacian_rows(SPH_WENDLAND_C2, D, x, (sph_wall_terms){.gamma = f, .gradient = {f, f, f}, .slope = {f, f, f}}, (sph_rows_out){.row = a}, sph_scalar_out_array(b, 0))' \
+            'dfsph|sph_pressure_factor_dfsph(SPH_WENDLAND_C2, D, x, fluid(x.volume, f), sph_scalars_none(), sph_scalar_out_array(a, s))'; do
             name=sweep_${sweep%%|*}_$dim
             arguments='sph_cloud x, sph_scalars f, sph_real *a, sph_real *b, sph_real *c, unsigned char *s,
                 sph_derivatives_out out'
@@ -88,7 +90,7 @@ sph_real sweep_control(sph_kernel k, const sph_real *r, int n)
 END
 
 for cc in gcc "gcc -DLISTS_ALONE -fopenmp-simd -DSPH_SIMD=1" clang; do
-    case $cc in *LISTS*) sweeps=48 ;; *) sweeps=57 ;; esac
+    case $cc in *LISTS*) sweeps=54 ;; *) sweeps=63 ;; esac
     usable "assembly of the sweeps by $cc" "$empty" '' "$cc -std=c99 -O2" || continue
     if [ "$($cc -dumpmachine | cut -d- -f1)" != x86_64 ]; then
         skip "assembly of the sweeps by $cc" "not for x86-64"

@@ -222,6 +222,51 @@ static sph_wall_out wall_out(const arguments *a)
     o.status = a->status;
     return o;
 }
+static sph_wall_elements elements(const arguments *a) /* as many as particles, between any points */
+{
+    sph_wall_elements e = {0};
+    e.n = a->cloud.points.n;
+    e.a = vectors(a, 5), e.b = vectors(a, 8);
+    e.c.x = a->s[9], e.c.y = a->s[5], e.c.z = a->s[3];
+    if (a->what & 1) e.list = a->cloud.list;
+    return e;
+}
+static sph_wall_gamma_out gamma_out(const arguments *a)
+{
+    sph_wall_gamma_out o = {0};
+    o.gamma = OUT(3), o.gradient = vector_out(a, 0);
+    o.status = a->status;
+    return o;
+}
+/* the sources of the linear fits: as many as targets, in other places if what is odd */
+static sph_sources sources(const arguments *a)
+{
+    sph_sources s;
+    s.points = a->cloud.points;
+    if (a->what & 1 && a->cloud.points.stride == a->s[3].stride) s.points.x = a->s[3].p;
+    s.volume = a->s[0];
+    return s;
+}
+static sph_interpolation_options interpolation(const arguments *a)
+{
+    sph_interpolation_options o = {0};
+    o.conditioning_min = a->number[0];
+    return o;
+}
+static sph_interpolation_out interpolation_out(const arguments *a)
+{
+    sph_interpolation_out o = {0};
+    o.gx = OUT(0), o.gy = OUT(1), o.gz = OUT(2), o.value = OUT(3), o.conditioning = OUT(4);
+    o.status = a->status;
+    return o;
+}
+static sph_interpolation_rows_out interpolation_rows(const arguments *a)
+{
+    sph_interpolation_rows_out o = {0};
+    o.x = OUT(0), o.y = OUT(1), o.z = OUT(2), o.value = OUT(3), o.conditioning = OUT(4);
+    o.status = a->status;
+    return o;
+}
 
 static sph_diffusion diffusion(const arguments *a)
 {
@@ -322,6 +367,15 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_tension_csf(SWEEP, tension(a), (sph_tension_out){.acceleration = vector_out(a, 0), .curvature = OUT(3), .status = a->status}), 4, 0, VECTOR | STATUS) \
     X(sph_wall_gradient(SWEEP, wall_terms(a), a->s[3], vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_wall_laplacian(SWEEP, wall_terms(a), a->s[3], sph_scalar_out_array(OUT(0), 0)), 1, 0, PLAIN) \
+    X(sph_wall_gradient_rows(SWEEP, wall_terms(a), (sph_gradient_rows_out){.x = OUT(0), .y = OUT(1), .z = OUT(2), .status = a->status}, vector_out(a, 3)), 6, 3, VECTOR | VECTORS | STATUS) \
+    X(sph_wall_laplacian_rows(SWEEP, wall_terms(a), row_out(a), sph_scalar_out_array(OUT(4), 0)), 5, 1, STATUS) \
+    X(sph_pressure_factor_dfsph(SWEEP, fluid(a), a->what & 1 ? a->s[4] : sph_scalars_none(), scalar_out(a)), 1, 0, STATUS) \
+    X(sph_wall_gamma(SWEEP, elements(a), gamma_out(a)), 4, 0, VECTOR | STATUS) \
+    X(sph_wall_rows_adami(SWEEP, wall(a), row_out(a), sph_scalar_out_array(OUT(4), 0)), 5, 1, STATUS) \
+    X(sph_interpolate_mls(SWEEP, sources(a), a->s[3], interpolation(a), interpolation_out(a)), 5, 0, VECTOR | STATUS) \
+    X(sph_interpolate_liu(SWEEP, sources(a), a->s[3], interpolation(a), interpolation_out(a)), 5, 0, VECTOR | STATUS) \
+    X(sph_interpolate_rows_mls(SWEEP, sources(a), interpolation(a), interpolation_rows(a)), 5, 4, VECTOR | STATUS) \
+    X(sph_interpolate_rows_liu(SWEEP, sources(a), interpolation(a), interpolation_rows(a)), 5, 4, VECTOR | STATUS) \
     X(sph_collision_count(LIST, collision(a), vectors(a, 5), a->count), 0, 0, COUNTS) \
     X(sph_nearest_distance(LIST, a->cloud.points, scalar_out(a)), 1, 0, STATUS) \
     X(sph_hexatic_order(a->cloud, scalar_out(a)), 1, 0, STATUS) \
@@ -397,10 +451,11 @@ static void check_answer(const arguments *a, size_t room)
         REQUIRE(answer <= (a->cloud.last > a->cloud.first ? a->cloud.last - a->cloud.first : 0));
     for (o = 0; o < OUTPUTS; o++) {
         const int pairs = o < now->pairs, used = answer >= 0 && o < now->outputs && is_written(a, o);
-        sph_index low = answer < 0 ? 0
+        const int none = answer < 0 || a->cloud.first >= a->cloud.last; /* there may be no lists then */
+        sph_index low = none       ? 0
                         : pairs    ? a->cloud.list.start[a->cloud.first]
                                    : a->cloud.first,
-                  high = answer < 0 ? 0
+                  high = none       ? 0
                          : pairs    ? a->cloud.list.start[a->cloud.last]
                                     : a->cloud.last;
         if (now->flags & ONE) low = 0, high = 1;
@@ -497,13 +552,28 @@ static void own_growth(const arguments *a)
                         a->number[3], gravity(a), &re, &im) == 0)
         REQUIRE(isfinite(re) && isfinite(im));
 }
+static void own_eliminate(const arguments *a) /* rows are read and written */
+{
+    const sph_list list = a->cloud.list;
+    const size_t pairs = a->cloud.points.n > 0 && list.start && list.start[a->cloud.points.n] > 0 ? (size_t)list.start[a->cloud.points.n] : 0;
+    sph_rows_out o = {0};
+    size_t p;
+    sph_index i;
+    for (p = 0; p < pairs && a->out[0] && a->s[13].p; p++) a->out[0][p] = a->s[13].p[p];
+    o.row = OUT(0), o.diagonal = OUT(1);
+    if (sph_wall_rows_eliminate(LIST, wall(a), o, sph_scalar_out_array(OUT(2), a->status)) < 0) return;
+    for (i = a->cloud.first; i < a->cloud.last; i++) {
+        REQUIRE(isfinite(a->out[2][i]) && (!a->out[1] || isfinite(a->out[1][i])));
+        REQUIRE(all_finite(a->out[0] + list.start[i], (size_t)(list.start[i + 1] - list.start[i])));
+    }
+}
 typedef struct own {
     void (*run)(const arguments *);
     description d;
 } own;
 static const own owns[] = {{own_density_adaptive, {"sph_density_adaptive", 0, 0, 0}}, {own_collide, {"sph_collision_sequential", 0, 0, 0}}, {own_weighted, {"sph_collision_change_weighted", 0, 0, 0}},
                            {own_separate, {"sph_coincident_separate", 0, 0, 0}},      {own_radial, {"sph_radial_distribution", 0, 0, 0}}, {own_sums, {"sph_conserved_sums", 0, 0, 0}},
-                           {own_growth, {"sph_rows_growth", 0, 0, 0}}};
+                           {own_growth, {"sph_rows_growth", 0, 0, 0}},               {own_eliminate, {"sph_wall_rows_eliminate", 0, 0, 0}}};
 enum { OWNS = sizeof owns / sizeof *owns };
 
 /* ---- arguments ---- */
@@ -541,7 +611,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     sph_scalars axis[3];
     size_t stride, room;
     int f, pairs;
-    now = which < COUNT ? &descriptions[which] : &owns[which - COUNT].d;
+    now = which < OWNS ? &owns[which].d : &descriptions[which - OWNS]; /* so that entries of SWEEPS that are new do not move the first */
     memset(a, 0, sizeof *a);
     a->what = (int)fuzz_byte(&in);
     a->k = hostile ? (int)(int8_t)fuzz_byte(&in) % (SPH_KERNEL_COUNT + 2) : fuzz_below(&in, SPH_KERNEL_COUNT);
@@ -604,10 +674,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         else if (none == 37) a->count = NULL;
     }
     a->cloud.volume = a->s[0];
-    if (which < COUNT) {
-        a->answer = call(which, a);
+    if (which < OWNS) owns[which].run(a);
+    else {
+        a->answer = call(which - OWNS, a);
         check_answer(a, room);
-    } else owns[which - COUNT].run(a);
+    }
     while (kept_count > 0) free(kept[--kept_count]);
     return 0;
 }
