@@ -241,7 +241,7 @@ static sph_shepard shepard(sph_real nu)
 }
 static const sph_kernel_gradient no_gradient = {0};
 static const sph_elliptic_correction no_correction = {0};
-static const sph_elliptic_inverse no_inverse = {0};
+static const sph_mat no_inverse = {0};
 static const sph_coefficients no_coefficients = {0};
 static const sph_test_weights weights = {SPH_R(1), SPH_R(1)};
 
@@ -429,7 +429,7 @@ static void sph_coefficients_block_in(int dim)
 static void sph_elliptic_invert_in(int dim)
 {
     const sph_elliptic_moments m = sph_elliptic_moments_radial(sym(one, zero), vec(zero, zero, zero));
-    sph_elliptic_inverse inverse;
+    sph_mat inverse;
     sph_elliptic_invert(dim, SPH_GRADIENT_FULL, &m, &inverse, 0);
 }
 static void sph_sym_eigenvalues_in(int dim) { sph_sym_eigenvalues(dim, sym(one, zero)); }
@@ -442,7 +442,7 @@ static void vectors_and_systems(void)
     sph_coefficients c = no_coefficients;
     sph_fit fit;
     sph_fit_rows fit_rows;
-    sph_elliptic_inverse inverse;
+    sph_mat inverse;
     sph_elliptic_moments em;
     sph_sym s;
     sph_real x;
@@ -626,9 +626,9 @@ static void vectors_and_systems(void)
     FUNCTION(sph_elliptic_moments_radial)
     ALLOWED(sph_elliptic_moments, sph_elliptic_moments_radial(sym(zero, zero), v))
     em = sph_elliptic_moments_radial(sym(zero, zero), v);
-    FUNCTION(sph_elliptic_inverse_times)
-    ALLOWED(sph_vec, sph_elliptic_inverse_times(3, no_inverse, v))
-    FORBIDDEN(sph_elliptic_inverse_times(0, no_inverse, v))
+    FUNCTION(sph_mat_times)
+    ALLOWED(sph_vec, sph_mat_times(3, no_inverse, v))
+    FORBIDDEN(sph_mat_times(0, no_inverse, v))
     FUNCTION(sph_elliptic_invert)
     for (dim = 1; dim <= 3; dim++) {
         ALLOWED_STATE(SPH_SINGULAR, sph_elliptic_invert(dim, SPH_GRADIENT_FULL, &em, &inverse, 0))
