@@ -4458,9 +4458,9 @@ SPH_FN sph_index sphi_elliptic_tensor(sph_kernel k, int dim, sph_cloud cloud, sp
     sph_index i, p, failed = 0;
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     if (!error) error = sphi_check_matrices("mobility", dim, mobility, cloud.points.n);
-    if (!error) error = sphi_check_not_negative("mobility.x.x", mobility.x.x, cloud.points.n);
-    if (!error && dim > 1) error = sphi_check_not_negative("mobility.y.y", mobility.y.y, cloud.points.n);
-    if (!error && dim > 2) error = sphi_check_not_negative("mobility.z.z", mobility.z.z, cloud.points.n);
+    if (!error) error = sphi_check_not_negative("mobility", mobility.x.x, cloud.points.n);
+    if (!error && dim > 1) error = sphi_check_not_negative("mobility", mobility.y.y, cloud.points.n);
+    if (!error && dim > 2) error = sphi_check_not_negative("mobility", mobility.z.z, cloud.points.n);
     if (!error && u) error = sphi_check_field("u", *u, cloud.points.n);
     if (!error && !(u ? out.p : rows.row)) error = sphi_refuse(u ? "out" : "out.row", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
@@ -9154,13 +9154,14 @@ SPH_FN sph_index sphi_corrected_range(int iad, int uniform, sph_kernel k, int di
    between the particles. Volumes are those that sph_rk_correction saw (1 / sum W, or m / rho), and rk holds
    its results for all sources. Lists hold all pairs with r < support ratio * max(h_i, h_j) (SPH_LARGER).
    out.rate_u and out.status may be null. Returns the number of targets of which a result overflowed (it is 0
-   then), or a negative sph_error: SPH_ERROR_VALUE also for masses and densities that are not positive. */
+   then), or a negative sph_error: SPH_ERROR_VALUE also for masses, densities and volumes that are not
+   positive. */
 SPH_FN sph_index sph_gas_rates_crk(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid, sph_rk rk,
                                    sph_corrected_out out)
 {
     const sph_matrices none = sph_matrices_packed(dim, 0);
     int error = sphi_check_corrected(k, dim, cloud, fluid, out.acceleration);
-    if (!error) error = sphi_check_field("volume", cloud.volume, cloud.points.n);
+    if (!error) error = sphi_check_positive("volume", cloud.volume, cloud.points.n);
     if (!error) error = sphi_check_rk(dim, rk, cloud.points.n);
     if (error) return sphi_answer_of(error);
     return cloud.h.stride ? sphi_corrected_range(0, 0, k, dim, cloud, &fluid, &rk, none, out)
