@@ -8716,16 +8716,17 @@ SPH_FN int sph_rk_solve(int dim, sph_rk_moments m, sph_rk_side *side, sph_real *
    kernel of j, W^R_ji and its gradient by x_j, give the side of j, -x_ij, and h_j. */
 SPH_FN sph_rk_kernel sph_rk_pair(int dim, sph_rk_side i, sph_vec x_ij, sph_wf w)
 {
-    const sph_real line = SPH_R(1) + sph_dot(dim, i.slope, x_ij);
+    const sph_real line = SPH_R(1) + sph_dot(dim, i.slope, x_ij), along = i.scale * line * w.f;
+    sph_vec turn = sph_scale(x_ij.x, i.slope_gradient.x); /* d_c B . x */
     sph_rk_kernel c;
+    if (dim > 1) turn = sphi_plus(dim, turn, sph_scale(x_ij.y, i.slope_gradient.y));
+    if (dim > 2) turn = sphi_plus(dim, turn, sph_scale(x_ij.z, i.slope_gradient.z));
+    turn = sphi_plus(dim, turn, i.slope);
     c.w = i.scale * line * w.w;
-    c.gradient =
-        sphi_plus(dim, sph_scale(i.scale * line * w.f, x_ij), sph_scale(line * w.w, i.scale_gradient));
-    c.gradient = sphi_plus(
-        dim, c.gradient,
-        sph_scale(
-            i.scale * w.w,
-            sphi_plus(dim, sph_mat_times(dim, sph_mat_transposed(dim, i.slope_gradient), x_ij), i.slope)));
+    c.gradient.x = along * x_ij.x + w.w * (line * i.scale_gradient.x + i.scale * turn.x);
+    c.gradient.y = c.gradient.z = SPH_R(0);
+    if (dim > 1) c.gradient.y = along * x_ij.y + w.w * (line * i.scale_gradient.y + i.scale * turn.y);
+    if (dim > 2) c.gradient.z = along * x_ij.z + w.w * (line * i.scale_gradient.z + i.scale * turn.z);
     return c;
 }
 /* grad W^R_ij - grad W^R_ji, which is antisymmetric: minus itself if the particles are exchanged. For plain
