@@ -397,7 +397,7 @@ SPH_FN sph_mat sph_mat_transposed(int dim, sph_mat a)
     if (dim > 2) t.x.z = a.z.x, t.y.z = a.z.y, t.z.x = a.x.z, t.z.y = a.y.z, t.z.z = a.z.z;
     return t;
 }
-/* A symmetric tensor as a matrix. Entries beyond dim are 0. */
+/* The symmetric tensor s as a matrix. Entries beyond dim are 0. */
 SPH_FN sph_mat sph_mat_of_sym(int dim, sph_sym s)
 {
     sph_mat a;
@@ -8589,8 +8589,8 @@ typedef struct sph_rk_kernel {
     sph_vec gradient;
 } sph_rk_kernel;
 
-/* What j adds to the moments of i. w is W and F at the distance |x_ij| and with h_i. The particle itself adds
-   the same with x_ij = 0. Entries beyond dim are 0. */
+/* What j, with the volume V_j, adds to the moments of i. w is W and F at the distance |x_ij| and with h_i.
+   The particle itself adds the same with x_ij = 0. Entries beyond dim are 0. */
 SPH_FN sph_rk_moments sph_rk_moments_pair(int dim, sph_real V_j, sph_vec x_ij, sph_wf w)
 {
     const sph_real vw = V_j * w.w, vf = V_j * w.f, x = x_ij.x, y = dim > 1 ? x_ij.y : SPH_R(0),
@@ -9477,9 +9477,9 @@ SPH_FN sph_vec sph_stress_pair(int dim, sph_solid_side i, sph_solid_side j, sph_
         dim, sph_mat_times(dim, i.stress, sph_scale(weight * f.f_i, sph_mat_times(dim, i.inverse, x0_ij))),
         sph_mat_times(dim, j.stress, sph_scale(weight * f.f_j, sph_mat_times(dim, j.inverse, x0_ij))));
 }
-/* By hourglass control: weight (E_i + E_j) / 4 (d_i + d_j) / |X_ij|^2 x_ij / |x_ij| with weight = alpha V_j W
-   / rho_i (see the beginning of this chapter). A pair that is too far apart attracts. It is 0 where particles
-   coincide. inverse and stress are not read. */
+/* By hourglass control: weight (E_i + E_j) / 4 (d_i + d_j) / |X_ij|^2 x_ij / |x_ij| with X_ij = x0_ij and
+   weight = alpha V_j W / rho_i (see the beginning of this chapter). A pair that is too far apart attracts. It
+   is 0 where particles coincide. inverse and stress are not read. */
 SPH_FN sph_vec sph_hourglass_pair(int dim, sph_solid_side i, sph_solid_side j, sph_real weight, sph_vec x0_ij,
                                   sph_vec x_ij)
 {
