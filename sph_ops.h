@@ -26,6 +26,7 @@
  *   sph_scalars   one number a particle: sph_scalars_array(p), sph_scalars_strided(p, stride),
  *                 sph_scalars_same(&value): one value for all; sph_scalars_none(): there is nothing
  *   sph_vectors   one vector a particle: sph_vectors_separate (x[], y[], z[]), or any three sph_scalars
+ *   sph_matrices  one matrix a particle: sph_matrices_packed(dim, p), or any three sph_vectors, its rows
  *   sph_list      neighbour lists in CSR form: target i has index[start[i]] ... index[start[i + 1] - 1]
  *   sph_..._out   where results go: pointers with a stride, so that members of structs are written in
  *                 place; a stride of 0 counts as 1. A null pointer is not wanted, where that makes sense.
@@ -75,11 +76,13 @@
  *
  * INDEX   (k: kernel, dim: dimension; a name alone: a pair function, or a sibling of the one above)
  *   vectors        sph_dot  sph_scale  sph_subtract  sph_length
+ *                  sph_mat_times  sph_mat_transposed  sph_mat_of_sym
  *   views          sph_points_strided  sph_points_separate  sph_points_interleaved  sph_points_periodic
  *                  sph_scalars_strided  sph_scalars_array  sph_scalars_same  sph_scalars_none
  *                  sph_vectors_separate
  *                  sph_vector_out_strided  sph_vector_out_separate
  *                  sph_scalar_out_strided  sph_scalar_out_array
+ *                  sph_matrices_packed  sph_matrix_out_packed
  *   clouds         sph_cloud_of(points, list, h, volume)
  *                  sph_cloud_range(cloud, first, last)
  *                  sph_cloud_checked(dim, cloud)                     scanned once, and marked
@@ -89,10 +92,15 @@
  *                  sph_density_summation(k, dim, cloud, m, out)      sum_j m_j W_ij, with itself
  *                  sph_density_adaptive(k, dim, cloud, m, options, out)
  *                      with the h that belongs to it, and Omega
- *   gradients      sph_gradient_pair_difference  sph_moment_weight_gradient  sph_solve_gradient
+ *   gradients      sph_gradient_pair_difference  sph_moment_weight_gradient  sph_moment_weight_iad
+ *                  sph_solve_gradient
  *                  sph_gradient_difference(k, dim, cloud, f, out)    sum_j V_j (f_j - f_i) grad_i W_ij
  *                  sph_gradient_cspm(k, dim, cloud, f, out)          corrected: exact for linear fields
  *                  sph_gradient_rows_cspm(k, dim, cloud, out)        the same as rows
+ *                  sph_gradient_iad(k, dim, cloud, f, out)           likewise, without derivatives of W
+ *                  sph_gradient_rows_iad
+ *                  sph_gradient_correction_cspm(k, dim, cloud, out)  the matrices that correct
+ *                  sph_gradient_correction_iad
  *   Laplacians     sph_laplacian_weight_brookshaw
  *                  sph_laplacian_brookshaw(k, dim, cloud, f, out)    sum_j 2 V_j (f_i - f_j) F_ij
  *                  sph_laplacian_rows_brookshaw(k, dim, cloud, out)
@@ -121,7 +129,7 @@
  *   elliptic       (div(m grad u), m a number of each particle)
  *   operator       sph_elliptic_gradient_pair  sph_elliptic_gradient_pair_basic_degiuli_ban
  *                  sph_elliptic_gradient_vector  sph_elliptic_projection  sph_mobility_pair
- *                  sph_elliptic_weight  sph_elliptic_moments_radial  sph_elliptic_inverse_times
+ *                  sph_elliptic_weight  sph_elliptic_moments_radial
  *                  sph_elliptic_invert  sph_sym_eigenvalues
  *                  sph_elliptic_brookshaw(k, dim, cloud, m, options, u, out)
  *                      sum_j V_j (m_i + m_j) (u_i - u_j) F_ij
@@ -139,6 +147,9 @@
  *                  sph_elliptic_diagnose(k, dim, cloud, options, out)
  *                      signs, moments, free-surface indicator
  *                  sph_elliptic_rows_anisotropic(k, dim, cloud, mobility, out)  div(M grad u), M diagonal
+ *                  sph_elliptic_tensor(k, dim, cloud, mobility, u, out)
+ *                      div(M grad u) for any symmetric M
+ *                  sph_elliptic_rows_tensor(k, dim, cloud, mobility, out)
  *                  sph_elliptic_rows_boundary(k, dim, cloud, m, options, boundary, out)
  *                      Dirichlet, Neumann, Robin
  *   rows           sph_rows_apply(cloud, row, diagonal, u, out)      sum_p row[p] (u_j - u_i)
@@ -223,11 +234,26 @@
  *                  sph_cleaning_rates(k, dim, cloud, state, out)     conservative cleaning of B alone
  *                  sph_mhd_rates(k, dim, cloud, state, out)
  *                      momentum, induction, energy, psi, div B, v_sig
+ *   reproducing    sph_rk_moments_pair  sph_rk_solve  sph_rk_pair  sph_rk_pair_difference
+ *   kernels        sph_gradient_pair_iad  sph_gas_pair_crk  sph_gas_pair_iad
+ *                  sph_rk_correction(k, dim, cloud, out)             makes kernels exact
+ *                  sph_interpolate_rk(k, dim, cloud, rk, f, out)     for linear fields, everywhere
+ *                  sph_interpolate_rows_rk(k, dim, cloud, rk, out)
+ *                  sph_gradient_rk(k, dim, cloud, rk, f, out)        likewise
+ *                  sph_gradient_rows_rk(k, dim, cloud, rk, out)
+ *                  sph_gas_rates_crk(k, dim, cloud, fluid, rk, out)  forces that conserve (CRKSPH)
+ *                  sph_gas_rates_iad(k, dim, cloud, fluid, inverse, out)  by the integral approach
  *   gravity        sph_gravity_pair  sph_gravity_correction_pair  sph_gravity_zeta_value
  *                  sph_gravity_direct(k, cloud, m, newton, acceleration, potential)   all pairs
  *                  sph_gravity_zeta(k, cloud, m, rho, out)
  *                  sph_gravity_correction(k, cloud, medium, zeta, newton, acceleration)
  *                      where h follows the density
+ *   solids         sph_elastic_of  sph_sound_speed_elastic
+ *                  sph_stress_saint_venant_kirchhoff  sph_stress_neo_hookean
+ *                  sph_deformation_pair  sph_deformation_value  sph_stress_pair  sph_hourglass_pair
+ *                  sph_deformation_gradient(k, dim, cloud, x, inverse, out)   exact for affine maps
+ *                  sph_solid_acceleration(k, dim, cloud, solid, acceleration)
+ *                      by stress and hourglass control: keeps both momenta
  *   measures       sph_nearest_distance(dim, cloud, sources, out)
  *                  sph_hexatic_order(cloud, out)
  *                  sph_radial_distribution(dim, cloud, farthest, number_density, bins, g)
@@ -346,6 +372,45 @@ SPH_FN sph_vec sphi_sym_times(int dim, sph_sym s, sph_vec v)
         u.z = s.xz * v.x + s.yz * v.y + s.zz * v.z;
     }
     return u;
+}
+
+/* A matrix by its rows: component y of the row x is the entry in the first row and the second column. Rows
+   and components beyond dim are not read. */
+typedef struct sph_mat {
+    sph_vec x, y, z;
+} sph_mat;
+
+/* The product a v. Components beyond dim are 0. */
+SPH_FN sph_vec sph_mat_times(int dim, sph_mat a, sph_vec v)
+{
+    sph_vec u;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
+    u.x = sph_dot(dim, a.x, v);
+    u.y = dim > 1 ? sph_dot(dim, a.y, v) : SPH_R(0);
+    u.z = dim > 2 ? sph_dot(dim, a.z, v) : SPH_R(0);
+    return u;
+}
+/* The transpose of a. Entries beyond dim are 0. */
+SPH_FN sph_mat sph_mat_transposed(int dim, sph_mat a)
+{
+    sph_mat t;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
+    t.x.x = a.x.x;
+    t.x.y = t.x.z = t.y.x = t.y.y = t.y.z = t.z.x = t.z.y = t.z.z = SPH_R(0);
+    if (dim > 1) t.x.y = a.y.x, t.y.x = a.x.y, t.y.y = a.y.y;
+    if (dim > 2) t.x.z = a.z.x, t.y.z = a.z.y, t.z.x = a.x.z, t.z.y = a.y.z, t.z.z = a.z.z;
+    return t;
+}
+/* The symmetric tensor s as a matrix. Entries beyond dim are 0. */
+SPH_FN sph_mat sph_mat_of_sym(int dim, sph_sym s)
+{
+    sph_mat a;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
+    a.x.x = s.xx;
+    a.x.y = a.x.z = a.y.x = a.y.y = a.y.z = a.z.x = a.z.y = a.z.z = SPH_R(0);
+    if (dim > 1) a.x.y = a.y.x = s.xy, a.y.y = s.yy;
+    if (dim > 2) a.x.z = a.z.x = s.xz, a.y.z = a.z.y = s.yz, a.z.z = s.zz;
+    return a;
 }
 
 /* ================================================================ views and clouds
@@ -473,6 +538,36 @@ SPH_FN sph_vector_out sph_vector_out_separate(SPH_GLOBAL sph_real *x, SPH_GLOBAL
 {
     return sph_vector_out_strided(x, y, z, 1);
 }
+/* One matrix for each particle, by its rows. Only the first dim rows and columns are read. */
+typedef struct sph_matrices {
+    sph_vectors x, y, z;
+} sph_matrices;
+/* Where matrices go, by their rows. Only the first dim rows and columns are written. */
+typedef struct sph_matrix_out {
+    sph_vector_out x, y, z;
+} sph_matrix_out;
+/* Matrices that lie one behind the other, dim * dim numbers each, row by row. */
+SPH_FN sph_matrices sph_matrices_packed(int dim, const SPH_GLOBAL sph_real *p)
+{
+    const size_t each = (size_t)(dim * dim), row = (size_t)dim;
+    sph_matrices m;
+    m.x.x = sph_scalars_strided(p, each);
+    m.x.y = m.x.z = m.y.x = m.y.y = m.y.z = m.z.x = m.z.y = m.z.z = m.x.x;
+    if (p && dim > 1) m.x.y.p = p + 1, m.y.x.p = p + row, m.y.y.p = p + row + 1;
+    if (p && dim > 2) m.x.z.p = p + 2, m.y.z.p = p + 5, m.z.x.p = p + 6, m.z.y.p = p + 7, m.z.z.p = p + 8;
+    return m;
+}
+/* The same for results. */
+SPH_FN sph_matrix_out sph_matrix_out_packed(int dim, SPH_GLOBAL sph_real *p)
+{
+    const size_t each = (size_t)(dim * dim), row = (size_t)dim;
+    sph_matrix_out m;
+    m.x = sph_vector_out_strided(p, p && dim > 1 ? p + 1 : p, p && dim > 2 ? p + 2 : p, each);
+    m.y = m.z = m.x;
+    if (p && dim > 1) m.y.x += row, m.y.y += row, m.y.z += row;
+    if (p && dim > 2) m.z.x += 6, m.z.y += 6, m.z.z += 6;
+    return m;
+}
 /* Numbers go to p[i * stride], and their status to status[i]. status may be null. */
 SPH_FN sph_scalar_out sph_scalar_out_strided(SPH_GLOBAL sph_real *p, size_t stride,
                                              SPH_GLOBAL unsigned char *status)
@@ -547,6 +642,15 @@ typedef struct sph_rows_out {
     size_t stride;
     SPH_GLOBAL unsigned char *status;
 } sph_rows_out;
+
+/* Where the matrices go that correct a gradient, and the conditioning of each (1 good, 0 singular).
+   conditioning and status may be null. The stride is that of conditioning. */
+typedef struct sph_correction_out {
+    sph_matrix_out inverse;
+    SPH_GLOBAL sph_real *conditioning;
+    size_t stride;
+    SPH_GLOBAL unsigned char *status;
+} sph_correction_out;
 
 /* Where the rows of a gradient go: one weight for each entry of the list and each component, contiguous.
    conditioning and status may be null. The stride is that of conditioning. */
@@ -637,6 +741,19 @@ SPH_FN int sphi_store_vector(int dim, sph_vector_out out, sph_index i, sph_vec a
     if (dim > 1) out.y[at] = lost ? SPH_R(0) : a.y;
     if (dim > 2) out.z[at] = lost ? SPH_R(0) : a.z;
     return lost;
+}
+/* Stores a matrix, or 0 if an entry overflowed; it returns 1 then. */
+SPH_FN int sphi_store_matrix(int dim, sph_matrix_out out, sph_index i, sph_mat a)
+{
+    int lost = sphi_store_vector(dim, out.x, i, a.x);
+    if (dim > 1) lost |= sphi_store_vector(dim, out.y, i, a.y);
+    if (dim > 2) lost |= sphi_store_vector(dim, out.z, i, a.z);
+    if (!lost) return 0;
+    a.x.x = a.x.y = a.x.z = SPH_R(0);
+    sphi_store_vector(dim, out.x, i, a.x);
+    if (dim > 1) sphi_store_vector(dim, out.y, i, a.x);
+    if (dim > 2) sphi_store_vector(dim, out.z, i, a.x);
+    return 1;
 }
 /* Stores the value of a target (the caller passes 0 where there is none) and its status. Returns 1 if the
    status is not SPH_OK. */
@@ -941,6 +1058,13 @@ SPH_FN int sphi_check_out(SPHI_TEXT *name, int dim, sph_vector_out out)
     return there ? 0 : sphi_refuse(name, -1, SPH_ERROR_NULL);
 }
 
+SPH_FN int sphi_check_matrix_out(SPHI_TEXT *name, int dim, sph_matrix_out out)
+{
+    int error = sphi_check_out(name, dim, out.x);
+    if (!error && dim > 1) error = sphi_check_out(name, dim, out.y);
+    return error || dim < 3 ? error : sphi_check_out(name, dim, out.z);
+}
+
 /* Scans positions and box once, and lists, h and volumes if the cloud has them. It returns the cloud with a
    mark, so that sweeps scan only what else they read. Call it again when something changes. If something is
    wrong, the mark is the sph_error, and every sweep answers it. */
@@ -999,6 +1123,21 @@ SPH_FN int sphi_check_vectors(SPHI_TEXT *name, int dim, sph_vectors v, sph_index
     int error = sphi_check_field(name, v.x, n);
     if (!error && dim > 1) error = sphi_check_field(name, v.y, n);
     if (!error && dim > 2) error = sphi_check_field(name, v.z, n);
+    return error;
+}
+SPH_FN sph_mat sphi_matrix_at(int dim, sph_matrices m, sph_index i)
+{
+    sph_mat a;
+    a.x = sphi_vector_at(dim, m.x, i);
+    a.y = dim > 1 ? sphi_vector_at(dim, m.y, i) : sph_scale(SPH_R(0), a.x);
+    a.z = dim > 2 ? sphi_vector_at(dim, m.z, i) : sph_scale(SPH_R(0), a.x);
+    return a;
+}
+SPH_FN int sphi_check_matrices(SPHI_TEXT *name, int dim, sph_matrices m, sph_index n)
+{
+    int error = sphi_check_vectors(name, dim, m.x, n);
+    if (!error && dim > 1) error = sphi_check_vectors(name, dim, m.y, n);
+    if (!error && dim > 2) error = sphi_check_vectors(name, dim, m.z, n);
     return error;
 }
 SPH_FN int sphi_check_positive(SPHI_TEXT *name, sph_scalars a, sph_index n)
@@ -1472,8 +1611,10 @@ SPH_FN sph_index sph_density_adaptive(sph_kernel k, int dim, sph_cloud cloud, sp
  * With x_ij = x_i - x_j, e = -x_ij, F = (1/r) dW/dr <= 0 and grad_i W_ij = F_ij x_ij:
  *     difference   grad f_i = sum_j V_j (f_j - f_i) grad_i W_ij
  *     CSPM         grad f_i = K^-1 sum_j V_j (-F_ij) e (f_j - f_i),   K = sum_j V_j (-F_ij) e e^T
+ *     IAD          grad f_i = C sum_j V_j W_ij e (f_j - f_i),           C^-1 = sum_j V_j W_ij e e^T
  *     Brookshaw    lap f_i  = sum_j 2 V_j (f_i - f_j) F_ij
- * The unit of a gradient is that of f / length, that of a Laplacian f / length^2. K has no unit.
+ * The unit of a gradient is that of f / length, that of a Laplacian f / length^2. K has no unit, C has
+ * 1 / length^2.
  */
 
 /* V_j (f_j - f_i) grad_i W_ij, where df = f_j - f_i: a pair's part of grad f_i. The sum is exact for
@@ -1499,6 +1640,13 @@ SPH_FN sph_real sph_laplacian_weight_brookshaw(sph_kernel k, int dim, sph_real r
 SPH_FN sph_real sph_moment_weight_gradient(sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j)
 {
     return -V_j * sph_kernel_f(k, dim, r, h);
+}
+
+/* The weight V_j W_ij of the integral approach to derivatives (IAD), in the place of -V_j F_ij of CSPM. It
+   needs no derivative of the kernel. Garcia-Senz, Cabezon & Escartin 2012, A&A 538, A9. */
+SPH_FN sph_real sph_moment_weight_iad(sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j)
+{
+    return V_j * sph_kernel_w(k, dim, r, h);
 }
 
 /* *inverse = K^-1 for the symmetric K = moment. Returns SPH_OK, or SPH_SINGULAR and then writes nothing. For
@@ -1573,9 +1721,17 @@ SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_cloud cloud,
     return failed;
 }
 
+/* The weights of the two corrected gradients. */
+enum { SPHI_BY_CSPM, SPHI_BY_IAD };
+SPH_FN sph_real sphi_moment_weight(int method, sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j)
+{
+    return method == SPHI_BY_IAD ? sph_moment_weight_iad(k, dim, r, h, V_j)
+                                 : sph_moment_weight_gradient(k, dim, r, h, V_j);
+}
+
 /* *moment = K = sum_j weight e e^T with e = x_j - x_i. If with_f is 1: *sum = sum_j weight e (f_j - f_i); if
    it is 2: *sum = sum_j weight e. */
-SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points x, sph_list list,
+SPH_FN void sphi_gradient_moments(int method, sph_kernel k, int dim, sph_index i, sph_points x, sph_list list,
                                   sph_real h_i, sph_scalars volume, int with_f, sph_scalars f,
                                   sph_sym *moment, sph_vec *sum)
 {
@@ -1588,7 +1744,7 @@ SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points
         const sph_index j = list.index[p];
         const sph_vec e = sphi_separation(dim, x, sphi_point(dim, x, j), x_i);
         const sph_vec we =
-            sph_scale(sph_moment_weight_gradient(k, dim, sph_length(dim, e), h_i, sphi_at(volume, j)), e);
+            sph_scale(sphi_moment_weight(method, k, dim, sph_length(dim, e), h_i, sphi_at(volume, j)), e);
         const sph_real df = with_f == 1 ? sphi_at(f, j) - f_i : SPH_R(1);
         xx += we.x * e.x;
         if (dim > 1) {
@@ -1617,17 +1773,8 @@ SPH_FN void sphi_gradient_moments(sph_kernel k, int dim, sph_index i, sph_points
     sum->z = sz;
 }
 
-/* grad f_i = K^-1 sum_j V_j (-F_ij) e (f_j - f_i) with K = sum_j V_j (-F_ij) e e^T and e = x_j - x_i. It is
-   exact for linear fields at any particle; the error is O(h^2) in the interior of a regular cloud, and O(h)
-   in disorder and at a boundary. Sources: Randles & Libersky 1996, CMAME 139, 375; in 1D CSPM, (3.5) of the
-   ICSPM paper (with W', where its list under (5.17) prints W).
-   Of out, gx (with gy and gz as dim needs them) is filled, and conditioning and status if they are not null.
-   conditioning is the smallest pivot of K scaled to a unit diagonal, in [0, 1]. A target needs dim neighbours
-   inside its support; in 2D not all may be on one line with it, in 3D not all in one plane with it. Else the
-   gradient is 0, with SPH_TOO_FEW or SPH_SINGULAR. Where a component overflows, it is 0 with
-   SPH_NOT_FINITE. */
-SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
-                                   sph_derivatives_out out)
+SPH_FN sph_index sphi_gradient_corrected(int method, sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
+                                         sph_derivatives_out out)
 {
     const sph_vector_out gradient = sph_vector_out_strided(out.gx, out.gy, out.gz, sphi_stride(out.stride));
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
@@ -1641,7 +1788,8 @@ SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_s
         sph_vec sum;
         sph_real pivot = SPH_R(0);
         int state;
-        sphi_gradient_moments(k, dim, i, cloud.points, cloud.list, h_i, cloud.volume, 1, f, &moment, &sum);
+        sphi_gradient_moments(method, k, dim, i, cloud.points, cloud.list, h_i, cloud.volume, 1, f, &moment,
+                              &sum);
         state = sph_solve_gradient(dim, moment, &inverse, &pivot);
         if (state) {
             state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i, dim);
@@ -1654,10 +1802,8 @@ SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_s
     }
     return failed;
 }
-
-/* The same gradient as rows: grad f_i = sum_p (x[p], y[p], z[p]) (f_j - f_i), where p runs along the list of
-   i and j = index[p]. The rows of a target that is not SPH_OK are 0. */
-SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_gradient_rows_out out)
+SPH_FN sph_index sphi_gradient_rows(int method, sph_kernel k, int dim, sph_cloud cloud,
+                                    sph_gradient_rows_out out)
 {
     SPH_GLOBAL sph_real *const SPH_RESTRICT wx = out.x, *const SPH_RESTRICT wy = out.y,
                                             *const SPH_RESTRICT wz = out.z;
@@ -1672,7 +1818,7 @@ SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, 
         sph_vec sum;
         sph_real pivot = SPH_R(0);
         int state;
-        sphi_gradient_moments(k, dim, i, cloud.points, cloud.list, h_i, cloud.volume, 0, cloud.volume,
+        sphi_gradient_moments(method, k, dim, i, cloud.points, cloud.list, h_i, cloud.volume, 0, cloud.volume,
                               &moment, &sum);
         state = sph_solve_gradient(dim, moment, &inverse, &pivot);
         if (state) state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i, dim);
@@ -1681,11 +1827,10 @@ SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, 
                 sphi_separation(dim, cloud.points, sphi_point(dim, cloud.points, cloud.list.index[p]), x_i);
             sph_vec w = sph_scale(SPH_R(0), e);
             if (!state)
-                w = sphi_sym_times(
-                    dim, inverse,
-                    sph_scale(sph_moment_weight_gradient(k, dim, sph_length(dim, e), h_i,
-                                                         sphi_at(cloud.volume, cloud.list.index[p])),
-                              e));
+                w = sphi_sym_times(dim, inverse,
+                                   sph_scale(sphi_moment_weight(method, k, dim, sph_length(dim, e), h_i,
+                                                                sphi_at(cloud.volume, cloud.list.index[p])),
+                                             e));
             wx[p] = w.x;
             if (dim > 1) wy[p] = w.y;
             if (dim > 2) wz[p] = w.z;
@@ -1696,6 +1841,80 @@ SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, 
         failed += state != SPH_OK;
     }
     return failed;
+}
+/* The matrices K^-1 that correct a gradient, for those who apply them themselves. */
+SPH_FN sph_index sphi_gradient_correction(int method, sph_kernel k, int dim, sph_cloud cloud,
+                                          sph_correction_out out)
+{
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
+    sph_index i, failed = 0;
+    if (!error) error = sphi_check_matrix_out("out.inverse", dim, out.inverse);
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_real h_i = sphi_at(cloud.h, i);
+        sph_sym moment, inverse = {SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0)};
+        sph_vec sum;
+        sph_real pivot = SPH_R(0);
+        int state;
+        sphi_gradient_moments(method, k, dim, i, cloud.points, cloud.list, h_i, cloud.volume, 0, cloud.volume,
+                              &moment, &sum);
+        state = sph_solve_gradient(dim, moment, &inverse, &pivot);
+        if (state) state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i, dim);
+        if (sphi_store_matrix(dim, out.inverse, i, sph_mat_of_sym(dim, inverse))) state = SPH_NOT_FINITE;
+        sphi_put(out.conditioning, sphi_stride(out.stride), i, pivot);
+        if (out.status) out.status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* grad f_i = K^-1 sum_j V_j (-F_ij) e (f_j - f_i) with K = sum_j V_j (-F_ij) e e^T and e = x_j - x_i. It is
+   exact for linear fields at any particle; the error is O(h^2) in the interior of a regular cloud, and O(h)
+   in disorder and at a boundary. Sources: Randles & Libersky 1996, CMAME 139, 375; in 1D CSPM, (3.5) of the
+   ICSPM paper (with W', where its list under (5.17) prints W).
+   Of out, gx (with gy and gz as dim needs them) is filled, and conditioning and status if they are not null.
+   conditioning is the smallest pivot of K scaled to a unit diagonal, in [0, 1]. A target needs dim neighbours
+   inside its support; in 2D not all may be on one line with it, in 3D not all in one plane with it. Else the
+   gradient is 0, with SPH_TOO_FEW or SPH_SINGULAR. Where a component overflows, it is 0 with
+   SPH_NOT_FINITE. */
+SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
+                                   sph_derivatives_out out)
+{
+    return sphi_gradient_corrected(SPHI_BY_CSPM, k, dim, cloud, f, out);
+}
+/* grad f_i = C sum_j V_j W_ij e (f_j - f_i) with C^-1 = sum_j V_j W_ij e e^T and e = x_j - x_i: the integral
+   approach to derivatives (IAD). Exact for linear fields at any particle, and of the errors of
+   sph_gradient_cspm; it needs no derivative of the kernel, and near neighbours count less. Garcia-Senz,
+   Cabezon & Escartin 2012, A&A 538, A9. Outputs and statuses are those of sph_gradient_cspm. */
+SPH_FN sph_index sph_gradient_iad(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
+                                  sph_derivatives_out out)
+{
+    return sphi_gradient_corrected(SPHI_BY_IAD, k, dim, cloud, f, out);
+}
+
+/* The same gradient as rows: grad f_i = sum_p (x[p], y[p], z[p]) (f_j - f_i), where p runs along the list of
+   i and j = index[p]. The rows of a target that is not SPH_OK are 0. */
+SPH_FN sph_index sph_gradient_rows_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_gradient_rows_out out)
+{
+    return sphi_gradient_rows(SPHI_BY_CSPM, k, dim, cloud, out);
+}
+/* Those of sph_gradient_iad. */
+SPH_FN sph_index sph_gradient_rows_iad(sph_kernel k, int dim, sph_cloud cloud, sph_gradient_rows_out out)
+{
+    return sphi_gradient_rows(SPHI_BY_IAD, k, dim, cloud, out);
+}
+
+/* K^-1 of sph_gradient_cspm, a symmetric matrix without unit: grad f_i = K^-1 sum_j V_j (f_j - f_i) grad_i
+   W_ij. It is what solids need of their reference state. The matrix of a target that is SPH_TOO_FEW,
+   SPH_SINGULAR or SPH_NOT_FINITE is 0. */
+SPH_FN sph_index sph_gradient_correction_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_correction_out out)
+{
+    return sphi_gradient_correction(SPHI_BY_CSPM, k, dim, cloud, out);
+}
+/* C of sph_gradient_iad, a symmetric matrix of the unit 1 / length^2. It is what sph_gas_rates_iad needs. */
+SPH_FN sph_index sph_gradient_correction_iad(sph_kernel k, int dim, sph_cloud cloud, sph_correction_out out)
+{
+    return sphi_gradient_correction(SPHI_BY_IAD, k, dim, cloud, out);
 }
 
 /* -------- two-point Laplacians: sweeps */
@@ -3398,24 +3617,10 @@ SPH_FN sph_elliptic_moments sph_elliptic_moments_radial(sph_sym gamma, sph_vec n
     return m;
 }
 
-/* K^-1 by rows. */
-typedef struct sph_elliptic_inverse {
-    sph_vec x, y, z;
-} sph_elliptic_inverse;
-/* The product K^-1 v. */
-SPH_FN sph_vec sph_elliptic_inverse_times(int dim, sph_elliptic_inverse a, sph_vec v)
-{
-    sph_vec u;
-    SPH_ASSERT(SPHI_IS_DIM(dim));
-    u.x = sph_dot(dim, a.x, v);
-    u.y = dim > 1 ? sph_dot(dim, a.y, v) : SPH_R(0);
-    u.z = dim > 2 ? sph_dot(dim, a.z, v) : SPH_R(0);
-    return u;
-}
-/* Inverts K. Returns SPH_OK, or SPH_SINGULAR and then writes nothing. *conditioning, if the pointer
+/* *a = K^-1. Returns SPH_OK, or SPH_SINGULAR and then writes nothing. *conditioning, if the pointer
    is not null, is the smallest pivot: of K scaled to a unit diagonal, in [0, 1]; or for
    SPH_GRADIENT_FULL of K as it is. */
-SPH_FN int sph_elliptic_invert(int dim, int gradient, const sph_elliptic_moments *m, sph_elliptic_inverse *a,
+SPH_FN int sph_elliptic_invert(int dim, int gradient, const sph_elliptic_moments *m, sph_mat *a,
                                sph_real *conditioning)
 {
     SPH_ASSERT(SPHI_IS_DIM(dim) && SPHI_IS_GRADIENT(gradient));
@@ -3443,12 +3648,7 @@ SPH_FN int sph_elliptic_invert(int dim, int gradient, const sph_elliptic_moments
         sph_sym s;
         const int state = sph_solve_gradient(dim, m->gamma, &s, conditioning);
         if (state) return state;
-        a->x.x = s.xx;
-        a->x.y = a->y.x = s.xy;
-        a->x.z = a->z.x = s.xz;
-        a->y.y = s.yy;
-        a->y.z = a->z.y = s.yz;
-        a->z.z = s.zz;
+        *a = sph_mat_of_sym(dim, s);
     }
     return SPH_OK;
 }
@@ -3713,7 +3913,7 @@ SPH_FN int sphi_elliptic_correct(int scheme, sph_kernel k, int dim, const sphi_e
                                  sph_index i, sph_elliptic_correction *c, sph_elliptic_moments *m,
                                  sph_real *conditioning)
 {
-    sph_elliptic_inverse inverse;
+    sph_mat inverse;
     sph_sym gamma_inverse, gamma_star;
     sph_real trace;
     int state = SPH_OK;
@@ -3729,8 +3929,7 @@ SPH_FN int sphi_elliptic_correct(int scheme, sph_kernel k, int dim, const sphi_e
         return sphi_singular_status(k, dim, i, a->cloud.points, a->cloud.list, sphi_at(a->cloud.h, i), dim);
     trace = inverse.x.x + (dim > 1 ? inverse.y.y : SPH_R(0)) + (dim > 2 ? inverse.z.z : SPH_R(0));
     if (scheme != SPHI_ELLIPTIC_CORRECTED) {
-        c->xi =
-            sph_elliptic_inverse_times(dim, inverse, scheme == SPHI_ELLIPTIC_SCHWAIGER ? m->n : m->n_tilde);
+        c->xi = sph_mat_times(dim, inverse, scheme == SPHI_ELLIPTIC_SCHWAIGER ? m->n : m->n_tilde);
         if (a->options.gradient == (int)SPH_GRADIENT_FULL) {
             if (sph_solve_gradient(dim, m->gamma, &gamma_inverse, conditioning)) {
                 c->xi = sph_scale(SPH_R(0), c->xi);
@@ -4159,6 +4358,178 @@ SPH_FN sph_index sph_elliptic_rows_anisotropic(sph_kernel k, int dim, sph_cloud 
     return failed;
 }
 
+/* -------- elliptic operator: a full tensor, div(M grad u) with any symmetric M */
+
+/* The products of the components of e that quadratic forms consist of, xx, xy, yy, xz, yz, zz, and how many
+   there are. */
+SPH_FN int sphi_products(int dim, sph_vec e, sph_real *q)
+{
+    q[0] = e.x * e.x;
+    if (dim > 1) q[1] = e.x * e.y, q[2] = e.y * e.y;
+    if (dim > 2) q[3] = e.x * e.z, q[4] = e.y * e.z, q[5] = e.z * e.z;
+    return dim * (dim + 1) / 2;
+}
+/* The components of the symmetric part of M_i + M_j, in the same order. */
+SPH_FN void sphi_tensor_sum(int dim, sph_mat a, sph_mat b, sph_real *m)
+{
+    m[0] = a.x.x + b.x.x;
+    if (dim > 1) m[1] = SPH_R(0.5) * (a.x.y + a.y.x + b.x.y + b.y.x), m[2] = a.y.y + b.y.y;
+    if (dim > 2)
+        m[3] = SPH_R(0.5) * (a.x.z + a.z.x + b.x.z + b.z.x),
+        m[4] = SPH_R(0.5) * (a.y.z + a.z.y + b.y.z + b.z.y), m[5] = a.z.z + b.z.z;
+}
+/* What the rows of a particle are made of: T^-1, row by row, and the vectors K^-1 N_s. */
+typedef struct sphi_tensor {
+    sph_real inverse[SPHI_MAX * SPHI_MAX];
+    sph_vec kn[SPHI_MAX];
+} sphi_tensor;
+
+/* The moments of particle i, and the system that they make. Returns SPH_OK, or the state and then the
+   conditioning 0. */
+SPH_FN int sphi_tensor_solve(sph_kernel k, int dim, const sphi_elliptic *a, sph_index i, sphi_tensor *t,
+                             sph_real *conditioning)
+{
+    const sph_vec x_i = sphi_point(dim, a->cloud.points, i);
+    const sph_real h_i = sphi_at(a->cloud.h, i);
+    sph_sym moment = {SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0)}, inverse = moment;
+    sph_vec n[SPHI_MAX], third[SPHI_MAX];
+    sph_real q[SPHI_MAX] = {SPH_R(0)}, pivot;
+    sph_shepard none;
+    sphi_lu lu;
+    sph_index p;
+    int r, s, many = 0;
+    none.nu = SPH_R(1);
+    none.gradient.x = none.gradient.y = none.gradient.z = SPH_R(0);
+    *conditioning = SPH_R(0);
+    for (s = 0; s < (int)SPHI_MAX; s++) {
+        n[s].x = n[s].y = n[s].z = SPH_R(0);
+        third[s] = t->kn[s] = n[s];
+        for (r = 0; r < (int)SPHI_MAX; r++) lu.a[r][s] = SPH_R(0);
+    }
+    for (p = a->cloud.list.start[i]; p < a->cloud.list.start[i + 1]; p++) {
+        const sphi_elliptic_pair c = sphi_elliptic_pair_of(k, dim, a, none, x_i, h_i, a->cloud.list.index[p]);
+        const sph_vec we = sph_scale(c.V_j * c.g.radial, c.e);
+        const sph_real per = sphi_over_q(SPH_R(1), sph_dot(dim, c.e, c.e));
+        many = sphi_products(dim, c.e, q);
+        moment.xx += we.x * c.e.x;
+        if (dim > 1) moment.xy += we.x * c.e.y, moment.yy += we.y * c.e.y;
+        if (dim > 2) moment.xz += we.x * c.e.z, moment.yz += we.y * c.e.z, moment.zz += we.z * c.e.z;
+        for (s = 0; s < many; s++) {
+            third[s] = sphi_plus(dim, third[s], sph_scale(q[s], we));
+            n[s] = sphi_plus(dim, n[s], sph_scale(q[s] * per, we));
+            for (r = 0; r < many; r++) lu.a[r][s] += c.V_j * c.g.radial * q[r] * (q[s] * per);
+        }
+    }
+    if (!many || sph_solve_gradient(dim, moment, &inverse, &pivot))
+        return sphi_singular_status(k, dim, i, a->cloud.points, a->cloud.list, h_i, dim);
+    for (s = 0; s < many; s++) {
+        t->kn[s] = sphi_sym_times(dim, inverse, n[s]);
+        for (r = 0; r < many; r++) {
+            lu.a[r][s] -= sph_dot(dim, third[r], t->kn[s]);
+            t->inverse[r * many + s] = r == s ? SPH_R(1) : SPH_R(0);
+        }
+    }
+    sphi_lu_factor(many, &lu);
+    if (!(lu.pivot_min > SPHI_PIVOT_MIN))
+        return sphi_singular_status(k, dim, i, a->cloud.points, a->cloud.list, h_i, dim);
+    sphi_lu_solve_columns(many, &lu, many, t->inverse);
+    *conditioning = lu.pivot_min < pivot ? lu.pivot_min : pivot;
+    return SPH_OK;
+}
+/* The weight of (u_j - u_i), where m holds the components of M_i + M_j. */
+SPH_FN sph_real sphi_tensor_weight(int dim, const sphi_tensor *t, sphi_elliptic_pair c, const sph_real *m)
+{
+    const sph_real per = sphi_over_q(SPH_R(1), sph_dot(dim, c.e, c.e));
+    sph_real q[SPHI_MAX] = {SPH_R(0)}, sum = SPH_R(0);
+    const int many = sphi_products(dim, c.e, q);
+    int r, s;
+    for (s = 0; s < many; s++) {
+        sph_real along = SPH_R(0);
+        for (r = 0; r < many; r++) along += t->inverse[s * many + r] * m[r];
+        sum += along * (q[s] * per - sph_dot(dim, t->kn[s], c.e));
+    }
+    return c.V_j * c.g.radial * sum;
+}
+
+/* The sum of a target, or its row. */
+SPH_FN sph_index sphi_elliptic_tensor(sph_kernel k, int dim, sph_cloud cloud, sph_matrices mobility,
+                                      const sph_scalars *u, sph_scalar_out out, sph_rows_out rows)
+{
+    const sph_elliptic_options options = {0, 0, 0, 0, SPH_R(0), {0, 0}, {0, 0}};
+    const sphi_elliptic a = sphi_elliptic_of(cloud, mobility.x.x, options, cloud.h.stride == 0);
+    sph_shepard none;
+    sph_index i, p, failed = 0;
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
+    if (!error) error = sphi_check_matrices("mobility", dim, mobility, cloud.points.n);
+    if (!error) error = sphi_check_not_negative("mobility", mobility.x.x, cloud.points.n);
+    if (!error && dim > 1) error = sphi_check_not_negative("mobility", mobility.y.y, cloud.points.n);
+    if (!error && dim > 2) error = sphi_check_not_negative("mobility", mobility.z.z, cloud.points.n);
+    if (!error && u) error = sphi_check_field("u", *u, cloud.points.n);
+    if (!error && !(u ? out.p : rows.row)) error = sphi_refuse(u ? "out" : "out.row", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
+    none.nu = SPH_R(1);
+    none.gradient.x = none.gradient.y = none.gradient.z = SPH_R(0);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i), u_i = u ? sphi_at(*u, i) : SPH_R(0);
+        const sph_mat M_i = sphi_matrix_at(dim, mobility, i);
+        sphi_tensor t;
+        sph_real conditioning, sum = SPH_R(0);
+        int state = sphi_tensor_solve(k, dim, &a, i, &t, &conditioning);
+        for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
+            const sph_index j = cloud.list.index[p];
+            sph_real m[SPHI_MAX] = {SPH_R(0)}, weight = SPH_R(0);
+            if (!state) {
+                sphi_tensor_sum(dim, M_i, sphi_matrix_at(dim, mobility, j), m);
+                weight = sphi_tensor_weight(dim, &t, sphi_elliptic_pair_of(k, dim, &a, none, x_i, h_i, j), m);
+            }
+            if (u) sum += weight * (sphi_at(*u, j) - u_i);
+            else rows.row[p] = weight;
+        }
+        if (u) {
+            if (!sphi_finite(sum)) state = SPH_NOT_FINITE;
+            sphi_answer(out, i, state ? SPH_R(0) : sum, state);
+        } else {
+            if (sphi_row_finite(rows.row, cloud.list.start[i], cloud.list.start[i + 1]))
+                state = SPH_NOT_FINITE;
+            sphi_row_answer(rows, cloud.list, i, 1, conditioning, state);
+        }
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* div(M grad u) for a full symmetric tensor M of each particle, at any orientation of its axes:
+       L u_i = sum_j V_j G sum_s S(M_i + M_j)_s (q_s / |e|^2 - (K^-1 N_s) . e) (u_j - u_i)
+   with G = -F_ij, e = x_j - x_i, the products q_s of the components of e (xx, xy, yy, ...), and
+       S(M) = T^-1 M,   T_rs = sum_j V_j G q_r (q_s / |e|^2 - (K^-1 N_s) . e),
+       N_s = sum_j V_j G e q_s / |e|^2,   K = sum_j V_j G e e^T.
+   It is the form of sph_elliptic_rows_anisotropic with all products in the place of the squares, and with
+   third moments in T. An addition of this toolkit.
+   Exact for linear and quadratic u (M constant), and for products of a linear M and a linear u, at every
+   particle that is SPH_OK: also in disorder, and where the support is cut off, if enough neighbours are left.
+   The error is O(h^2) in the interior of lattices, and O(h) elsewhere.
+   M is the symmetric part of the matrices; it should be positive semidefinite, of which the diagonal is
+   checked. Signs: weights have both signs where M is far from isotropic (in 2D and on the axes, beyond a
+   ratio of 3), and in disorder; maximum principles are lost then.
+   The gradient is (15), means are arithmetic, a pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). The result is
+   0 where the state is SPH_TOO_FEW or SPH_SINGULAR: K or T is singular, as it is where the neighbours lie in
+   fewer directions than a quadratic form has coefficients (four neighbours on the axes do not see xy).
+   Returns the number of targets that are not SPH_OK, or a negative sph_error. */
+SPH_FN sph_index sph_elliptic_tensor(sph_kernel k, int dim, sph_cloud cloud, sph_matrices mobility,
+                                     sph_scalars u, sph_scalar_out out)
+{
+    const sph_rows_out none = {0, 0, 0, 0, 0, 0};
+    return sphi_elliptic_tensor(k, dim, cloud, mobility, &u, out, none);
+}
+/* The same as rows, with the factor 1. conditioning is the smallest pivot of K (scaled to a unit diagonal)
+   and T. */
+SPH_FN sph_index sph_elliptic_rows_tensor(sph_kernel k, int dim, sph_cloud cloud, sph_matrices mobility,
+                                          sph_rows_out out)
+{
+    return sphi_elliptic_tensor(k, dim, cloud, mobility, 0, sph_scalar_out_array(0, 0), out);
+}
+
 /* -------- elliptic operator: boundary conditions */
 
 /* What holds at a boundary particle: alpha u + beta m n . grad u is given. alpha = beta = 0 means that the
@@ -4199,7 +4570,7 @@ SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_cloud clo
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         sph_shepard s;
         sph_elliptic_moments moments;
-        sph_elliptic_inverse inverse;
+        sph_mat inverse;
         sph_vec n;
         sph_real conditioning = SPH_R(1), sum = SPH_R(0);
         int state = SPH_OK;
@@ -4212,7 +4583,7 @@ SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_cloud clo
             if (sph_elliptic_invert(dim, options.gradient, &moments, &inverse, &conditioning))
                 state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i, dim);
             else {
-                n = sph_scale(flux, sph_elliptic_inverse_times(dim, inverse, sphi_vector_at(dim, normal, i)));
+                n = sph_scale(flux, sph_mat_times(dim, inverse, sphi_vector_at(dim, normal, i)));
                 for (p = cloud.list.start[i]; p < cloud.list.start[i + 1]; p++) {
                     const sphi_elliptic_pair c =
                         sphi_elliptic_pair_of(k, dim, &a, s, x_i, h_i, cloud.list.index[p]);
@@ -5780,8 +6151,8 @@ SPH_FN sph_index sph_free_surface(sph_kernel k, int dim, sph_cloud cloud, sph_su
         sph_vec g, normal;
         sph_real trace;
         int state, lost;
-        sphi_gradient_moments(k, dim, i, cloud.points, cloud.list, h_i, cloud.volume, 2, cloud.volume,
-                              &moment, &g);
+        sphi_gradient_moments(SPHI_BY_CSPM, k, dim, i, cloud.points, cloud.list, h_i, cloud.volume, 2,
+                              cloud.volume, &moment, &g);
         normal = sph_scale(SPH_R(0), g);
         state = sph_solve_gradient(dim, moment, &inverse, 0);
         if (state) state = sphi_singular_status(k, dim, i, cloud.points, cloud.list, h_i, dim);
@@ -8330,6 +8701,668 @@ SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_cloud cloud, sph_mhd s
     return sphi_mhd_some(3, cleans, k, dim, cloud, &state, &out);
 }
 
+/* ================================================================ reproducing kernels
+ *
+ * A reproducing kernel of first order is the kernel times a linear function, which makes sums exact for
+ * linear fields. With x = x_ij and the particle itself in all sums (x = 0, so that it counts in m0):
+ *     m0 = sum_j V_j W,   m1 = sum_j V_j x W,   m2 = sum_j V_j x x^T W,
+ *     B = -m2^-1 m1,      A = 1 / (m0 + B . m1),
+ *     W^R_ij = A_i (1 + B_i . x_ij) W_ij.
+ * Its gradient is that by x_i, with the derivatives of A and B in it:
+ *     d_c W^R = A (1 + B . x) d_c W + d_c A (1 + B . x) W + A (d_c B . x + B_c) W.
+ * At every particle whose neighbours are not all on one line (in 3D, in one plane) with it, at boundaries,
+ * too:
+ *     sum_j V_j W^R = 1,  sum_j V_j x W^R = 0,  sum_j V_j grad W^R = 0,  sum_j V_j x (grad W^R)^T = -1.
+ *
+ * The order of a step: volumes, then sph_rk_correction, which stores A, B and their derivatives (1 + 2 dim +
+ * dim^2 numbers), then whatever uses them.
+ *
+ * A gas takes pair forces from such gradients that conserve momentum and energy to round-off:
+ *     CRK   m_i a_i = -1/2 sum_j V_i V_j (P_i + P_j + Q_ij) (grad W^R_ij - grad W^R_ji),
+ *     IAD   a_i     = -sum_j m_j (P_i / rho_i^2 A_i + P_j / rho_j^2 A_j),
+ * where A_i = C_i x_ji W_ij(h_i) and A_j = C_j x_ji W_ij(h_j) (see sph_gradient_iad). What conservation
+ * costs, on 80 x 80 particles in a periodic box (cubic spline, h = 1.4 dx, V = 1 / sum W): the force that is
+ * left of a uniform pressure, rms of |a| h rho / P, means of three seeds (tests/test_reproducing.c).
+ *                               jitter 0.2 dx   300 shifts   300 shifts, tensile term
+ *     P / rho^2, symmetric          0.160         0.0060         0.0019
+ *     CRK pair                      0.071         0.0070         0.0003
+ *     IAD pair                      0.243         0.0185         0.0005
+ *     gradients by differences      0             0              0
+ * So the CRK pair is better than plain SPH in disorder and near a lattice, where IAD is, too, but not exact.
+ * IAD is worse than plain SPH in disorder, and both are where particles were moved until the plain force of a
+ * uniform pressure was small, which is what shifting by the concentration does. In these units the numbers do
+ * not fall with more particles: the force of a pressure is right to order 0 only, as in all conservative SPH.
+ * Gradients by differences (sph_gradient_rk, sph_gradient_iad) are exact there, but do not conserve momentum.
+ * Neither pair force acts along the line between the particles, so that angular momentum is not conserved;
+ * under a uniform pressure the torque of the CRK pairs on an open cloud is 0, because sum_j V_j x (grad
+ * W^R)^T is symmetric.
+ *
+ * Sources: Liu, Jun & Zhang 1995, IJNMF 20, 1081 (reproducing kernels); Bonet & Kulasegaram 2000, IJNME 47,
+ * 1189 (derivatives); Frontiere, Raskin & Owen 2017, JCP 332, 160 (the conservative form); Garcia-Senz,
+ * Cabezon & Escartin 2012, A&A 538, A9 (IAD).
+ */
+
+/* -------- reproducing kernels: types and pair functions */
+
+/* A symmetric tensor of third order. */
+typedef struct sph_sym_third {
+    sph_real xxx, xxy, xyy, yyy, xxz, xyz, yyz, xzz, yzz, zzz;
+} sph_sym_third;
+/* The moments of a particle, with x = x_ij: m0 = sum V W, m1 = sum V x W, m2 = sum V x x W, and the same with
+   F in the place of W, with one x more: f1 = sum V x F, f2 = sum V x x F, f3 = sum V x x x F. */
+typedef struct sph_rk_moments {
+    sph_real m0;
+    sph_vec m1, f1;
+    sph_sym m2, f2;
+    sph_sym_third f3;
+} sph_rk_moments;
+/* What makes the kernel of a particle a reproducing one: A, B, the gradient of A, and that of B, the row of
+   each component of B. */
+typedef struct sph_rk_side {
+    sph_real scale;
+    sph_vec slope, scale_gradient;
+    sph_mat slope_gradient;
+} sph_rk_side;
+/* W^R and its gradient. */
+typedef struct sph_rk_kernel {
+    sph_real w;
+    sph_vec gradient;
+} sph_rk_kernel;
+
+/* What j, with the volume V_j, adds to the moments of i. w is W and F at the distance |x_ij| and with h_i.
+   The particle itself adds the same with x_ij = 0. Entries beyond dim are 0. */
+SPH_FN sph_rk_moments sph_rk_moments_pair(int dim, sph_real V_j, sph_vec x_ij, sph_wf w)
+{
+    const sph_real vw = V_j * w.w, vf = V_j * w.f, x = x_ij.x, y = dim > 1 ? x_ij.y : SPH_R(0),
+                   z = dim > 2 ? x_ij.z : SPH_R(0);
+    sph_rk_moments m;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
+    m.m0 = vw;
+    m.m1.x = vw * x;
+    m.f1.x = vf * x;
+    m.m2.xx = m.m1.x * x;
+    m.f2.xx = m.f1.x * x;
+    m.f3.xxx = m.f2.xx * x;
+    m.m1.y = m.f1.y = m.m2.xy = m.m2.yy = m.f2.xy = m.f2.yy = m.f3.xxy = m.f3.xyy = m.f3.yyy = SPH_R(0);
+    m.m1.z = m.f1.z = m.m2.xz = m.m2.yz = m.m2.zz = m.f2.xz = m.f2.yz = m.f2.zz = SPH_R(0);
+    m.f3.xxz = m.f3.xyz = m.f3.yyz = m.f3.xzz = m.f3.yzz = m.f3.zzz = SPH_R(0);
+    if (dim > 1) {
+        m.m1.y = vw * y;
+        m.f1.y = vf * y;
+        m.m2.xy = m.m1.x * y;
+        m.m2.yy = m.m1.y * y;
+        m.f2.xy = m.f1.x * y;
+        m.f2.yy = m.f1.y * y;
+        m.f3.xxy = m.f2.xx * y;
+        m.f3.xyy = m.f2.xy * y;
+        m.f3.yyy = m.f2.yy * y;
+    }
+    if (dim > 2) {
+        m.m1.z = vw * z;
+        m.f1.z = vf * z;
+        m.m2.xz = m.m1.x * z;
+        m.m2.yz = m.m1.y * z;
+        m.m2.zz = m.m1.z * z;
+        m.f2.xz = m.f1.x * z;
+        m.f2.yz = m.f1.y * z;
+        m.f2.zz = m.f1.z * z;
+        m.f3.xxz = m.f2.xx * z;
+        m.f3.xyz = m.f2.xy * z;
+        m.f3.yyz = m.f2.yy * z;
+        m.f3.xzz = m.f2.xz * z;
+        m.f3.yzz = m.f2.yz * z;
+        m.f3.zzz = m.f2.zz * z;
+    }
+    return m;
+}
+/* sum_b f3_abc B_b, a symmetric tensor. */
+SPH_FN sph_sym sphi_third_times(int dim, sph_sym_third t, sph_vec b)
+{
+    sph_sym s;
+    s.xx = t.xxx * b.x;
+    s.xy = s.yy = s.xz = s.yz = s.zz = SPH_R(0);
+    if (dim > 1) {
+        s.xx += t.xxy * b.y;
+        s.xy = t.xxy * b.x + t.xyy * b.y;
+        s.yy = t.xyy * b.x + t.yyy * b.y;
+    }
+    if (dim > 2) {
+        s.xx += t.xxz * b.z;
+        s.xy += t.xyz * b.z;
+        s.yy += t.yyz * b.z;
+        s.xz = t.xxz * b.x + t.xyz * b.y + t.xzz * b.z;
+        s.yz = t.xyz * b.x + t.yyz * b.y + t.yzz * b.z;
+        s.zz = t.xzz * b.x + t.yzz * b.y + t.zzz * b.z;
+    }
+    return s;
+}
+/* *side from the moments. Returns SPH_OK; SPH_FELL_BACK where m2 is singular, or A would be larger than any
+   number means: then B = 0 and A = 1 / m0, which is Shepard's correction, exact for constants only; or
+   SPH_TOO_FEW if m0 is not positive, and then *side is 0. *conditioning is the smaller of two numbers in [0,
+   1]: the smallest pivot of m2 scaled to a unit diagonal, and 1 / (A m0). */
+SPH_FN int sph_rk_solve(int dim, sph_rk_moments m, sph_rk_side *side, sph_real *conditioning)
+{
+    sph_sym inverse;
+    sph_vec row;
+    sph_mat q;
+    sph_real per, pivot = SPH_R(0);
+    int state;
+    side->scale = *conditioning = SPH_R(0);
+    row.x = row.y = row.z = SPH_R(0);
+    side->slope = side->scale_gradient = row;
+    side->slope_gradient.x = side->slope_gradient.y = side->slope_gradient.z = row;
+    if (!(m.m0 > SPH_R(0))) return SPH_TOO_FEW;
+    state = sph_solve_gradient(dim, m.m2, &inverse, &pivot);
+    if (!state) side->slope = sph_scale(SPH_R(-1), sphi_sym_times(dim, inverse, m.m1));
+    per = m.m0 + sph_dot(dim, side->slope, m.m1); /* 1 / A */
+    if (state || !(per > SPHI_PIVOT_MIN * m.m0)) {
+        side->slope = row;
+        side->scale = SPH_R(1) / m.m0;
+        side->scale_gradient = sph_scale(-side->scale * side->scale, m.f1);
+        if (dim < 2) side->scale_gradient.y = SPH_R(0);
+        if (dim < 3) side->scale_gradient.z = SPH_R(0);
+        return SPH_FELL_BACK;
+    }
+    *conditioning = per < pivot * m.m0 ? per / m.m0 : pivot;
+    side->scale = SPH_R(1) / per;
+    /* q_ac = d_c m2_ab B_b + d_c m1_a, of which d_c B = -m2^-1 (column c of q) */
+    q = sph_mat_of_sym(dim, sphi_third_times(dim, m.f3, side->slope));
+    q.x.x += m.f2.xx + per + m.m1.x * side->slope.x;
+    if (dim > 1) {
+        q.x.y += m.f2.xy + m.m1.x * side->slope.y;
+        q.y.x += m.f2.xy + m.m1.y * side->slope.x;
+        q.y.y += m.f2.yy + per + m.m1.y * side->slope.y;
+    }
+    if (dim > 2) {
+        q.x.z += m.f2.xz + m.m1.x * side->slope.z;
+        q.y.z += m.f2.yz + m.m1.y * side->slope.z;
+        q.z.x += m.f2.xz + m.m1.z * side->slope.x;
+        q.z.y += m.f2.yz + m.m1.z * side->slope.y;
+        q.z.z += m.f2.zz + per + m.m1.z * side->slope.z;
+    }
+    q = sph_mat_transposed(dim, q);
+    q.x = sph_scale(SPH_R(-1), sphi_sym_times(dim, inverse, q.x)); /* d_x B, and so on */
+    q.y = sph_scale(SPH_R(-1), sphi_sym_times(dim, inverse, q.y));
+    q.z = sph_scale(SPH_R(-1), sphi_sym_times(dim, inverse, q.z));
+    side->slope_gradient = sph_mat_transposed(dim, q);
+    row = sphi_plus(dim, sph_mat_times(dim, q, m.m1), sphi_sym_times(dim, m.f2, side->slope));
+    row = sphi_plus(dim, row, sphi_plus(dim, m.f1, sph_scale(m.m0, side->slope)));
+    side->scale_gradient = sph_scale(-side->scale * side->scale, row);
+    if (dim < 2) side->scale_gradient.y = SPH_R(0);
+    if (dim < 3) side->scale_gradient.z = SPH_R(0);
+    return SPH_OK;
+}
+/* W^R_ij of particle i and its gradient by x_i. w is W and F at the distance |x_ij| and with h_i. For the
+   kernel of j, W^R_ji and its gradient by x_j, give the side of j, -x_ij, and h_j. */
+SPH_FN sph_rk_kernel sph_rk_pair(int dim, sph_rk_side i, sph_vec x_ij, sph_wf w)
+{
+    const sph_real line = SPH_R(1) + sph_dot(dim, i.slope, x_ij), along = i.scale * line * w.f;
+    sph_vec turn = sph_scale(x_ij.x, i.slope_gradient.x); /* d_c B . x */
+    sph_rk_kernel c;
+    if (dim > 1) turn = sphi_plus(dim, turn, sph_scale(x_ij.y, i.slope_gradient.y));
+    if (dim > 2) turn = sphi_plus(dim, turn, sph_scale(x_ij.z, i.slope_gradient.z));
+    turn = sphi_plus(dim, turn, i.slope);
+    c.w = i.scale * line * w.w;
+    c.gradient.x = along * x_ij.x + w.w * (line * i.scale_gradient.x + i.scale * turn.x);
+    c.gradient.y = c.gradient.z = SPH_R(0);
+    if (dim > 1) c.gradient.y = along * x_ij.y + w.w * (line * i.scale_gradient.y + i.scale * turn.y);
+    if (dim > 2) c.gradient.z = along * x_ij.z + w.w * (line * i.scale_gradient.z + i.scale * turn.z);
+    return c;
+}
+/* grad W^R_ij - grad W^R_ji, which is antisymmetric: minus itself if the particles are exchanged. For plain
+   kernels it is twice grad_i W. w_i is with h_i, w_j with h_j. */
+SPH_FN sph_vec sph_rk_pair_difference(int dim, sph_rk_side i, sph_rk_side j, sph_vec x_ij, sph_wf w_i,
+                                      sph_wf w_j)
+{
+    return sph_subtract(dim, sph_rk_pair(dim, i, x_ij, w_i).gradient,
+                        sph_rk_pair(dim, j, sph_scale(SPH_R(-1), x_ij), w_j).gradient);
+}
+/* C x_ji W = -C x_ij W, the vector of IAD that takes the place of grad_i W. inverse is C of i and w_ij is W
+   with h_i, or both are those of j. */
+SPH_FN sph_vec sph_gradient_pair_iad(int dim, sph_mat inverse, sph_vec x_ij, sph_real w_ij)
+{
+    return sph_scale(-w_ij, sph_mat_times(dim, inverse, x_ij));
+}
+
+/* What j adds to the rates of i: dv/dt, and du/dt by pressure and viscosity. */
+typedef struct sph_corrected_change {
+    sph_vec acceleration;
+    sph_real rate_u;
+} sph_corrected_change;
+/* Of CRKSPH, with the difference of sph_rk_pair_difference and volumes = V_i V_j:
+       a_i += -volumes / (2 m_i) (P_i + P_j + rho_i rho_j Pi_ij) difference,
+       du_i/dt += volumes / (2 m_i) (P_j + rho_i rho_j Pi_ij / 2) v_ij . difference.
+   Frontiere, Raskin & Owen 2017. viscosity is Pi_ij. With the partner's pressure in du/dt, energy is
+   conserved: sum m (v . a + du/dt) = 0. Needs m > 0. */
+SPH_FN sph_corrected_change sph_gas_pair_crk(int dim, sph_fluid_side i, sph_fluid_side j, sph_real volumes,
+                                             sph_vec difference, sph_vec v_ij, sph_real viscosity)
+{
+    const sph_real weight = SPH_R(0.5) * volumes / i.m, q = i.rho * j.rho * viscosity;
+    sph_corrected_change c;
+    SPH_ASSERT(i.m > SPH_R(0));
+    c.acceleration = sph_scale(-weight * (i.p + j.p + q), difference);
+    c.rate_u = weight * (j.p + SPH_R(0.5) * q) * sph_dot(dim, v_ij, difference);
+    return c;
+}
+/* Of IAD, with grad_i = A_i and grad_j = A_j by sph_gradient_pair_iad:
+       a_i += -m_j (P_i / rho_i^2 A_i + P_j / rho_j^2 A_j + Pi_ij (A_i + A_j) / 2),
+       du_i/dt += m_j v_ij . (P_i / rho_i^2 A_i + Pi_ij (A_i + A_j) / 4).
+   Garcia-Senz, Cabezon & Escartin 2012. viscosity is Pi_ij. sum m (v . a + du/dt) = 0. Needs rho > 0 on both
+   sides. */
+SPH_FN sph_corrected_change sph_gas_pair_iad(int dim, sph_fluid_side i, sph_fluid_side j, sph_vec grad_i,
+                                             sph_vec grad_j, sph_vec v_ij, sph_real viscosity)
+{
+    const sph_real p_i = j.m * i.p / (i.rho * i.rho), p_j = j.m * j.p / (j.rho * j.rho),
+                   q = SPH_R(0.5) * j.m * viscosity;
+    sph_corrected_change c;
+    SPH_ASSERT(i.rho > SPH_R(0) && j.rho > SPH_R(0));
+    c.acceleration =
+        sph_scale(SPH_R(-1), sphi_plus(dim, sph_scale(p_i + q, grad_i), sph_scale(p_j + q, grad_j)));
+    c.rate_u =
+        (p_i + SPH_R(0.5) * q) * sph_dot(dim, v_ij, grad_i) + SPH_R(0.5) * q * sph_dot(dim, v_ij, grad_j);
+    return c;
+}
+
+/* -------- reproducing kernels: sweeps */
+
+/* A, B and their gradients of all sources: what sph_rk_correction wrote. */
+typedef struct sph_rk {
+    sph_scalars scale;
+    sph_vectors slope, scale_gradient;
+    sph_matrices slope_gradient;
+} sph_rk;
+/* Where they go. conditioning and status may be null. The stride is that of scale and conditioning. */
+typedef struct sph_rk_out {
+    SPH_GLOBAL sph_real *scale, *conditioning;
+    size_t stride;
+    sph_vector_out slope, scale_gradient;
+    sph_matrix_out slope_gradient; /* the row of each component of B: its gradient */
+    SPH_GLOBAL unsigned char *status;
+} sph_rk_out;
+/* Where the rates of a gas go: the acceleration, and du/dt by pressure and viscosity (u: thermal energy per
+   mass). rate_u and status may be null. */
+typedef struct sph_corrected_out {
+    sph_vector_out acceleration;
+    SPH_GLOBAL sph_real *rate_u;
+    size_t stride; /* of rate_u */
+    SPH_GLOBAL unsigned char *status;
+} sph_corrected_out;
+
+SPH_FN sph_rk_side sphi_rk_side(int dim, const sph_rk *a, sph_index i)
+{
+    sph_rk_side s;
+    s.scale = sphi_at(a->scale, i);
+    s.slope = sphi_vector_at(dim, a->slope, i);
+    s.scale_gradient = sphi_vector_at(dim, a->scale_gradient, i);
+    s.slope_gradient = sphi_matrix_at(dim, a->slope_gradient, i);
+    return s;
+}
+SPH_FN int sphi_check_rk(int dim, sph_rk a, sph_index n)
+{
+    int error = sphi_check_field("rk.scale", a.scale, n);
+    if (!error) error = sphi_check_vectors("rk.slope", dim, a.slope, n);
+    if (!error) error = sphi_check_vectors("rk.scale_gradient", dim, a.scale_gradient, n);
+    return error ? error : sphi_check_matrices("rk.slope_gradient", dim, a.slope_gradient, n);
+}
+
+/* A, B and their gradients for the targets (see the beginning of this chapter). The kernel of a particle has
+   its own h_i. A target whose m2 is singular (its neighbours are on one line with it, in 3D in one plane, or
+   it has none) is SPH_FELL_BACK: B = 0 and A = 1 / m0, exact for constants only. It is SPH_TOO_FEW, and all
+   is 0, where m0 is not positive. conditioning: see sph_rk_solve. Where a number overflows, it is 0 with
+   SPH_NOT_FINITE. */
+SPH_FN sph_index sph_rk_correction(sph_kernel k, int dim, sph_cloud cloud, sph_rk_out out)
+{
+    const size_t stride = sphi_stride(out.stride);
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
+    sph_index i, p, failed = 0;
+    if (!error && !out.scale) error = sphi_refuse("out.scale", -1, SPH_ERROR_NULL);
+    if (!error) error = sphi_check_out("out.slope", dim, out.slope);
+    if (!error) error = sphi_check_out("out.scale_gradient", dim, out.scale_gradient);
+    if (!error) error = sphi_check_matrix_out("out.slope_gradient", dim, out.slope_gradient);
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), none = {SPH_R(0), SPH_R(0), SPH_R(0)};
+        const sph_real h_i = sphi_at(cloud.h, i);
+        sph_rk_moments m =
+            sph_rk_moments_pair(dim, sphi_at(cloud.volume, i), none, sph_kernel_wf(k, dim, SPH_R(0), h_i));
+        sph_real m0 = m.m0, mx = SPH_R(0), my = SPH_R(0), mz = SPH_R(0), xx = SPH_R(0), xy = SPH_R(0),
+                 yy = SPH_R(0), xz = SPH_R(0), yz = SPH_R(0), zz = SPH_R(0), fx = SPH_R(0), fy = SPH_R(0),
+                 fz = SPH_R(0);
+        sph_real gxx = SPH_R(0), gxy = SPH_R(0), gyy = SPH_R(0), gxz = SPH_R(0), gyz = SPH_R(0),
+                 gzz = SPH_R(0), xxx = SPH_R(0), xxy = SPH_R(0), xyy = SPH_R(0), yyy = SPH_R(0),
+                 xxz = SPH_R(0), xyz = SPH_R(0), yyz = SPH_R(0), xzz = SPH_R(0), yzz = SPH_R(0),
+                 zzz = SPH_R(0);
+        sph_rk_side side;
+        sph_real conditioning;
+        int state, lost;
+        /* two loops, because a loop has 16 sums at most */
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], m0, mx, my, mz, xx, xy, yy, xz, yz, zz, fx,
+                fy, fz) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_rk_moments c = sph_rk_moments_pair(dim, sphi_at(cloud.volume, j), x_ij,
+                                                         sph_kernel_wf(k, dim, sph_length(dim, x_ij), h_i));
+            m0 += c.m0;
+            mx += c.m1.x;
+            xx += c.m2.xx;
+            fx += c.f1.x;
+            if (dim > 1) {
+                my += c.m1.y;
+                xy += c.m2.xy;
+                yy += c.m2.yy;
+                fy += c.f1.y;
+            }
+            if (dim > 2) {
+                mz += c.m1.z;
+                xz += c.m2.xz;
+                yz += c.m2.yz;
+                zz += c.m2.zz;
+                fz += c.f1.z;
+            }
+        }
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], gxx, gxy, gyy, gxz, gyz, gzz, xxx, xxy, xyy,
+                yyy, xxz, xyz, yyz, xzz, yzz, zzz) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_rk_moments c = sph_rk_moments_pair(dim, sphi_at(cloud.volume, j), x_ij,
+                                                         sph_kernel_wf(k, dim, sph_length(dim, x_ij), h_i));
+            gxx += c.f2.xx;
+            xxx += c.f3.xxx;
+            if (dim > 1) {
+                gxy += c.f2.xy;
+                gyy += c.f2.yy;
+                xxy += c.f3.xxy;
+                xyy += c.f3.xyy;
+                yyy += c.f3.yyy;
+            }
+            if (dim > 2) {
+                gxz += c.f2.xz;
+                gyz += c.f2.yz;
+                gzz += c.f2.zz;
+                xxz += c.f3.xxz;
+                xyz += c.f3.xyz;
+                yyz += c.f3.yyz;
+                xzz += c.f3.xzz;
+                yzz += c.f3.yzz;
+                zzz += c.f3.zzz;
+            }
+        }
+        m.m0 = m0;
+        m.m1.x = mx, m.m1.y = my, m.m1.z = mz;
+        m.m2.xx = xx, m.m2.xy = xy, m.m2.yy = yy, m.m2.xz = xz, m.m2.yz = yz, m.m2.zz = zz;
+        m.f1.x = fx, m.f1.y = fy, m.f1.z = fz;
+        m.f2.xx = gxx, m.f2.xy = gxy, m.f2.yy = gyy, m.f2.xz = gxz, m.f2.yz = gyz, m.f2.zz = gzz;
+        m.f3.xxx = xxx, m.f3.xxy = xxy, m.f3.xyy = xyy, m.f3.yyy = yyy, m.f3.xxz = xxz, m.f3.xyz = xyz;
+        m.f3.yyz = yyz, m.f3.xzz = xzz, m.f3.yzz = yzz, m.f3.zzz = zzz;
+        state = sph_rk_solve(dim, m, &side, &conditioning);
+        lost = sphi_put(out.scale, stride, i, side.scale);
+        lost |= sphi_store_vector(dim, out.slope, i, side.slope);
+        lost |= sphi_store_vector(dim, out.scale_gradient, i, side.scale_gradient);
+        lost |= sphi_store_matrix(dim, out.slope_gradient, i, side.slope_gradient);
+        if (lost) { /* the kernel of a part of them would be none */
+            state = SPH_NOT_FINITE;
+            sphi_put(out.scale, stride, i, SPH_R(0));
+            sphi_store_vector(dim, out.slope, i, none);
+            sphi_store_vector(dim, out.scale_gradient, i, none);
+            side.slope_gradient.x = side.slope_gradient.y = side.slope_gradient.z = none;
+            sphi_store_matrix(dim, out.slope_gradient, i, side.slope_gradient);
+        }
+        sphi_put(out.conditioning, stride, i, conditioning);
+        if (out.status) out.status[i] = (unsigned char)state;
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+
+/* f_i = sum_j V_j f_j W^R_ij, the particle itself included: exact for linear fields, error O(h^2), at
+   boundaries, too. rk holds what sph_rk_correction wrote for the targets, of which A and B are read; those of
+   the other sources are not. The result is 0 where A is 0 (SPH_TOO_FEW) or the sum overflows
+   (SPH_NOT_FINITE). */
+SPH_FN sph_index sph_interpolate_rk(sph_kernel k, int dim, sph_cloud cloud, sph_rk rk, sph_scalars f,
+                                    sph_scalar_out out)
+{
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_rk(dim, rk, cloud.points.n);
+    if (!error) error = sphi_check_field("f", f, cloud.points.n);
+    if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), none = {SPH_R(0), SPH_R(0), SPH_R(0)};
+        const sph_real h_i = sphi_at(cloud.h, i);
+        const sph_rk_side own = sphi_rk_side(dim, &rk, i);
+        sph_real sum = sphi_at(cloud.volume, i) * sphi_at(f, i) *
+                       sph_rk_pair(dim, own, none, sph_kernel_wf(k, dim, SPH_R(0), h_i)).w;
+        int state = own.scale == SPH_R(0) ? SPH_TOO_FEW : SPH_OK;
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sum) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            sum += sphi_at(cloud.volume, j) * sphi_at(f, j) *
+                   sph_rk_pair(dim, own, x_ij, sph_kernel_wf(k, dim, sph_length(dim, x_ij), h_i)).w;
+        }
+        if (!sphi_finite(sum)) state = SPH_NOT_FINITE;
+        failed += sphi_answer(out, i, state ? SPH_R(0) : sum, state);
+    }
+    return failed;
+}
+/* The same as rows: f_i = diagonal[i] f_i + sum_p row[p] f_j. diagonal[i] is what the particle itself adds;
+   its sum with the row is 1. factor and conditioning are 1. Rows of targets without answer are 0. */
+SPH_FN sph_index sph_interpolate_rows_rk(sph_kernel k, int dim, sph_cloud cloud, sph_rk rk, sph_rows_out out)
+{
+    SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_rk(dim, rk, cloud.points.n);
+    if (!error && !row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), none = {SPH_R(0), SPH_R(0), SPH_R(0)};
+        const sph_real h_i = sphi_at(cloud.h, i);
+        const sph_rk_side own = sphi_rk_side(dim, &rk, i);
+        const sph_real self =
+            sphi_at(cloud.volume, i) * sph_rk_pair(dim, own, none, sph_kernel_wf(k, dim, SPH_R(0), h_i)).w;
+        int state = own.scale == SPH_R(0) ? SPH_TOO_FEW : SPH_OK;
+        SPH_EACH(p, cloud.list.start[i], cloud.list.start[i + 1]) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            row[p] = sphi_at(cloud.volume, j) *
+                     sph_rk_pair(dim, own, x_ij, sph_kernel_wf(k, dim, sph_length(dim, x_ij), h_i)).w;
+        }
+        if (sphi_row_finite(row, cloud.list.start[i], cloud.list.start[i + 1]) || !sphi_finite(self))
+            state = SPH_NOT_FINITE;
+        for (p = cloud.list.start[i]; state && p < cloud.list.start[i + 1]; p++) row[p] = SPH_R(0);
+        sphi_put(out.diagonal, sphi_stride(out.stride), i, state ? SPH_R(0) : self);
+        sphi_row_answer(out, cloud.list, i, 0, SPH_R(1), state);
+        failed += state != SPH_OK;
+    }
+    return failed;
+}
+/* grad f_i = sum_j V_j (f_j - f_i) grad W^R_ij: exact for linear fields, error O(h^2) in the interior of a
+   regular cloud and O(h) elsewhere. f_i drops out, because sum_j V_j grad W^R = 0. rk: as for
+   sph_interpolate_rk. Where a component overflows, the gradient is 0 and the target counts as failed. */
+SPH_FN sph_index sph_gradient_rk(sph_kernel k, int dim, sph_cloud cloud, sph_rk rk, sph_scalars f,
+                                 sph_vector_out out)
+{
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_rk(dim, rk, cloud.points.n);
+    if (!error) error = sphi_check_field("f", f, cloud.points.n);
+    if (!error) error = sphi_check_out("out", dim, out);
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i), f_i = sphi_at(f, i);
+        const sph_rk_side own = sphi_rk_side(dim, &rk, i);
+        sph_real sx = SPH_R(0), sy = SPH_R(0), sz = SPH_R(0);
+        sph_vec sum;
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], sx, sy, sz) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_vec g = sph_scale(
+                sphi_at(cloud.volume, j) * (sphi_at(f, j) - f_i),
+                sph_rk_pair(dim, own, x_ij, sph_kernel_wf(k, dim, sph_length(dim, x_ij), h_i)).gradient);
+            sx += g.x;
+            if (dim > 1) sy += g.y;
+            if (dim > 2) sz += g.z;
+        }
+        sum.x = sx;
+        sum.y = sy;
+        sum.z = sz;
+        failed += sphi_store_vector(dim, out, i, sum);
+    }
+    return failed;
+}
+/* The same as rows: grad f_i = sum_p (x[p], y[p], z[p]) (f_j - f_i). conditioning is 1. */
+SPH_FN sph_index sph_gradient_rows_rk(sph_kernel k, int dim, sph_cloud cloud, sph_rk rk,
+                                      sph_gradient_rows_out out)
+{
+    SPH_GLOBAL sph_real *const SPH_RESTRICT wx = out.x, *const SPH_RESTRICT wy = out.y,
+                                            *const SPH_RESTRICT wz = out.z;
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_rk(dim, rk, cloud.points.n);
+    if (!error) error = sphi_check_out("out", dim, sph_vector_out_separate(wx, wy, wz));
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        const sph_rk_side own = sphi_rk_side(dim, &rk, i);
+        int lost;
+        SPH_EACH(p, cloud.list.start[i], cloud.list.start[i + 1]) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_vec g = sph_scale(
+                sphi_at(cloud.volume, j),
+                sph_rk_pair(dim, own, x_ij, sph_kernel_wf(k, dim, sph_length(dim, x_ij), h_i)).gradient);
+            wx[p] = g.x;
+            if (dim > 1) wy[p] = g.y;
+            if (dim > 2) wz[p] = g.z;
+        }
+        lost = sphi_gradient_row_finite(dim, out, cloud.list, i, 0);
+        sphi_put(out.conditioning, sphi_stride(out.stride), i, SPH_R(1));
+        sphi_tell(out.status, i, lost);
+        failed += lost;
+    }
+    return failed;
+}
+
+/* What both sweeps of gases check. */
+SPH_FN int sphi_check_corrected(sph_kernel k, int dim, sph_cloud cloud, sph_fluid f, sph_vector_out a)
+{
+    int error = sphi_check_sweep(k, dim, cloud, "m", f.m);
+    if (!error && (f.viscosity < 0 || f.viscosity > (int)SPH_VISCOSITY_SIGNAL))
+        error = sphi_refuse("fluid.viscosity", -1, SPH_ERROR_VALUE);
+    if (!error && (!sphi_finite(f.alpha) || !sphi_finite(f.beta) || !sphi_finite(f.eta)))
+        error = sphi_refuse("fluid.alpha, beta, eta", -1, SPH_ERROR_VALUE);
+    if (!error) error = sphi_check_positive("m", f.m, cloud.points.n);
+    if (!error) error = sphi_check_positive("rho", f.rho, cloud.points.n);
+    if (!error) error = sphi_check_field("p", f.p, cloud.points.n);
+    if (!error && f.viscosity != (int)SPH_VISCOSITY_NONE)
+        error = sphi_check_not_negative("c", f.c, cloud.points.n);
+    if (!error) error = sphi_check_vectors("v", dim, f.v, cloud.points.n);
+    return error ? error : sphi_check_out("out.acceleration", dim, a);
+}
+/* One of the two corrections is read: rk, or inverse. */
+SPH_FN sph_index sphi_corrected_range(int iad, int uniform, sph_kernel k, int dim, sph_cloud cloud,
+                                      const sph_fluid *f, const sph_rk *rk, sph_matrices inverse,
+                                      sph_corrected_out out)
+{
+    const int reads = SPHI_READ_M + SPHI_READ_RHO + SPHI_READ_P;
+    const int viscous = f->viscosity != (int)SPH_VISCOSITY_NONE;
+    sph_viscosity_terms terms;
+    sph_index i, p, failed = 0;
+    terms.alpha = f->alpha;
+    terms.beta = f->beta;
+    terms.eta = sphi_softening(f->eta);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, f->v, i);
+        const sph_real h_i = sphi_at(cloud.h, i), c_i = viscous ? sphi_at(f->c, i) : SPH_R(0),
+                       V_i = iad ? SPH_R(0) : sphi_at(cloud.volume, i);
+        const sph_fluid_side own = sphi_fluid_side(reads, f, f->m, i);
+        sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0), rate = SPH_R(0);
+        sph_rk_side own_rk;
+        sph_mat own_inverse;
+        sph_vec sum;
+        int lost;
+        if (iad) own_inverse = sphi_matrix_at(dim, inverse, i);
+        else own_rk = sphi_rk_side(dim, rk, i);
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], ax, ay, az, rate) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)),
+                          v_ij = sph_subtract(dim, v_i, sphi_vector_at(dim, f->v, j));
+            const sph_fluid_side other = sphi_fluid_side(reads, f, f->m, j);
+            sph_corrected_change c;
+            sph_encounter e;
+            sph_wf w_i, w_j;
+            sph_real viscosity;
+            e.vx = sph_dot(dim, v_ij, x_ij);
+            e.r = sph_length(dim, x_ij);
+            e.h = sphi_mean_h(uniform, cloud.h, h_i, j);
+            e.c = viscous ? SPH_R(0.5) * (c_i + sphi_at(f->c, j)) : SPH_R(0);
+            e.rho = SPH_R(0.5) * (own.rho + other.rho);
+            viscosity = sphi_fluid_viscosity(f->viscosity, terms, e);
+            w_i = sph_kernel_wf(k, dim, e.r, h_i);
+            w_j = uniform ? w_i : sph_kernel_wf(k, dim, e.r, sphi_at(cloud.h, j));
+            if (iad)
+                c = sph_gas_pair_iad(dim, own, other, sph_gradient_pair_iad(dim, own_inverse, x_ij, w_i.w),
+                                     sph_gradient_pair_iad(dim, sphi_matrix_at(dim, inverse, j), x_ij, w_j.w),
+                                     v_ij, viscosity);
+            else
+                c = sph_gas_pair_crk(
+                    dim, own, other, V_i * sphi_at(cloud.volume, j),
+                    sph_rk_pair_difference(dim, own_rk, sphi_rk_side(dim, rk, j), x_ij, w_i, w_j), v_ij,
+                    viscosity);
+            ax += c.acceleration.x;
+            if (dim > 1) ay += c.acceleration.y;
+            if (dim > 2) az += c.acceleration.z;
+            rate += c.rate_u;
+        }
+        sum.x = ax;
+        sum.y = ay;
+        sum.z = az;
+        lost = sphi_store_vector(dim, out.acceleration, i, sum);
+        lost |= sphi_put(out.rate_u, sphi_stride(out.stride), i, rate);
+        sphi_tell(out.status, i, lost);
+        failed += lost;
+    }
+    return failed;
+}
+/* Acceleration and du/dt of a gas by reproducing kernels (CRKSPH): the sums of sph_gas_pair_crk. Frontiere,
+   Raskin & Owen 2017, JCP 332, 160, without their limiter of the viscosity. Momentum, and the energy sum m
+   (v^2/2 + u), do not change, to round-off. What that costs: see the beginning of this chapter. Of fluid all
+   members are read; c only with artificial viscosity, whose kind and coefficients are those of fluid. Its
+   heating may be negative for single pairs, where the difference of the gradients is far from the line
+   between the particles. Volumes are those that sph_rk_correction saw (1 / sum W, or m / rho), and rk holds
+   its results for all sources. Lists hold all pairs with r < support ratio * max(h_i, h_j) (SPH_LARGER).
+   out.rate_u and out.status may be null. Returns the number of targets of which a result overflowed (it is 0
+   then), or a negative sph_error: SPH_ERROR_VALUE also for masses, densities and volumes that are not
+   positive. */
+SPH_FN sph_index sph_gas_rates_crk(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid, sph_rk rk,
+                                   sph_corrected_out out)
+{
+    const sph_matrices none = sph_matrices_packed(dim, 0);
+    int error = sphi_check_corrected(k, dim, cloud, fluid, out.acceleration);
+    if (!error) error = sphi_check_positive("volume", cloud.volume, cloud.points.n);
+    if (!error) error = sphi_check_rk(dim, rk, cloud.points.n);
+    if (error) return sphi_answer_of(error);
+    return cloud.h.stride ? sphi_corrected_range(0, 0, k, dim, cloud, &fluid, &rk, none, out)
+                          : sphi_corrected_range(0, 1, k, dim, cloud, &fluid, &rk, none, out);
+}
+/* The same by the integral approach (IAD): the sums of sph_gas_pair_iad. Garcia-Senz, Cabezon & Escartin
+   2012, A&A 538, A9. inverse: C of all sources, by sph_gradient_correction_iad. With h that follows the
+   density, give p / Omega for the pressure (the papers on IAD set Omega aside). Volumes are not read. On
+   particles without order its error is larger than that of plain SPH. */
+SPH_FN sph_index sph_gas_rates_iad(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
+                                   sph_matrices inverse, sph_corrected_out out)
+{
+    const sph_rk *const none = 0;
+    int error = sphi_check_corrected(k, dim, cloud, fluid, out.acceleration);
+    if (!error) error = sphi_check_matrices("inverse", dim, inverse, cloud.points.n);
+    if (error) return sphi_answer_of(error);
+    return cloud.h.stride ? sphi_corrected_range(1, 0, k, dim, cloud, &fluid, none, inverse, out)
+                          : sphi_corrected_range(1, 1, k, dim, cloud, &fluid, none, inverse, out);
+}
+
 /* ================================================================ gravity, three dimensions
  *
  * The gravitational energy is
@@ -8478,6 +9511,307 @@ SPH_FN sph_index sph_gravity_correction(sph_kernel k, sph_cloud cloud, sph_mediu
         failed += sphi_store_vector(3, acceleration, i, sum);
     }
     return failed;
+}
+
+/* ================================================================ solids
+ *
+ * Elastic solids in total Lagrangian form: lists, volumes, gradients and their correction belong to the
+ * reference state X, and are built once. There is no tensile instability, and no neighbour search. With the
+ * current positions x, grad_i W_ij = F X_ij of the reference state (F <= 0), and the correction
+ *     L_i = K^-1,   K = sum_j V_j (-F_ij) X_ij X_ij^T     (sph_gradient_correction_cspm of the reference
+ *     state)
+ * the deformation gradient F_i, the stress P_i (first Piola-Kirchhoff) and the acceleration are
+ *     F_i = 1 + sum_j V_j ((x_j - x_i) - (X_j - X_i)) (L_i grad_i W_ij)^T,
+ *     P_i = P(F_i): any law of the host; two are given here,
+ *     a_i = 1 / rho_i sum_j V_j (P_i L_i grad_i W_ij(h_i) + P_j L_j grad_i W_ij(h_j)),
+ * where rho is the density of the reference state. F is exact for affine maps. It is the same as the usual
+ * sum_j V_j (x_j - x_i) (L_i grad_i W_ij)^T, but rounds less, and is 1 where L = 0.
+ *
+ * What is kept, to round-off, because the same L stands in F and in the force:
+ *   momentum          the forces of a pair are opposite;
+ *   angular momentum  the torque on all is that of sum_i V_i P_i F_i^T, which is symmetric for every law that
+ *                     does not depend on the observer. Without L_i and L_j in the force it is lost;
+ *   energy            sum_i V_i P_i : dF_i/dt = -sum_i m_i a_i . v_i: what the stress takes the motion loses.
+ * A checkerboard of displacements leaves F inside as it is, so that stress does not see it. The hourglass
+ * control of Ganzenmueller pulls every pair towards the distance that F tells: with
+ * d_i = (F_i X_ij - x_ij) . x_ij / |x_ij|, which is negative where the pair is too far apart,
+ *     a_i += 1 / rho_i sum_j V_j alpha / 2 E W_ij / |X_ij|^2 (d_i + d_j) x_ij / |x_ij|.
+ * It is central, so that both momenta are kept; it is 0 for affine maps, and is no derivative of an energy.
+ *
+ * The order of a step: sph_deformation_gradient, the law for each particle, sph_solid_acceleration; then v,
+ * then x. The longest step is about that of sph_time_step_sound with sph_sound_speed_elastic.
+ *
+ * Sources: Randles & Libersky 2000, IJNME 48, 1445; Vignjevic, Reveles & Campbell 2006, CMES 14, 181;
+ * Ganzenmueller 2015, CMAME 286, 87 (hourglass control).
+ */
+
+/* -------- solids: laws and pair functions */
+
+/* Lame's constants: lambda, the first, and mu, the shear modulus. */
+typedef struct sph_elastic {
+    sph_real first, shear;
+} sph_elastic;
+/* lambda = E nu / ((1 + nu) (1 - 2 nu)) and mu = E / (2 (1 + nu)) from Young's modulus and Poisson's ratio.
+   Two dimensions are plane strain; for plane stress take 2 lambda mu / (lambda + 2 mu) as the first constant.
+   Needs young >= 0 and -1 < poisson < 1/2. */
+SPH_FN sph_elastic sph_elastic_of(sph_real young, sph_real poisson)
+{
+    sph_elastic e;
+    SPH_ASSERT(young >= SPH_R(0) && poisson > SPH_R(-1) && poisson < SPH_R(0.5));
+    e.shear = SPH_R(0.5) * young / (SPH_R(1) + poisson);
+    e.first = SPH_R(2) * e.shear * poisson / (SPH_R(1) - SPH_R(2) * poisson);
+    return e;
+}
+/* The speed of longitudinal waves, sqrt((lambda + 2 mu) / rho). Needs lambda + 2 mu >= 0 and rho > 0. */
+SPH_FN sph_real sph_sound_speed_elastic(sph_elastic e, sph_real rho)
+{
+    SPH_ASSERT(e.first + SPH_R(2) * e.shear >= SPH_R(0) && rho > SPH_R(0));
+    return SPHI_SQRT((e.first + SPH_R(2) * e.shear) / rho);
+}
+/* The product a b. Entries beyond dim are 0. */
+SPH_FN sph_mat sphi_mat_product(int dim, sph_mat a, sph_mat b)
+{
+    const sph_mat t = sph_mat_transposed(dim, b);
+    sph_mat c; /* by columns */
+    c.x = sph_mat_times(dim, a, t.x);
+    c.y = sph_mat_times(dim, a, t.y);
+    c.z = sph_mat_times(dim, a, t.z);
+    return sph_mat_transposed(dim, c);
+}
+/* Saint Venant & Kirchhoff: P = F S with S = lambda tr(E) 1 + 2 mu E and E = (F^T F - 1) / 2, the derivative
+   of the energy lambda / 2 tr(E)^2 + mu E : E by F. Linear in Green's strain: for large rotations and small
+   strains. It is soft in compression: a body that is squeezed to less than 0.58 of its length gives way. */
+SPH_FN sph_mat sph_stress_saint_venant_kirchhoff(int dim, sph_mat gradient, sph_elastic e)
+{
+    const sph_mat t = sph_mat_transposed(dim, gradient);
+    sph_mat s = sphi_mat_product(dim, t, gradient);
+    sph_real along;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
+    s.x.x -= SPH_R(1);
+    if (dim > 1) s.y.y -= SPH_R(1);
+    if (dim > 2) s.z.z -= SPH_R(1);
+    along = SPH_R(0.5) * e.first * (s.x.x + s.y.y + s.z.z); /* s = 2 E */
+    s.x = sph_scale(e.shear, s.x);
+    s.y = sph_scale(e.shear, s.y);
+    s.z = sph_scale(e.shear, s.z);
+    s.x.x += along;
+    if (dim > 1) s.y.y += along;
+    if (dim > 2) s.z.z += along;
+    return sphi_mat_product(dim, gradient, s);
+}
+/* Neo-Hookean: P = mu (F - F^-T) + lambda ln(J) F^-T with J = det F, the derivative of the energy
+   mu / 2 (tr(F^T F) - dim - 2 ln J) + lambda / 2 (ln J)^2 by F. It resists any compression. Bonet & Wood
+   2008, Nonlinear Continuum Mechanics, 6.4.3. Needs J > 0: a particle that is turned inside out has no
+   stress. */
+SPH_FN sph_mat sph_stress_neo_hookean(int dim, sph_mat gradient, sph_elastic e)
+{
+    sph_mat f = gradient, p;
+    sph_real det, per;
+    SPH_ASSERT(SPHI_IS_DIM(dim));
+    if (dim < 3) f.x.z = f.y.z = f.z.x = f.z.y = SPH_R(0), f.z.z = SPH_R(1);
+    if (dim < 2) f.x.y = f.y.x = SPH_R(0), f.y.y = SPH_R(1);
+    p.x = sphi_cross(f.y, f.z); /* the cofactors: J F^-T */
+    p.y = sphi_cross(f.z, f.x);
+    p.z = sphi_cross(f.x, f.y);
+    det = sph_dot(3, f.x, p.x);
+    SPH_ASSERT(det > SPH_R(0));
+    per = (e.first * SPHI_LOG(det) - e.shear) / det;
+    p.x = sphi_plus(3, sph_scale(e.shear, f.x), sph_scale(per, p.x));
+    p.y = sphi_plus(3, sph_scale(e.shear, f.y), sph_scale(per, p.y));
+    p.z = sphi_plus(3, sph_scale(e.shear, f.z), sph_scale(per, p.z));
+    return sph_mat_transposed(dim, sph_mat_transposed(dim, p)); /* without the entries beyond dim */
+}
+
+/* What j adds to the sum of F_i: -V_j F_ij (x_ij - X_ij) X_ij^T, with X_ij = x0_ij and f_ij of the reference
+   state. */
+SPH_FN sph_mat sph_deformation_pair(int dim, sph_real V_j, sph_vec x0_ij, sph_vec x_ij, sph_real f_ij)
+{
+    const sph_vec moved = sph_scale(-V_j * f_ij, sph_subtract(dim, x_ij, x0_ij));
+    sph_mat a;
+    a.x = sph_scale(moved.x, x0_ij);
+    a.y = sph_scale(dim > 1 ? moved.y : SPH_R(0), x0_ij);
+    a.z = sph_scale(dim > 2 ? moved.z : SPH_R(0), x0_ij);
+    return a;
+}
+/* F = 1 + sum L^T of these sums. Entries beyond dim are 0. */
+SPH_FN sph_mat sph_deformation_value(int dim, sph_mat sum, sph_mat inverse)
+{
+    sph_mat f = sphi_mat_product(dim, sum, sph_mat_transposed(dim, inverse));
+    f.x.x += SPH_R(1);
+    if (dim > 1) f.y.y += SPH_R(1);
+    if (dim > 2) f.z.z += SPH_R(1);
+    return f;
+}
+/* A particle of a solid: L, F, P, and Young's modulus, which scales the hourglass control. */
+typedef struct sph_solid_side {
+    sph_mat inverse, gradient, stress;
+    sph_real modulus;
+} sph_solid_side;
+/* What j adds to the acceleration of i by stress: weight (P_i L_i X_ij f_i + P_j L_j X_ij f_j) with
+   weight = V_j / rho_i, X_ij = x0_ij, and f_i, f_j of the reference state. gradient and modulus are not read.
+   */
+SPH_FN sph_vec sph_stress_pair(int dim, sph_solid_side i, sph_solid_side j, sph_real weight, sph_vec x0_ij,
+                               sph_pair_kernel f)
+{
+    return sphi_plus(
+        dim, sph_mat_times(dim, i.stress, sph_scale(weight * f.f_i, sph_mat_times(dim, i.inverse, x0_ij))),
+        sph_mat_times(dim, j.stress, sph_scale(weight * f.f_j, sph_mat_times(dim, j.inverse, x0_ij))));
+}
+/* By hourglass control: weight (E_i + E_j) / 4 (d_i + d_j) / |X_ij|^2 x_ij / |x_ij| with X_ij = x0_ij and
+   weight = alpha V_j W / rho_i (see the beginning of this chapter). A pair that is too far apart attracts. It
+   is 0 where particles coincide. inverse and stress are not read. */
+SPH_FN sph_vec sph_hourglass_pair(int dim, sph_solid_side i, sph_solid_side j, sph_real weight, sph_vec x0_ij,
+                                  sph_vec x_ij)
+{
+    const sph_vec told =
+        sphi_plus(dim, sph_mat_times(dim, i.gradient, x0_ij), sph_mat_times(dim, j.gradient, x0_ij));
+    const sph_real r = sph_length(dim, x_ij), per_r = SPH_R(1) / (r + SPHI_TINY),
+                   off = sph_dot(dim, told, x_ij) * per_r - SPH_R(2) * r,
+                   stiffness = SPH_R(0.25) * (i.modulus + j.modulus);
+    return sph_scale(weight * stiffness * off * per_r / (sph_dot(dim, x0_ij, x0_ij) + SPHI_TINY), x_ij);
+}
+
+/* -------- solids: sweeps
+   The cloud is that of the reference state. */
+
+/* The state of a solid, one value for each particle, all sources. */
+typedef struct sph_solid {
+    sph_matrices inverse, stress; /* L of sph_gradient_correction_cspm, and P */
+    sph_scalars density;          /* of the reference state */
+    /* For hourglass control: its coefficient alpha (0: none; 1 is usual), and what else it reads: the current
+       positions, F, and Young's modulus, not negative. */
+    sph_real hourglass;
+    sph_points x;
+    sph_matrices gradient;
+    sph_scalars modulus;
+} sph_solid;
+
+/* The current positions: as many as in the cloud, with a box of their own. */
+SPH_FN int sphi_check_current(int dim, sph_points x, sph_index n)
+{
+    int error = x.n == n ? 0 : sphi_refuse("x.n", -1, SPH_ERROR_COUNT);
+    if (!error) error = sphi_check_arrays(dim, x);
+    if (!error) error = sphi_check_positions(dim, x);
+    return error ? error : sphi_check_box(dim, x, SPH_R(0), 0);
+}
+
+/* The deformation gradient F of the targets (see the beginning of this chapter). x: the current positions; in
+   a box that repeats they have the box of their own, and pairs are those of the nearest images. inverse: L of
+   the targets; where it is 0, F = 1. Exact for affine maps, also at boundaries; for other maps the error is
+   O(h) there and in disorder, O(h^2) in the interior of a lattice. Where an entry overflows, the matrix is 0
+   and the target counts as failed. */
+SPH_FN sph_index sph_deformation_gradient(sph_kernel k, int dim, sph_cloud cloud, sph_points x,
+                                          sph_matrices inverse, sph_matrix_out out)
+{
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
+    sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_current(dim, x, cloud.points.n);
+    if (!error) error = sphi_check_matrices("inverse", dim, inverse, cloud.points.n);
+    if (!error) error = sphi_check_matrix_out("out", dim, out);
+    if (error) return sphi_answer_of(error);
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x0_i = sphi_point(dim, cloud.points, i), x_i = sphi_point(dim, x, i);
+        const sph_real h_i = sphi_at(cloud.h, i);
+        sph_real xx = SPH_R(0), xy = SPH_R(0), xz = SPH_R(0), yx = SPH_R(0), yy = SPH_R(0), yz = SPH_R(0),
+                 zx = SPH_R(0), zy = SPH_R(0), zz = SPH_R(0);
+        sph_mat sum;
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], xx, xy, xz, yx, yy, yz, zx, zy, zz) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x0_ij = sphi_separation(dim, cloud.points, x0_i, sphi_point(dim, cloud.points, j)),
+                          x_ij = sphi_separation(dim, x, x_i, sphi_point(dim, x, j));
+            const sph_mat c = sph_deformation_pair(dim, sphi_at(cloud.volume, j), x0_ij, x_ij,
+                                                   sph_kernel_f(k, dim, sph_length(dim, x0_ij), h_i));
+            xx += c.x.x;
+            if (dim > 1) {
+                xy += c.x.y;
+                yx += c.y.x;
+                yy += c.y.y;
+            }
+            if (dim > 2) {
+                xz += c.x.z;
+                yz += c.y.z;
+                zx += c.z.x;
+                zy += c.z.y;
+                zz += c.z.z;
+            }
+        }
+        sum.x.x = xx, sum.x.y = xy, sum.x.z = xz;
+        sum.y.x = yx, sum.y.y = yy, sum.y.z = yz;
+        sum.z.x = zx, sum.z.y = zy, sum.z.z = zz;
+        failed +=
+            sphi_store_matrix(dim, out, i, sph_deformation_value(dim, sum, sphi_matrix_at(dim, inverse, i)));
+    }
+    return failed;
+}
+
+SPH_FN sph_solid_side sphi_solid_side(int dim, int controlled, const sph_solid *s, sph_index i)
+{
+    sph_solid_side a;
+    a.inverse = sphi_matrix_at(dim, s->inverse, i);
+    a.stress = sphi_matrix_at(dim, s->stress, i);
+    a.gradient = controlled ? sphi_matrix_at(dim, s->gradient, i) : a.stress;
+    a.modulus = controlled ? sphi_at(s->modulus, i) : SPH_R(0);
+    return a;
+}
+SPH_FN sph_index sphi_solid_range(int controlled, int uniform, sph_kernel k, int dim, sph_cloud cloud,
+                                  const sph_solid *s, sph_vector_out acceleration)
+{
+    sph_index i, p, failed = 0;
+    for (i = cloud.first; i < cloud.last; i++) {
+        const sph_vec x0_i = sphi_point(dim, cloud.points, i),
+                      x_i = controlled ? sphi_point(dim, s->x, i) : x0_i;
+        const sph_real h_i = sphi_at(cloud.h, i), per = SPH_R(1) / sphi_at(s->density, i);
+        const sph_solid_side own = sphi_solid_side(dim, controlled, s, i);
+        sph_real ax = SPH_R(0), ay = SPH_R(0), az = SPH_R(0);
+        sph_vec sum;
+        SPH_SUM(p, cloud.list.start[i], cloud.list.start[i + 1], ax, ay, az) {
+            const sph_index j = cloud.list.index[p];
+            const sph_vec x0_ij = sphi_separation(dim, cloud.points, x0_i, sphi_point(dim, cloud.points, j));
+            const sph_real weight = per * sphi_at(cloud.volume, j);
+            const sph_solid_side other = sphi_solid_side(dim, controlled, s, j);
+            const sph_pair_kernel f = sphi_pair_kernel(k, dim, uniform, x0_ij, h_i, cloud.h, j);
+            sph_vec c = sph_stress_pair(dim, own, other, weight, x0_ij, f);
+            if (controlled) {
+                const sph_vec x_ij = sphi_separation(dim, s->x, x_i, sphi_point(dim, s->x, j));
+                const sph_real w = sph_kernel_w(k, dim, f.r, sphi_mean_h(uniform, cloud.h, h_i, j));
+                c = sphi_plus(dim, c,
+                              sph_hourglass_pair(dim, own, other, s->hourglass * weight * w, x0_ij, x_ij));
+            }
+            ax += c.x;
+            if (dim > 1) ay += c.y;
+            if (dim > 2) az += c.z;
+        }
+        sum.x = ax;
+        sum.y = ay;
+        sum.z = az;
+        failed += sphi_store_vector(dim, acceleration, i, sum);
+    }
+    return failed;
+}
+/* The acceleration of the targets by stress, and by hourglass control if solid.hourglass is not 0 (see the
+   beginning of this chapter). Momentum and angular momentum are kept to round-off, if stress is the law of F.
+   Lists hold all pairs with r < support ratio * max(h_i, h_j) in the reference state (SPH_LARGER). A particle
+   whose L is 0 exerts no stress. Returns the number of targets whose acceleration overflowed (it is 0 then),
+   or a negative sph_error: SPH_ERROR_VALUE also for densities that are not positive. */
+SPH_FN sph_index sph_solid_acceleration(sph_kernel k, int dim, sph_cloud cloud, sph_solid solid,
+                                        sph_vector_out acceleration)
+{
+    const int controlled = solid.hourglass != SPH_R(0);
+    int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
+    if (!error) error = sphi_check_matrices("inverse", dim, solid.inverse, cloud.points.n);
+    if (!error) error = sphi_check_matrices("stress", dim, solid.stress, cloud.points.n);
+    if (!error) error = sphi_check_positive("density", solid.density, cloud.points.n);
+    if (!error && !sphi_finite(solid.hourglass)) error = sphi_refuse("solid.hourglass", -1, SPH_ERROR_VALUE);
+    if (!error && controlled) error = sphi_check_current(dim, solid.x, cloud.points.n);
+    if (!error && controlled) error = sphi_check_matrices("gradient", dim, solid.gradient, cloud.points.n);
+    if (!error && controlled) error = sphi_check_not_negative("modulus", solid.modulus, cloud.points.n);
+    if (!error) error = sphi_check_out("acceleration", dim, acceleration);
+    if (error) return sphi_answer_of(error);
+    if (controlled)
+        return cloud.h.stride ? sphi_solid_range(1, 0, k, dim, cloud, &solid, acceleration)
+                              : sphi_solid_range(1, 1, k, dim, cloud, &solid, acceleration);
+    return cloud.h.stride ? sphi_solid_range(0, 0, k, dim, cloud, &solid, acceleration)
+                          : sphi_solid_range(0, 1, k, dim, cloud, &solid, acceleration);
 }
 
 /* ================================================================ measures of a cloud

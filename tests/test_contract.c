@@ -150,6 +150,10 @@ static sph_part whole_part(void) /* of which everything is near */
     p.high.x = p.high.y = p.high.z = p.reach_high.x = p.reach_high.y = p.reach_high.z = SPH_R(9);
     return p;
 }
+static sph_points current_of(const world *w) /* of a solid: with its box */
+{
+    return sph_points_periodic(others_of(w), SPH_R(w->box[0]), SPH_R(w->box[1]), SPH_R(w->box[2]));
+}
 static sph_list list_of(const world *w)
 {
     sph_list l;
@@ -316,6 +320,78 @@ static sph_derivatives_out derivative_out_of(const world *w)
     o.stride = w->out_stride;
     o.status = (unsigned char *)w->a[STATUS];
     return o;
+}
+/* The rows of matrices. diagonal: the mobilities of the axes on the diagonal, and others beside it; else each row the vector at a. */
+static sph_matrices matrices_of(const world *w, int a, int diagonal)
+{
+    sph_matrices m;
+    m.x = m.y = m.z = vectors_of(w, a);
+    if (diagonal) {
+        m.x.x = scalars_of(w, MX);
+        m.y.y = scalars_of(w, MY);
+        m.z.z = scalars_of(w, MZ);
+        m.x.y = m.y.x = scalars_of(w, BY);
+        m.x.z = m.z.x = m.y.z = m.z.y = scalars_of(w, BZ);
+    }
+    return m;
+}
+#define MATRIX_OUT (XYZ(O0) | BIT(HXY) | BIT(HYY) | BIT(O5) | BIT(HXZ) | BIT(HYZ) | BIT(HZZ)) /* there with their rows and columns */
+static sph_matrix_out matrix_out_of(const world *w)
+{
+    sph_matrix_out o;
+    o.x = vector_out_of(w, O0);
+    o.y = sph_vector_out_strided(real_of(w, HXY), real_of(w, HYY), real_of(w, O5), w->out_stride);
+    o.z = sph_vector_out_strided(real_of(w, HXZ), real_of(w, HYZ), real_of(w, HZZ), w->out_stride);
+    return o;
+}
+static sph_correction_out correction_out_of(const world *w)
+{
+    sph_correction_out o = {0};
+    o.inverse = matrix_out_of(w);
+    o.conditioning = real_of(w, S1);
+    o.stride = w->out_stride;
+    o.status = (unsigned char *)w->a[STATUS];
+    return o;
+}
+static sph_rk rk_of(const world *w)
+{
+    sph_rk r;
+    r.scale = scalars_of(w, U);
+    r.slope = r.scale_gradient = vectors_of(w, BX);
+    r.slope_gradient = matrices_of(w, BX, 0);
+    return r;
+}
+static sph_corrected_out corrected_out_of(const world *w)
+{
+    sph_corrected_out o = {0};
+    o.acceleration = vector_out_of(w, O0);
+    o.rate_u = real_of(w, S0);
+    o.stride = w->out_stride;
+    o.status = (unsigned char *)w->a[STATUS];
+    return o;
+}
+static sph_rk_out rk_out_of(const world *w)
+{
+    sph_rk_out o = {0};
+    o.scale = real_of(w, S0);
+    o.conditioning = real_of(w, S1);
+    o.stride = w->out_stride;
+    o.slope = vector_out_of(w, O0);
+    o.scale_gradient = vector_out_of(w, O3);
+    o.slope_gradient = sph_matrix_out_packed(w->dim, real_of(w, R0)); /* R0 has room for all of them */
+    o.status = (unsigned char *)w->a[STATUS];
+    return o;
+}
+static sph_solid solid_of(const world *w)
+{
+    sph_solid s = {0};
+    s.inverse = s.gradient = matrices_of(w, BX, 0);
+    s.stress = matrices_of(w, VX, 0);
+    s.density = scalars_of(w, RHO);
+    s.hourglass = SPH_R(w->number[PARAMETER_A]);
+    s.x = current_of(w);
+    s.modulus = scalars_of(w, C);
+    return s;
 }
 static sph_scalar_out scalar_out_of(const world *w)
 {
@@ -489,6 +565,19 @@ CALL(density_summation, RANGE, A(M), scalar_out_of(w))
 CALL(gradient_difference, RANGE, A(F), vector_out_of(w, O0))
 CALL(gradient_cspm, RANGE, A(F), derivative_out_of(w))
 CALL(gradient_rows_cspm, RANGE, gradient_row_out_of(w))
+CALL(gradient_iad, RANGE, A(F), derivative_out_of(w))
+CALL(gradient_rows_iad, RANGE, gradient_row_out_of(w))
+CALL(gradient_correction_cspm, RANGE, correction_out_of(w))
+CALL(gradient_correction_iad, RANGE, correction_out_of(w))
+CALL(rk_correction, RANGE, rk_out_of(w))
+CALL(interpolate_rk, RANGE, rk_of(w), A(F), scalar_out_of(w))
+CALL(interpolate_rows_rk, RANGE, rk_of(w), row_out_of(w))
+CALL(gradient_rk, RANGE, rk_of(w), A(F), vector_out_of(w, O0))
+CALL(gradient_rows_rk, RANGE, rk_of(w), gradient_row_out_of(w))
+CALL(gas_rates_crk, RANGE, fluid_of(w), rk_of(w), corrected_out_of(w))
+CALL(gas_rates_iad, RANGE, fluid_of(w), matrices_of(w, BX, 0), corrected_out_of(w))
+CALL(deformation_gradient, RANGE, current_of(w), matrices_of(w, BX, 0), matrix_out_of(w))
+CALL(solid_acceleration, RANGE, solid_of(w), vector_out_of(w, O0))
 CALL(laplacian_brookshaw, RANGE, A(F), scalar_out_of(w))
 CALL(laplacian_rows_brookshaw, RANGE, row_out_of(w))
 CALL(derivatives_cspm, RANGE, A(F), derivatives_options_of(w), derivative_out_of(w))
@@ -516,6 +605,8 @@ CALL(elliptic_rows_schwaiger, RANGE, A(MX), options_of(w), row_out_of(w))
 CALL(elliptic_rows_msph, RANGE, A(MX), options_of(w), row_out_of(w))
 CALL(elliptic_rows_basic_degiuli_ban, RANGE, A(MX), options_of(w), row_out_of(w))
 CALL(elliptic_rows_anisotropic, RANGE, diagonal_of(w, MX), row_out_of(w))
+CALL(elliptic_tensor, RANGE, matrices_of(w, BX, 1), A(F), scalar_out_of(w))
+CALL(elliptic_rows_tensor, RANGE, matrices_of(w, BX, 1), row_out_of(w))
 CALL(elliptic_rows_boundary, RANGE, A(MX), options_of(w), boundary_of(w), row_out_of(w))
 CALL(rows_apply, cloud_of(w), R(ROW), A(DIAGONAL), A(F), scalar_out_of(w))
 CALL(rows_monotone, cloud_of(w), R(ROW), A(DIAGONAL), STATE)
@@ -715,7 +806,7 @@ static sph_index call_mhd_rates(const world *w)
 }
 
 /* What a function has besides arrays and numbers. COUNTS: its answer is no number of failures. OPAQUE: its outputs are not one number a target (or pair). RAW: numbers are moved,
-   not looked at. HEAVY: masses must be positive. KEEPS: only the first scalar output is 0 where there is no answer. SIZE: it answers a size.
+   not looked at. HEAVY: masses, and volumes if they are read, must be positive. KEEPS: only the first scalar output is 0 where there is no answer. SIZE: it answers a size.
    SAYS: REPORT begins with a number of pairs, and is written whatever the answer. TOTALS: it answers a total,
    which is given for no particles, too. CALLER: a function of sph.h. PARTS: of what has no answer only that is
    0 which overflowed. CHOOSES: the first entry of I0 or REPORT is no total that is 0 for nothing. */
@@ -781,6 +872,19 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(gradient_difference, SMOOTHED, ALL, VOLUMES | BIT(F), 0, XYZ(O0), 0, 0),
     FUNCTION(gradient_cspm, SMOOTHED, ALL, VOLUMES | BIT(F), 0, XYZ(O0), BIT(S1) | BIT(STATUS), 0),
     FUNCTION(gradient_rows_cspm, SMOOTHED, ALL, VOLUMES, 0, XYZ(R0), BIT(S1) | BIT(STATUS), 0),
+    FUNCTION(gradient_iad, SMOOTHED, ALL, VOLUMES | BIT(F), 0, XYZ(O0), BIT(S1) | BIT(STATUS), 0),
+    FUNCTION(gradient_rows_iad, SMOOTHED, ALL, VOLUMES, 0, XYZ(R0), BIT(S1) | BIT(STATUS), 0),
+    FUNCTION(gradient_correction_cspm, SMOOTHED, ALL, VOLUMES, 0, MATRIX_OUT, BIT(S1) | BIT(STATUS), 0),
+    FUNCTION(gradient_correction_iad, SMOOTHED, ALL, VOLUMES, 0, MATRIX_OUT, BIT(S1) | BIT(STATUS), 0),
+    FUNCTION(rk_correction, SMOOTHED | OPAQUE, ALL, VOLUMES, 0, BIT(S0) | XYZ(O0) | XYZ(O3) | BIT(R0), BIT(S1) | BIT(STATUS), 0),
+    FUNCTION(interpolate_rk, SMOOTHED, ALL, VOLUMES | BIT(U) | XYZ(BX) | BIT(F), 0, BIT(S0), BIT(STATUS), 0),
+    FUNCTION(interpolate_rows_rk, SMOOTHED, ALL, VOLUMES | BIT(U) | XYZ(BX), 0, BIT(R0), ROW_EXTRAS, 0),
+    FUNCTION(gradient_rk, SMOOTHED, ALL, VOLUMES | BIT(U) | XYZ(BX) | BIT(F), 0, XYZ(O0), 0, 0),
+    FUNCTION(gradient_rows_rk, SMOOTHED, ALL, VOLUMES | BIT(U) | XYZ(BX), 0, XYZ(R0), BIT(S1) | BIT(STATUS), 0),
+    FUNCTION(gas_rates_crk, SMOOTHED | HEAVY | PARTS, ALL, FLUID | BIT(V) | BIT(U) | XYZ(BX), 0, XYZ(O0), BIT(S0) | BIT(STATUS), VISCOUS),
+    FUNCTION(gas_rates_iad, SMOOTHED | HEAVY | PARTS, ALL, FLUID | XYZ(BX), 0, XYZ(O0), BIT(S0) | BIT(STATUS), VISCOUS),
+    FUNCTION(deformation_gradient, SMOOTHED, ALL, VOLUMES | XYZ(QX) | XYZ(BX), 0, MATRIX_OUT, 0, 0),
+    FUNCTION(solid_acceleration, SMOOTHED, ALL, VOLUMES | XYZ(QX) | XYZ(BX) | XYZ(VX) | BIT(RHO) | BIT(C), 0, XYZ(O0), 0, N(PARAMETER_A)),
     FUNCTION(laplacian_brookshaw, SMOOTHED, ALL, VOLUMES | BIT(F), 0, BIT(S0), BIT(STATUS), 0),
     FUNCTION(laplacian_rows_brookshaw, SMOOTHED, ALL, VOLUMES, 0, BIT(R0), ROW_EXTRAS, 0),
     FUNCTION(derivatives_cspm, SMOOTHED, ALL, VOLUMES | BIT(F), 0, 0, DERIVATIVES, N(LEAST)),
@@ -808,6 +912,8 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(elliptic_rows_msph, SMOOTHED, ALL, VOLUMES | BIT(MX), 0, BIT(R0), ROW_EXTRAS, CHOICE),
     FUNCTION(elliptic_rows_basic_degiuli_ban, SMOOTHED, ALL, VOLUMES | BIT(MX), 0, BIT(R0), ROW_EXTRAS, N(MEAN) | N(CONDITIONING)),
     FUNCTION(elliptic_rows_anisotropic, SMOOTHED, ALL, VOLUMES | XYZ(MX), 0, BIT(R0), ROW_EXTRAS, 0),
+    FUNCTION(elliptic_tensor, SMOOTHED, ALL, VOLUMES | XYZ(MX) | BIT(BY) | BIT(BZ) | BIT(F), 0, BIT(S0), BIT(STATUS), 0),
+    FUNCTION(elliptic_rows_tensor, SMOOTHED, ALL, VOLUMES | XYZ(MX) | BIT(BY) | BIT(BZ), 0, BIT(R0), ROW_EXTRAS, 0),
     FUNCTION(elliptic_rows_boundary, SMOOTHED, ALL, VOLUMES | BIT(MX) | XYZ(BX) | BIT(F) | BIT(U), 0, BIT(R0) | BIT(S0), BIT(S1) | BIT(S2) | BIT(STATUS), CHOICE),
     FUNCTION(elliptic_diagnose, SMOOTHED | KEEPS, ALL, VOLUMES, 0, 0, XYZ(S0) | XYZ(S3) | BIT(S6) | BIT(S7) | BIT(STATUS), N(GRADIENT) | N(CONDITIONING)),
     FUNCTION(rows_apply, TARGETS | COUNTED, ALL, ROWS_OF | BIT(ROW) | BIT(F), BIT(DIAGONAL), BIT(S0), BIT(STATUS), 0),
@@ -1318,6 +1424,24 @@ static const char *argument_of(const function *f, int a)
                  {"sph_elliptic_rows_anis", BIT(MX), "mobility.x"},
                  {"sph_elliptic_rows_anis", BIT(MY), "mobility.y"},
                  {"sph_elliptic_rows_anis", BIT(MZ), "mobility.z"},
+                 {"sph_elliptic_tensor", XYZ(MX) | XYZ(BX), "mobility"},
+                 {"sph_elliptic_rows_tensor", XYZ(MX) | XYZ(BX), "mobility"},
+                 {"sph_interpolate_rk", BIT(U), "rk.scale"},
+                 {"sph_interpolate_rows_rk", BIT(U), "rk.scale"},
+                 {"sph_gradient_rk", BIT(U), "rk.scale"},
+                 {"sph_gradient_rows_rk", BIT(U), "rk.scale"},
+                 {"sph_gas_rates_crk", BIT(U), "rk.scale"},
+                 {"sph_interpolate_rk", XYZ(BX), "rk.slope"},
+                 {"sph_interpolate_rows_rk", XYZ(BX), "rk.slope"},
+                 {"sph_gradient_rk", XYZ(BX), "rk.slope"},
+                 {"sph_gradient_rows_rk", XYZ(BX), "rk.slope"},
+                 {"sph_gas_rates_crk", XYZ(BX), "rk.slope"},
+                 {"sph_gas_rates_iad", XYZ(BX), "inverse"},
+                 {"sph_deformation", XYZ(BX), "inverse"},
+                 {"sph_solid", XYZ(BX), "inverse"},
+                 {"sph_solid", XYZ(VX), "stress"},
+                 {"sph_solid", BIT(RHO), "density"},
+                 {"sph_solid", BIT(C), "modulus"},
                  {"sph_elliptic_rows_bound", BIT(F), "alpha"},
                  {"sph_elliptic_rows_bound", BIT(U), "beta"},
                  {"sph_elliptic_rows_bound", XYZ(BX), "normal"},
@@ -1541,7 +1665,7 @@ static int spoil_denormal_x(const function *f, world *w, int v)
 }
 static int set_values(const function *f, world *w, double size)
 {
-    const uint64_t set = values_of(f, w), positive = f->reads & (MUST_BE_POSITIVE | NOT_BELOW_0 | (f->has & HEAVY ? BIT(M) : 0));
+    const uint64_t set = values_of(f, w), positive = f->reads & (MUST_BE_POSITIVE | NOT_BELOW_0 | (f->has & HEAVY ? WEIGHTS : 0));
     sph_index i;
     int a;
     for (a = 0; a < ARRAYS; a++)
@@ -1554,7 +1678,7 @@ static int spoil_huge_values(const function *f, world *w, int v) { return v > 0 
 
 static int spoil_capacity(const function *f, world *w, int v) /* every size up to what is needed */
 {
-    const int work = f->call == call_grid_build, column = (f->writes & BIT(R0) && f->has & OPAQUE) != 0, block = f->call == call_search;
+    const int work = f->call == call_grid_build, column = f->call == call_csr_assemble, block = f->call == call_search;
     const int64_t fixed = (int64_t)sph_search_size(w->dim, w->n, 0), most = w->dim == 1 ? 8 : w->dim == 2 ? 32 : 128;
     int64_t pairs = 0;
     needed = said = work ? (int64_t)w->work_size : column ? here->pairs + w->n : 0;

@@ -396,6 +396,87 @@ static sph_index mhd(world *w, sph_index first, sph_index last)
     return sph_mhd_rates(SWEEP, s, o);
 }
 
+/* Corrections of all particles first, then the operator for its targets. */
+enum { OF_INTERPOLATION, OF_GRADIENT, OF_CRK, OF_IAD };
+static sph_index reproducing(world *w, sph_index first, sph_index last, int which)
+{
+    const size_t n = (size_t)w->c.n;
+    const int dim = w->c.dim;
+    sph_real *const room = (sph_real *)cloud_memory(25 * n, sizeof *room);
+    sph_rk_out o = {0};
+    sph_rk r;
+    sph_correction_out c = {0};
+    sph_corrected_out rates = {0};
+    sph_index failed;
+    o.scale = room;
+    o.slope = sph_vector_out_separate(room + n, room + 2 * n, room + 3 * n);
+    o.scale_gradient = sph_vector_out_separate(room + 4 * n, room + 5 * n, room + 6 * n);
+    o.slope_gradient = sph_matrix_out_packed(dim, room + 7 * n);
+    r.scale = sph_scalars_array(room);
+    r.slope = sph_vectors_separate(room + n, room + 2 * n, room + 3 * n);
+    r.scale_gradient = sph_vectors_separate(room + 4 * n, room + 5 * n, room + 6 * n);
+    r.slope_gradient = sph_matrices_packed(dim, room + 7 * n);
+    c.inverse = sph_matrix_out_packed(dim, room + 16 * n);
+    rates.acceleration = into(w, 0);
+    rates.rate_u = OUT(3);
+    failed = which == OF_IAD ? sph_gradient_correction_iad(KERNEL, dim, all(w), c) : sph_rk_correction(KERNEL, dim, all(w), o);
+    if (!failed && which == OF_INTERPOLATION) failed = sph_interpolate_rk(SWEEP, r, at(w, F), SCALAR_OUT);
+    if (!failed && which == OF_GRADIENT) failed = sph_gradient_rk(SWEEP, r, at(w, F), into(w, 0));
+    if (!failed && which == OF_CRK) failed = sph_gas_rates_crk(SWEEP, fluid(w), r, rates);
+    if (!failed && which == OF_IAD) failed = sph_gas_rates_iad(SWEEP, fluid(w), sph_matrices_packed(dim, room + 16 * n), rates);
+    free(room);
+    return failed;
+}
+OPERATOR(interpolate_rk, reproducing(w, first, last, OF_INTERPOLATION))
+OPERATOR(gradient_rk, reproducing(w, first, last, OF_GRADIENT))
+OPERATOR(gas_crk, reproducing(w, first, last, OF_CRK))
+OPERATOR(gas_iad, reproducing(w, first, last, OF_IAD))
+OPERATOR(gradient_iad, sph_gradient_iad(SWEEP, at(w, F), derivatives_into(w)))
+/* M = mu + B B^T, which turns with B */
+static sph_index elliptic_tensor(world *w, sph_index first, sph_index last)
+{
+    const int dim = w->c.dim;
+    sph_real *const m = (sph_real *)cloud_memory((size_t)(w->c.n * dim * dim), sizeof *m);
+    sph_index i, failed;
+    int a, b;
+    for (i = 0; i < w->c.n; i++)
+        for (a = 0; a < dim; a++)
+            for (b = 0; b < dim; b++) m[((int)i * dim + a) * dim + b] = w->a[BX + a][i] * w->a[BX + b][i] + (a == b ? w->a[MU][i] : SPH_R(0));
+    failed = sph_elliptic_tensor(SWEEP, sph_matrices_packed(dim, m), at(w, F), SCALAR_OUT);
+    free(m);
+    return failed;
+}
+static sph_index solid(world *w, sph_index first, sph_index last)
+{
+    const size_t n = (size_t)w->c.n;
+    const int dim = w->c.dim;
+    sph_real *const room = (sph_real *)cloud_memory(30 * n, sizeof *room), *const x[3] = {room + 27 * n, room + 28 * n, room + 29 * n};
+    const sph_real *const from[3] = {w->c.x, w->c.y, w->c.z};
+    const sph_matrices inverse = sph_matrices_packed(dim, room), gradient = sph_matrices_packed(dim, room + 9 * n), stress = sph_matrices_packed(dim, room + 18 * n);
+    const sph_elastic law = sph_elastic_of(SPH_R(3), SPH_R(0.3));
+    sph_correction_out c = {0};
+    sph_solid s;
+    sph_index i, failed;
+    int a;
+    for (i = 0; i < w->c.n; i++)
+        for (a = 0; a < dim; a++) x[a][i] = from[a][i] + SPH_R(0.05) * w->a[H][i] * w->a[VX + a][i];
+    c.inverse = sph_matrix_out_packed(dim, room);
+    failed = sph_gradient_correction_cspm(KERNEL, dim, all(w), c);
+    if (!failed) failed = sph_deformation_gradient(KERNEL, dim, all(w), sph_points_separate(w->c.n, x[0], x[1], x[2]), inverse, sph_matrix_out_packed(dim, room + 9 * n));
+    for (i = 0; i < w->c.n; i++)
+        sphi_store_matrix(dim, sph_matrix_out_packed(dim, room + 18 * n), i, sph_stress_neo_hookean(dim, sphi_matrix_at(dim, gradient, i), law));
+    s.inverse = inverse;
+    s.gradient = gradient;
+    s.stress = stress;
+    s.density = at(w, RHO);
+    s.modulus = at(w, MU);
+    s.hourglass = SPH_R(0.7);
+    s.x = sph_points_separate(w->c.n, x[0], x[1], x[2]);
+    if (!failed) failed = sph_solid_acceleration(SWEEP, s, into(w, 0));
+    free(room);
+    return failed;
+}
+
 /* what an output is; its power of length is a + b dim (masses, densities and speeds keep their numbers when the unit changes, volumes do not) */
 typedef enum kind { END, SCALAR, VECTOR, AXIAL, SYMMETRIC } kind;
 typedef struct output {
@@ -419,6 +500,13 @@ static const operation operations[] = {
     {"density_adaptive", density_adaptive, ALL, 20, {{SCALAR, 0, 1, 0}, {SCALAR, 1, 0, -1}, {SCALAR, 2, 0, 0}}},
     {"gradient_difference", gradient_difference, ALL, 1, {{VECTOR, 0, -1, 0}}},
     {"gradient_cspm", gradient_cspm, ALL, 5, {{VECTOR, 0, -1, 0}}},
+    {"gradient_iad", gradient_iad, ALL, 5, {{VECTOR, 0, -1, 0}}},
+    {"interpolate_rk", interpolate_rk, ALL, 20, {{SCALAR, 0, 0, 0}}},
+    {"gradient_rk", gradient_rk, ALL, 20, {{VECTOR, 0, -1, 0}}},
+    {"gas_rates_crk", gas_crk, ALL, 20, {{VECTOR, 0, -1, 1}, {SCALAR, 3, -1, 1}}},
+    {"gas_rates_iad", gas_iad, ALL, 20, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}}},
+    {"elliptic_tensor", elliptic_tensor, ALL, 4000, {{SCALAR, 0, -2, 0}}},
+    {"solid_acceleration", solid, ALL, 20, {{VECTOR, 0, -1, 0}}},
     {"laplacian_brookshaw", laplacian_brookshaw, ALL, 1, {{SCALAR, 0, -2, 0}}},
     {"derivatives_cspm", derivatives_cspm, ALL, 200, {{VECTOR, 0, -1, 0}, {SYMMETRIC, 3, -2, 0}, {SCALAR, 9, -2, 0}}},
     {"derivatives_icspm", derivatives_icspm, ALL, 4000, {{VECTOR, 0, -1, 0}, {SYMMETRIC, 3, -2, 0}, {SCALAR, 9, -2, 0}}},

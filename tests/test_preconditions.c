@@ -59,6 +59,11 @@ static void assertion(void)
 #define NUMBERS_sph_pair_weights 2
 #define NUMBERS_sph_mhd_sums 17
 #define NUMBERS_sph_mhd_change 10
+#define NUMBERS_sph_mat 9
+#define NUMBERS_sph_rk_moments 29
+#define NUMBERS_sph_rk_kernel 4
+#define NUMBERS_sph_corrected_change 4
+#define NUMBERS_sph_elastic 2
 /* with the member that some structs have where tcc compiles them, which is not a number of the answer */
 #if defined(__TINYC__)
 #define ARE_NUMBERS(type, size) 0
@@ -242,7 +247,7 @@ static sph_shepard shepard(sph_real nu)
 }
 static const sph_kernel_gradient no_gradient = {0};
 static const sph_elliptic_correction no_correction = {0};
-static const sph_elliptic_inverse no_inverse = {0};
+static const sph_mat no_inverse = {0};
 static const sph_coefficients no_coefficients = {0};
 static const sph_test_weights weights = {SPH_R(1), SPH_R(1)};
 
@@ -430,7 +435,7 @@ static void sph_coefficients_block_in(int dim)
 static void sph_elliptic_invert_in(int dim)
 {
     const sph_elliptic_moments m = sph_elliptic_moments_radial(sym(one, zero), vec(zero, zero, zero));
-    sph_elliptic_inverse inverse;
+    sph_mat inverse;
     sph_elliptic_invert(dim, SPH_GRADIENT_FULL, &m, &inverse, 0);
 }
 static void sph_sym_eigenvalues_in(int dim) { sph_sym_eigenvalues(dim, sym(one, zero)); }
@@ -443,7 +448,7 @@ static void vectors_and_systems(void)
     sph_coefficients c = no_coefficients;
     sph_fit fit;
     sph_fit_rows fit_rows;
-    sph_elliptic_inverse inverse;
+    sph_mat inverse;
     sph_elliptic_moments em;
     sph_sym s;
     sph_real x;
@@ -486,6 +491,10 @@ static void vectors_and_systems(void)
     ALLOWED(sph_real, sph_laplacian_weight_brookshaw(k0, 3, zero, short_h, zero))
     FORBIDDEN_BELOW_0(x, sph_laplacian_weight_brookshaw(k0, 3, x, one, one))
     FORBIDDEN_LENGTH(x, sph_laplacian_weight_brookshaw(k0, 3, one, x, one))
+    FUNCTION(sph_moment_weight_iad)
+    ALLOWED(sph_real, sph_moment_weight_iad(k0, 3, zero, short_h, zero))
+    FORBIDDEN_BELOW_0(x, sph_moment_weight_iad(k0, 3, x, one, one))
+    FORBIDDEN_LENGTH(x, sph_moment_weight_iad(k0, 3, one, x, one))
     FUNCTION(sph_moment_weight_gradient)
     ALLOWED(sph_real, sph_moment_weight_gradient(k0, 3, zero, short_h, zero))
     FORBIDDEN_BELOW_0(x, sph_moment_weight_gradient(k0, 3, x, one, one))
@@ -627,9 +636,18 @@ static void vectors_and_systems(void)
     FUNCTION(sph_elliptic_moments_radial)
     ALLOWED(sph_elliptic_moments, sph_elliptic_moments_radial(sym(zero, zero), v))
     em = sph_elliptic_moments_radial(sym(zero, zero), v);
-    FUNCTION(sph_elliptic_inverse_times)
-    ALLOWED(sph_vec, sph_elliptic_inverse_times(3, no_inverse, v))
-    FORBIDDEN(sph_elliptic_inverse_times(0, no_inverse, v))
+    FUNCTION(sph_mat_transposed)
+    ALLOWED(sph_mat, sph_mat_transposed(3, no_inverse))
+    FORBIDDEN(sph_mat_transposed(0, no_inverse))
+    FUNCTION(sph_mat_of_sym)
+    {
+        const sph_sym none = {0};
+        ALLOWED(sph_mat, sph_mat_of_sym(3, none))
+        FORBIDDEN(sph_mat_of_sym(0, none))
+    }
+    FUNCTION(sph_mat_times)
+    ALLOWED(sph_vec, sph_mat_times(3, no_inverse, v))
+    FORBIDDEN(sph_mat_times(0, no_inverse, v))
     FUNCTION(sph_elliptic_invert)
     for (dim = 1; dim <= 3; dim++) {
         ALLOWED_STATE(SPH_SINGULAR, sph_elliptic_invert(dim, SPH_GRADIENT_FULL, &em, &inverse, 0))
@@ -807,6 +825,77 @@ static void fluids(void)
             sph_fluid_pair_riemann(i, j, contact(), nothing, meeting(zero, zero, zero, zero, zero), zero))
     SIDES(sph_fluid_pair_riemann(i, j, contact(), nothing, meeting(one, one, one, one, one), zero))
 
+    FUNCTION(sph_rk_moments_pair)
+    ALLOWED(sph_rk_moments, sph_rk_moments_pair(3, zero, nothing, wf(zero, zero)))
+    FORBIDDEN(sph_rk_moments_pair(0, one, nothing, wf(one, -one)))
+    FUNCTION(sph_rk_solve)
+    {
+        const sph_rk_moments none = {0};
+        sph_rk_side side;
+        sph_real conditioning;
+        ALLOWED_STATE(SPH_TOO_FEW, sph_rk_solve(3, none, &side, &conditioning))
+        ALLOWED_STATE(SPH_FELL_BACK, sph_rk_solve(3, sph_rk_moments_pair(3, one, nothing, wf(one, zero)), &side, &conditioning))
+        FORBIDDEN(sph_rk_solve(4, sph_rk_moments_pair(3, one, nothing, wf(one, zero)), &side, &conditioning))
+        FUNCTION(sph_rk_pair)
+        ALLOWED(sph_rk_kernel, sph_rk_pair(3, side, nothing, wf(one, zero)))
+        FORBIDDEN(sph_rk_pair(0, side, nothing, wf(one, zero)))
+        FUNCTION(sph_rk_pair_difference)
+        ALLOWED(sph_vec, sph_rk_pair_difference(3, side, side, nothing, wf(one, zero), wf(one, zero)))
+        FORBIDDEN(sph_rk_pair_difference(0, side, side, nothing, wf(one, zero), wf(one, zero)))
+    }
+    FUNCTION(sph_gradient_pair_iad)
+    ALLOWED(sph_vec, sph_gradient_pair_iad(3, no_inverse, nothing, zero))
+    FORBIDDEN(sph_gradient_pair_iad(0, no_inverse, nothing, one))
+    FUNCTION(sph_gas_pair_crk)
+    i = j = fluid(one, zero, -one, zero);
+    ALLOWED(sph_corrected_change, sph_gas_pair_crk(3, i, j, zero, nothing, nothing, zero))
+    FORBIDDEN_LENGTH(x, sph_gas_pair_crk(3, fluid(x, one, one, zero), j, one, nothing, nothing, zero))
+    FORBIDDEN(sph_gas_pair_crk(0, i, j, one, nothing, nothing, zero))
+    FUNCTION(sph_gas_pair_iad)
+    i = j = fluid(zero, one, -one, zero);
+    ALLOWED(sph_corrected_change, sph_gas_pair_iad(3, i, j, nothing, nothing, nothing, zero))
+    SIDES(sph_gas_pair_iad(3, i, j, nothing, nothing, nothing, zero))
+    FORBIDDEN(sph_gas_pair_iad(0, i, j, nothing, nothing, nothing, zero))
+    {
+        const sph_elastic soft = {SPH_R(0), SPH_R(0)};
+        sph_elastic wrong = {SPH_R(1), SPH_R(-1)};
+        sph_mat f = no_inverse, turned;
+        sph_solid_side body = {0};
+        sph_pair_kernel apart = {0};
+        FUNCTION(sph_elastic_of)
+        ALLOWED(sph_elastic, sph_elastic_of(zero, SPH_R(-0.99)))
+        ALLOWED(sph_elastic, sph_elastic_of(one, SPH_R(0.49)))
+        FORBIDDEN_BELOW_0(x, sph_elastic_of(x, zero))
+        FORBIDDEN(sph_elastic_of(one, SPH_R(0.5)))
+        FORBIDDEN(sph_elastic_of(one, -one))
+        FUNCTION(sph_sound_speed_elastic)
+        ALLOWED(sph_real, sph_sound_speed_elastic(soft, small_number))
+        FORBIDDEN(sph_sound_speed_elastic(wrong, one))
+        FORBIDDEN_LENGTH(x, sph_sound_speed_elastic(soft, x))
+        FUNCTION(sph_stress_saint_venant_kirchhoff)
+        ALLOWED(sph_mat, sph_stress_saint_venant_kirchhoff(3, f, soft))
+        FORBIDDEN(sph_stress_saint_venant_kirchhoff(0, f, soft))
+        f.x.x = f.y.y = f.z.z = one;
+        turned = f;
+        turned.x.x = -one;
+        FUNCTION(sph_stress_neo_hookean)
+        ALLOWED(sph_mat, sph_stress_neo_hookean(3, f, soft))
+        FORBIDDEN(sph_stress_neo_hookean(3, turned, soft))
+        FORBIDDEN(sph_stress_neo_hookean(3, no_inverse, soft))
+        FORBIDDEN(sph_stress_neo_hookean(4, f, soft))
+        FUNCTION(sph_deformation_pair)
+        ALLOWED(sph_mat, sph_deformation_pair(3, one, nothing, nothing, zero))
+        FORBIDDEN(sph_deformation_pair(0, one, nothing, nothing, zero))
+        FUNCTION(sph_deformation_value)
+        ALLOWED(sph_mat, sph_deformation_value(3, f, no_inverse))
+        FORBIDDEN(sph_deformation_value(0, f, no_inverse))
+        FUNCTION(sph_stress_pair)
+        ALLOWED(sph_vec, sph_stress_pair(3, body, body, one, nothing, apart))
+        FORBIDDEN(sph_stress_pair(0, body, body, one, nothing, apart))
+        FUNCTION(sph_hourglass_pair)
+        ALLOWED(sph_vec, sph_hourglass_pair(3, body, body, one, nothing, nothing))
+        FORBIDDEN(sph_hourglass_pair(0, body, body, one, nothing, nothing))
+    }
     FUNCTION(sph_unit_normal_of)
     ALLOWED(sph_unit_normal, sph_unit_normal_of(3, nothing, zero))
     ALLOWED(sph_unit_normal, sph_unit_normal_of(3, vec(small_number, zero, zero), zero))

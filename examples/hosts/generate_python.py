@@ -130,6 +130,8 @@ def parameters(function, model):
             taken.append((name, "Scalars", default and "None", comment))
         elif kind == "sph_vectors" or kind == "sph_diagonal" or kind == "sph_points":
             taken.append((name, "Vectors", default and "None", comment))
+        elif kind == "sph_matrices":
+            taken.append((name, "Matrices", default and "None", comment))
         elif kind == "sph_vec" or kind == "sph_sym":
             taken.append((name, "Sequence[float]", default and "()", comment))
         elif kind == "sph_real":
@@ -177,7 +179,7 @@ def answer_of(function):
     outputs = [a for a in outputs if a.name not in CHANGED]
     if not outputs and not any(a.name in CHANGED for a in function.arguments):
         return "int"
-    if len(outputs) == 1 and outputs[0].type in ("sph_scalar_out", "sph_vector_out"):
+    if len(outputs) == 1 and outputs[0].type in ("sph_scalar_out", "sph_vector_out", "sph_matrix_out"):
         return "Array"
     return "Any"
 
@@ -191,6 +193,7 @@ def operators(model):
         "Array = Any  # numpy's, or of the module array",
         "Scalars = Union[float, Array, None]  # one number for all, or one for each particle",
         "Vectors = Union[Array, Sequence[Array], None]  # of shape (n, dim), or one array for each component",
+        "Matrices = Union[Array, None]  # of shape (n, dim, dim), or one list of arrays for each row",
         "Indices = Array",
         "",
         "",

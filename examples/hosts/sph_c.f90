@@ -209,6 +209,16 @@ module sph_c
         type(c_ptr) :: status = c_null_ptr
     end type
 
+    ! One matrix for each particle, by its rows. Only the first dim rows and columns are read.
+    type, bind(c) :: sph_matrices
+        type(sph_vectors) :: x, y, z
+    end type
+
+    ! Where matrices go, by their rows. Only the first dim rows and columns are written.
+    type, bind(c) :: sph_matrix_out
+        type(sph_vector_out) :: x, y, z
+    end type
+
     ! Who interacts: the sources with their volumes m / rho (areas in 2D, lengths in 1D), the targets first
     ! ... last - 1 among them, and the smoothing length and the neighbours of each target. A cloud is passed
     ! by value, as one argument, and owns nothing.
@@ -242,6 +252,15 @@ module sph_c
     type, bind(c) :: sph_rows_out
         type(c_ptr) :: row = c_null_ptr, diagonal = c_null_ptr, factor = c_null_ptr, conditioning = &
             c_null_ptr
+        integer(c_size_t) :: stride = 0
+        type(c_ptr) :: status = c_null_ptr
+    end type
+
+    ! Where the matrices go that correct a gradient, and the conditioning of each (1 good, 0 singular).
+    ! conditioning and status may be null. The stride is that of conditioning.
+    type, bind(c) :: sph_correction_out
+        type(sph_matrix_out) :: inverse
+        type(c_ptr) :: conditioning = c_null_ptr
         integer(c_size_t) :: stride = 0
         type(c_ptr) :: status = c_null_ptr
     end type
@@ -619,6 +638,47 @@ module sph_c
         type(c_ptr) :: status = c_null_ptr
     end type
 
+    ! A, B and their gradients of all sources: what sph_rk_correction wrote.
+    type, bind(c) :: sph_rk
+        type(sph_scalars) :: scale
+        type(sph_vectors) :: slope, scale_gradient
+        type(sph_matrices) :: slope_gradient
+    end type
+
+    ! Where they go. conditioning and status may be null. The stride is that of scale and conditioning.
+    type, bind(c) :: sph_rk_out
+        type(c_ptr) :: scale = c_null_ptr, conditioning = c_null_ptr
+        integer(c_size_t) :: stride = 0
+        type(sph_vector_out) :: slope, scale_gradient
+        ! the row of each component of B: its gradient
+        type(sph_matrix_out) :: slope_gradient
+        type(c_ptr) :: status = c_null_ptr
+    end type
+
+    ! Where the rates of a gas go: the acceleration, and du/dt by pressure and viscosity (u: thermal energy
+    ! per mass). rate_u and status may be null.
+    type, bind(c) :: sph_corrected_out
+        type(sph_vector_out) :: acceleration
+        type(c_ptr) :: rate_u = c_null_ptr
+        ! of rate_u
+        integer(c_size_t) :: stride = 0
+        type(c_ptr) :: status = c_null_ptr
+    end type
+
+    ! The state of a solid, one value for each particle, all sources.
+    type, bind(c) :: sph_solid
+        ! L of sph_gradient_correction_cspm, and P
+        type(sph_matrices) :: inverse, stress
+        ! of the reference state
+        type(sph_scalars) :: density
+        ! For hourglass control: its coefficient alpha (0: none; 1 is usual), and what else it reads: the
+        ! current positions, F, and Young's modulus, not negative.
+        real(sph_real) :: hourglass = 0.0_sph_real
+        type(sph_points) :: x
+        type(sph_matrices) :: gradient
+        type(sph_scalars) :: modulus
+    end type
+
     ! Mass, momentum, angular momentum about the origin and kinetic energy of the targets.
     type, bind(c) :: sph_conserved
         real(sph_real) :: mass = 0.0_sph_real, kinetic_energy = 0.0_sph_real
@@ -667,8 +727,10 @@ module sph_c
         integer(c_int) :: dim = 0, hashed = 0, levels = 0
         ! 1 if many particles that follow each other are not near each other
         integer(c_int) :: scattered = 0
-        ! along each axis
+        ! along each axis; around the box, if the axis is periodic
         integer(c_int64_t) :: cells(3) = 0
+        ! of these the first ones, which may hold particles: the others are empty
+        integer(c_int64_t) :: held(3) = 0
         ! a power of two if hashed
         integer(c_size_t) :: buckets = 0
         ! of all sources, or their mean
@@ -696,6 +758,8 @@ module sph_c
         type(sph_scalars) :: radius
         ! of sph_list_flags, added up
         integer(c_int) :: flags = 0
+        ! target 0 is this source, target 1 the next, and so on; not with SPH_LIST_FOREIGN
+        integer(sph_index) :: first = 0
     end type
 
     ! What a search finds. list and grid lie in the block of memory that the search was given, and may be used
@@ -707,6 +771,12 @@ module sph_c
         type(sph_list) :: list
         ! empty where there is none
         type(sph_grid) :: grid
+    end type
+
+    ! Where the points of a part are, and how far their radii reach: two boxes along the axes. low > high if
+    ! the part is empty. Numbers only, so that it can be sent to other machines.
+    type, bind(c) :: sph_part
+        type(sph_vec) :: low, high, reach_low, reach_high
     end type
 
     interface
@@ -993,6 +1063,13 @@ module sph_c
             real(sph_real), value :: r, h, V_j
             real(sph_real) :: answer
         end function
+        pure function sph_moment_weight_iad(kernel, dim, r, h, V_j) &
+            bind(c, name='sph_shim_moment_weight_iad') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            real(sph_real), value :: r, h, V_j
+            real(sph_real) :: answer
+        end function
         ! sum_j V_j (f_j - f_i) grad_i W_ij
         function sph_gradient_difference(kernel, dim, cloud, f, out) &
             bind(c, name='sph_shim_gradient_difference') result(answer)
@@ -1013,6 +1090,16 @@ module sph_c
             type(sph_derivatives_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
+        ! likewise, without derivatives of W
+        function sph_gradient_iad(kernel, dim, cloud, f, out) &
+            bind(c, name='sph_shim_gradient_iad') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_scalars), intent(in) :: f
+            type(sph_derivatives_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
         ! the same as rows
         function sph_gradient_rows_cspm(kernel, dim, cloud, out) &
             bind(c, name='sph_shim_gradient_rows_cspm') result(answer)
@@ -1020,6 +1107,31 @@ module sph_c
             integer(c_int), value :: kernel, dim
             type(sph_cloud), intent(in) :: cloud
             type(sph_gradient_rows_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        function sph_gradient_rows_iad(kernel, dim, cloud, out) &
+            bind(c, name='sph_shim_gradient_rows_iad') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_gradient_rows_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! the matrices that correct
+        function sph_gradient_correction_cspm(kernel, dim, cloud, out) &
+            bind(c, name='sph_shim_gradient_correction_cspm') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_correction_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        function sph_gradient_correction_iad(kernel, dim, cloud, out) &
+            bind(c, name='sph_shim_gradient_correction_iad') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_correction_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
         ! sum_j 2 V_j (f_i - f_j) F_ij
@@ -1329,6 +1441,26 @@ module sph_c
             integer(c_int), value :: kernel, dim
             type(sph_cloud), intent(in) :: cloud
             type(sph_diagonal), intent(in) :: mobility
+            type(sph_rows_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! div(M grad u) for any symmetric M
+        function sph_elliptic_tensor(kernel, dim, cloud, mobility, u, out) &
+            bind(c, name='sph_shim_elliptic_tensor') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_matrices), intent(in) :: mobility
+            type(sph_scalars), intent(in) :: u
+            type(sph_scalar_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        function sph_elliptic_rows_tensor(kernel, dim, cloud, mobility, out) &
+            bind(c, name='sph_shim_elliptic_rows_tensor') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_matrices), intent(in) :: mobility
             type(sph_rows_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
@@ -1663,6 +1795,17 @@ module sph_c
             type(sph_transport_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
+        ! alpha of DFSPH
+        function sph_pressure_factor_dfsph(kernel, dim, cloud, fluid, moves, out) &
+            bind(c, name='sph_shim_pressure_factor_dfsph') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_fluid), intent(in) :: fluid
+            type(sph_scalars), intent(in) :: moves
+            type(sph_scalar_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
         ! fluid rates with the dissipation of a Riemann solver
         function sph_fluid_rates_riemann(kernel, dim, cloud, fluid, options, out) &
             bind(c, name='sph_shim_fluid_rates_riemann') result(answer)
@@ -1715,6 +1858,17 @@ module sph_c
             type(sph_vector_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
+        ! the same as rows
+        function sph_wall_gradient_rows(kernel, dim, cloud, wall, out, source) &
+            bind(c, name='sph_shim_wall_gradient_rows') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_wall_terms), intent(in) :: wall
+            type(sph_gradient_rows_out), intent(in) :: out
+            type(sph_vector_out), intent(in) :: source
+            integer(sph_index) :: answer
+        end function
         ! BIM in more than one dimension
         function sph_wall_laplacian(kernel, dim, cloud, wall, f, out) &
             bind(c, name='sph_shim_wall_laplacian') result(answer)
@@ -1724,6 +1878,16 @@ module sph_c
             type(sph_wall_terms), intent(in) :: wall
             type(sph_scalars), intent(in) :: f
             type(sph_scalar_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        function sph_wall_laplacian_rows(kernel, dim, cloud, wall, out, source) &
+            bind(c, name='sph_shim_wall_laplacian_rows') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_wall_terms), intent(in) :: wall
+            type(sph_rows_out), intent(in) :: out
+            type(sph_scalar_out), intent(in) :: source
             integer(sph_index) :: answer
         end function
         function sph_collision_sequential(dim, cloud, collision, velocity, out) &
@@ -1840,6 +2004,77 @@ module sph_c
             type(sph_mhd_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
+        ! makes kernels exact
+        function sph_rk_correction(kernel, dim, cloud, out) &
+            bind(c, name='sph_shim_rk_correction') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_rk_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! for linear fields, everywhere
+        function sph_interpolate_rk(kernel, dim, cloud, rk, f, out) &
+            bind(c, name='sph_shim_interpolate_rk') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_rk), intent(in) :: rk
+            type(sph_scalars), intent(in) :: f
+            type(sph_scalar_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        function sph_interpolate_rows_rk(kernel, dim, cloud, rk, out) &
+            bind(c, name='sph_shim_interpolate_rows_rk') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_rk), intent(in) :: rk
+            type(sph_rows_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! likewise
+        function sph_gradient_rk(kernel, dim, cloud, rk, f, out) &
+            bind(c, name='sph_shim_gradient_rk') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_rk), intent(in) :: rk
+            type(sph_scalars), intent(in) :: f
+            type(sph_vector_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        function sph_gradient_rows_rk(kernel, dim, cloud, rk, out) &
+            bind(c, name='sph_shim_gradient_rows_rk') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_rk), intent(in) :: rk
+            type(sph_gradient_rows_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! forces that conserve (CRKSPH)
+        function sph_gas_rates_crk(kernel, dim, cloud, fluid, rk, out) &
+            bind(c, name='sph_shim_gas_rates_crk') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_fluid), intent(in) :: fluid
+            type(sph_rk), intent(in) :: rk
+            type(sph_corrected_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! by the integral approach
+        function sph_gas_rates_iad(kernel, dim, cloud, fluid, inverse, out) &
+            bind(c, name='sph_shim_gas_rates_iad') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_fluid), intent(in) :: fluid
+            type(sph_matrices), intent(in) :: inverse
+            type(sph_corrected_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
         pure function sph_gravity_pair(kernel, r, h_i, h_j) &
             bind(c, name='sph_shim_gravity_pair') result(answer)
             import
@@ -1883,6 +2118,27 @@ module sph_c
             type(sph_medium), intent(in) :: medium
             type(sph_scalars), intent(in) :: zeta
             real(sph_real), value :: newton
+            type(sph_vector_out), intent(in) :: acceleration
+            integer(sph_index) :: answer
+        end function
+        ! exact for affine maps
+        function sph_deformation_gradient(kernel, dim, cloud, x, inverse, out) &
+            bind(c, name='sph_shim_deformation_gradient') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_points), intent(in) :: x
+            type(sph_matrices), intent(in) :: inverse
+            type(sph_matrix_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! by stress and hourglass control: keeps both momenta
+        function sph_solid_acceleration(kernel, dim, cloud, solid, acceleration) &
+            bind(c, name='sph_shim_solid_acceleration') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_solid), intent(in) :: solid
             type(sph_vector_out), intent(in) :: acceleration
             integer(sph_index) :: answer
         end function
@@ -1980,6 +2236,22 @@ module sph_c
             type(sph_grid), intent(in) :: grid
             type(c_ptr) :: answer
         end function
+        ! the same for the first n particles alone,
+        function sph_grid_permutation_own(grid, n, permutation) &
+            bind(c, name='sph_shim_grid_permutation_own') result(answer)
+            import
+            type(sph_grid), intent(in) :: grid
+            integer(sph_index), value :: n
+            integer(sph_index), intent(inout) :: permutation(*)
+            integer(sph_index) :: answer
+        end function
+        ! where the others stay behind them
+        function sph_grid_renumber_own(grid, n) bind(c, name='sph_shim_grid_renumber_own') result(answer)
+            import
+            type(sph_grid), intent(inout) :: grid
+            integer(sph_index), value :: n
+            integer(sph_index) :: answer
+        end function
         ! tells the grid that the arrays have been permuted
         function sph_grid_renumber(grid) bind(c, name='sph_shim_grid_renumber') result(answer)
             import
@@ -2030,6 +2302,48 @@ module sph_c
             type(sph_neighbors), intent(inout) :: found
             integer(sph_index) :: answer
         end function
+        ! several machines: where particles are, and how far they reach
+        function sph_part_of(dim, points, radius, part) bind(c, name='sph_shim_part_of') result(answer)
+            import
+            integer(c_int), value :: dim
+            type(sph_points), intent(in) :: points
+            type(sph_scalars), intent(in) :: radius
+            type(sph_part), intent(inout) :: part
+            integer(sph_index) :: answer
+        end function
+        ! which of them another machine needs
+        function sph_select_near(dim, points, radius, criterion, part, chosen, count) &
+            bind(c, name='sph_shim_select_near') result(answer)
+            import
+            integer(c_int), value :: dim
+            type(sph_points), intent(in) :: points
+            type(sph_scalars), intent(in) :: radius
+            integer(c_int), value :: criterion
+            type(sph_part), intent(in) :: part
+            integer(sph_index), intent(inout) :: chosen(*)
+            integer(c_int64_t), intent(inout) :: count
+            integer(sph_index) :: answer
+        end function
+        ! without the sources that no row names
+        function sph_list_prune(n, n_total, start, index, kept, count) &
+            bind(c, name='sph_shim_list_prune') result(answer)
+            import
+            integer(sph_index), value :: n, n_total
+            integer(sph_index), intent(in) :: start(*)
+            integer(sph_index), intent(inout) :: index(*), kept(*)
+            integer(c_int64_t), intent(inout) :: count
+            integer(sph_index) :: answer
+        end function
+        ! rows in the order of the host's keys
+        function sph_list_sort(n, n_total, start, index, key) &
+            bind(c, name='sph_shim_list_sort') result(answer)
+            import
+            integer(sph_index), value :: n, n_total
+            integer(sph_index), intent(in) :: start(*)
+            integer(sph_index), intent(inout) :: index(*)
+            integer(c_int64_t), intent(in) :: key
+            integer(sph_index) :: answer
+        end function
         ! out[slot] = in[order[slot]], for each array
         function sph_permute(n, permutation, in, stride, out) bind(c, name='sph_shim_permute') result(answer)
             import
@@ -2072,9 +2386,12 @@ contains
         type(sph_vectors) :: sph_vectors_here
         type(sph_vector_out) :: sph_vector_out_here
         type(sph_scalar_out) :: sph_scalar_out_here
+        type(sph_matrices) :: sph_matrices_here
+        type(sph_matrix_out) :: sph_matrix_out_here
         type(sph_cloud) :: sph_cloud_here
         type(sph_derivatives_out) :: sph_derivatives_out_here
         type(sph_rows_out) :: sph_rows_out_here
+        type(sph_correction_out) :: sph_correction_out_here
         type(sph_gradient_rows_out) :: sph_gradient_rows_out_here
         type(sph_density_options) :: sph_density_options_here
         type(sph_density_out) :: sph_density_out_here
@@ -2112,12 +2429,17 @@ contains
         type(sph_cleaning_out) :: sph_cleaning_out_here
         type(sph_mhd) :: sph_mhd_here
         type(sph_mhd_out) :: sph_mhd_out_here
+        type(sph_rk) :: sph_rk_here
+        type(sph_rk_out) :: sph_rk_out_here
+        type(sph_corrected_out) :: sph_corrected_out_here
+        type(sph_solid) :: sph_solid_here
         type(sph_conserved) :: sph_conserved_here
         type(sph_offender) :: sph_offender_here
         type(sph_findings) :: sph_findings_here
         type(sph_grid) :: sph_grid_here
         type(sph_query) :: sph_query_here
         type(sph_neighbors) :: sph_neighbors_here
+        type(sph_part) :: sph_part_here
         agrees = sph_version_of() == SPH_VERSION .and. &
             sph_real_size() == c_sizeof(0.0_sph_real) .and. &
             sph_index_size() == c_sizeof(0_sph_index)
@@ -2137,12 +2459,18 @@ contains
             c_struct_size('sph_vector_out'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_scalar_out_here) == &
             c_struct_size('sph_scalar_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_matrices_here) == &
+            c_struct_size('sph_matrices'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_matrix_out_here) == &
+            c_struct_size('sph_matrix_out'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_cloud_here) == &
             c_struct_size('sph_cloud'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_derivatives_out_here) == &
             c_struct_size('sph_derivatives_out'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_rows_out_here) == &
             c_struct_size('sph_rows_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_correction_out_here) == &
+            c_struct_size('sph_correction_out'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_gradient_rows_out_here) == &
             c_struct_size('sph_gradient_rows_out'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_density_options_here) == &
@@ -2217,6 +2545,14 @@ contains
             c_struct_size('sph_mhd'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_mhd_out_here) == &
             c_struct_size('sph_mhd_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_rk_here) == &
+            c_struct_size('sph_rk'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_rk_out_here) == &
+            c_struct_size('sph_rk_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_corrected_out_here) == &
+            c_struct_size('sph_corrected_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_solid_here) == &
+            c_struct_size('sph_solid'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_conserved_here) == &
             c_struct_size('sph_conserved'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_offender_here) == &
@@ -2229,5 +2565,7 @@ contains
             c_struct_size('sph_query'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_neighbors_here) == &
             c_struct_size('sph_neighbors'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_part_here) == &
+            c_struct_size('sph_part'//c_null_char)
     end function
 end module

@@ -34,6 +34,12 @@ exports.structs = {
     sph_scalar_out: [
         ["p", "pointer", 1], ["stride", "size_t", 1], ["status", "pointer", 1],
     ],
+    sph_matrices: [
+        ["x", "sph_vectors", 1], ["y", "sph_vectors", 1], ["z", "sph_vectors", 1],
+    ],
+    sph_matrix_out: [
+        ["x", "sph_vector_out", 1], ["y", "sph_vector_out", 1], ["z", "sph_vector_out", 1],
+    ],
     sph_cloud: [
         ["points", "sph_points", 1], ["list", "sph_list", 1], ["h", "sph_scalars", 1],
         ["volume", "sph_scalars", 1], ["first", "sph_index", 1], ["last", "sph_index", 1],
@@ -48,6 +54,10 @@ exports.structs = {
     sph_rows_out: [
         ["row", "pointer", 1], ["diagonal", "pointer", 1], ["factor", "pointer", 1],
         ["conditioning", "pointer", 1], ["stride", "size_t", 1], ["status", "pointer", 1],
+    ],
+    sph_correction_out: [
+        ["inverse", "sph_matrix_out", 1], ["conditioning", "pointer", 1], ["stride", "size_t", 1],
+        ["status", "pointer", 1],
     ],
     sph_gradient_rows_out: [
         ["x", "pointer", 1], ["y", "pointer", 1], ["z", "pointer", 1], ["conditioning", "pointer", 1],
@@ -190,6 +200,24 @@ exports.structs = {
         ["rate_psi", "pointer", 1], ["div_B", "pointer", 1], ["div_v", "pointer", 1], ["v_sig", "pointer", 1],
         ["stride", "size_t", 1], ["status", "pointer", 1],
     ],
+    sph_rk: [
+        ["scale", "sph_scalars", 1], ["slope", "sph_vectors", 1], ["scale_gradient", "sph_vectors", 1],
+        ["slope_gradient", "sph_matrices", 1],
+    ],
+    sph_rk_out: [
+        ["scale", "pointer", 1], ["conditioning", "pointer", 1], ["stride", "size_t", 1],
+        ["slope", "sph_vector_out", 1], ["scale_gradient", "sph_vector_out", 1],
+        ["slope_gradient", "sph_matrix_out", 1], ["status", "pointer", 1],
+    ],
+    sph_corrected_out: [
+        ["acceleration", "sph_vector_out", 1], ["rate_u", "pointer", 1], ["stride", "size_t", 1],
+        ["status", "pointer", 1],
+    ],
+    sph_solid: [
+        ["inverse", "sph_matrices", 1], ["stress", "sph_matrices", 1], ["density", "sph_scalars", 1],
+        ["hourglass", "sph_real", 1], ["x", "sph_points", 1], ["gradient", "sph_matrices", 1],
+        ["modulus", "sph_scalars", 1],
+    ],
     sph_conserved: [
         ["mass", "sph_real", 1], ["kinetic_energy", "sph_real", 1], ["momentum", "sph_vec", 1],
         ["angular_momentum", "sph_vec", 1],
@@ -203,17 +231,22 @@ exports.structs = {
     ],
     sph_grid: [
         ["n", "sph_index", 1], ["dim", "int", 1], ["hashed", "int", 1], ["levels", "int", 1],
-        ["scattered", "int", 1], ["cells", "int64_t", 3], ["buckets", "size_t", 1], ["radius", "sph_real", 1],
-        ["largest", "sph_real", 1], ["low", "sph_vec", 1], ["inverse_width", "sph_vec", 1],
-        ["box", "sph_vec", 1], ["first", "pointer", 1], ["member", "pointer", 1], ["x", "pointer", 1],
-        ["y", "pointer", 1], ["z", "pointer", 1], ["own", "pointer", 1], ["node", "pointer", 1],
+        ["scattered", "int", 1], ["cells", "int64_t", 3], ["held", "int64_t", 3], ["buckets", "size_t", 1],
+        ["radius", "sph_real", 1], ["largest", "sph_real", 1], ["low", "sph_vec", 1],
+        ["inverse_width", "sph_vec", 1], ["box", "sph_vec", 1], ["first", "pointer", 1],
+        ["member", "pointer", 1], ["x", "pointer", 1], ["y", "pointer", 1], ["z", "pointer", 1],
+        ["own", "pointer", 1], ["node", "pointer", 1],
     ],
     sph_query: [
         ["targets", "sph_points", 1], ["criterion", "int", 1], ["radius", "sph_scalars", 1],
-        ["flags", "int", 1],
+        ["flags", "int", 1], ["first", "sph_index", 1],
     ],
     sph_neighbors: [
         ["pairs", "int64_t", 1], ["list", "sph_list", 1], ["grid", "sph_grid", 1],
+    ],
+    sph_part: [
+        ["low", "sph_vec", 1], ["high", "sph_vec", 1], ["reach_low", "sph_vec", 1],
+        ["reach_high", "sph_vec", 1],
     ],
 };
 

@@ -181,6 +181,11 @@ sph_real sph_shim_moment_weight_gradient(int kernel, int dim, sph_real r, sph_re
     if (dim < 1 || dim > 3) return SPH_R(0);
     return sph_moment_weight_gradient((sph_kernel)kernel, dim, r, h, V_j);
 }
+sph_real sph_shim_moment_weight_iad(int kernel, int dim, sph_real r, sph_real h, sph_real V_j)
+{
+    if (dim < 1 || dim > 3) return SPH_R(0);
+    return sph_moment_weight_iad((sph_kernel)kernel, dim, r, h, V_j);
+}
 
 #define SWEEP(K, D) \
     sph_gradient_difference(K, D, *cloud, GIVEN(sph_scalars, f), GIVEN(sph_vector_out, out))
@@ -215,9 +220,57 @@ sph_index sph_shim_gradient_cspm(int kernel, int dim, const sph_cloud *cloud, co
 #undef SWEEP
 
 #define SWEEP(K, D) \
+    sph_gradient_iad(K, D, *cloud, GIVEN(sph_scalars, f), GIVEN(sph_derivatives_out, out))
+sph_index sph_shim_gradient_iad(int kernel, int dim, const sph_cloud *cloud, const sph_scalars *f,
+                                const sph_derivatives_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
     sph_gradient_rows_cspm(K, D, *cloud, GIVEN(sph_gradient_rows_out, out))
 sph_index sph_shim_gradient_rows_cspm(int kernel, int dim, const sph_cloud *cloud,
                                       const sph_gradient_rows_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_gradient_rows_iad(K, D, *cloud, GIVEN(sph_gradient_rows_out, out))
+sph_index sph_shim_gradient_rows_iad(int kernel, int dim, const sph_cloud *cloud,
+                                     const sph_gradient_rows_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_gradient_correction_cspm(K, D, *cloud, GIVEN(sph_correction_out, out))
+sph_index sph_shim_gradient_correction_cspm(int kernel, int dim, const sph_cloud *cloud,
+                                            const sph_correction_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_gradient_correction_iad(K, D, *cloud, GIVEN(sph_correction_out, out))
+sph_index sph_shim_gradient_correction_iad(int kernel, int dim, const sph_cloud *cloud,
+                                           const sph_correction_out *out)
 {
     sph_index answer = SPH_ERROR_KERNEL;
     if (!cloud) return missing("cloud");
@@ -624,6 +677,31 @@ sph_index sph_shim_elliptic_rows_anisotropic(int kernel, int dim, const sph_clou
 #undef SWEEP
 
 #define SWEEP(K, D) \
+    sph_elliptic_tensor(K, D, *cloud, GIVEN(sph_matrices, mobility), GIVEN(sph_scalars, u), \
+                        GIVEN(sph_scalar_out, out))
+sph_index sph_shim_elliptic_tensor(int kernel, int dim, const sph_cloud *cloud, const sph_matrices *mobility,
+                                   const sph_scalars *u, const sph_scalar_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_elliptic_rows_tensor(K, D, *cloud, GIVEN(sph_matrices, mobility), GIVEN(sph_rows_out, out))
+sph_index sph_shim_elliptic_rows_tensor(int kernel, int dim, const sph_cloud *cloud,
+                                        const sph_matrices *mobility, const sph_rows_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
     sph_elliptic_rows_boundary(K, D, *cloud, GIVEN(sph_scalars, m), GIVEN(sph_elliptic_options, options), \
                                GIVEN(sph_boundary, boundary), GIVEN(sph_rows_out, out))
 sph_index sph_shim_elliptic_rows_boundary(int kernel, int dim, const sph_cloud *cloud, const sph_scalars *m,
@@ -986,6 +1064,19 @@ sph_index sph_shim_transport_adami(int kernel, int dim, const sph_cloud *cloud, 
 #undef SWEEP
 
 #define SWEEP(K, D) \
+    sph_pressure_factor_dfsph(K, D, *cloud, GIVEN(sph_fluid, fluid), GIVEN(sph_scalars, moves), \
+                              GIVEN(sph_scalar_out, out))
+sph_index sph_shim_pressure_factor_dfsph(int kernel, int dim, const sph_cloud *cloud, const sph_fluid *fluid,
+                                         const sph_scalars *moves, const sph_scalar_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
     sph_fluid_rates_riemann(K, D, *cloud, GIVEN(sph_fluid, fluid), GIVEN(sph_riemann_options, options), \
                             GIVEN(sph_fluid_out, out))
 sph_index sph_shim_fluid_rates_riemann(int kernel, int dim, const sph_cloud *cloud, const sph_fluid *fluid,
@@ -1048,10 +1139,37 @@ sph_index sph_shim_wall_gradient(int kernel, int dim, const sph_cloud *cloud, co
 #undef SWEEP
 
 #define SWEEP(K, D) \
+    sph_wall_gradient_rows(K, D, *cloud, GIVEN(sph_wall_terms, wall), GIVEN(sph_gradient_rows_out, out), \
+                           GIVEN(sph_vector_out, source))
+sph_index sph_shim_wall_gradient_rows(int kernel, int dim, const sph_cloud *cloud, const sph_wall_terms *wall,
+                                      const sph_gradient_rows_out *out, const sph_vector_out *source)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
     sph_wall_laplacian(K, D, *cloud, GIVEN(sph_wall_terms, wall), GIVEN(sph_scalars, f), \
                        GIVEN(sph_scalar_out, out))
 sph_index sph_shim_wall_laplacian(int kernel, int dim, const sph_cloud *cloud, const sph_wall_terms *wall,
                                   const sph_scalars *f, const sph_scalar_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_wall_laplacian_rows(K, D, *cloud, GIVEN(sph_wall_terms, wall), GIVEN(sph_rows_out, out), \
+                            GIVEN(sph_scalar_out, source))
+sph_index sph_shim_wall_laplacian_rows(int kernel, int dim, const sph_cloud *cloud,
+                                       const sph_wall_terms *wall, const sph_rows_out *out,
+                                       const sph_scalar_out *source)
 {
     sph_index answer = SPH_ERROR_KERNEL;
     if (!cloud) return missing("cloud");
@@ -1192,6 +1310,91 @@ sph_index sph_shim_mhd_rates(int kernel, int dim, const sph_cloud *cloud, const 
     return answer;
 }
 #undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_rk_correction(K, D, *cloud, GIVEN(sph_rk_out, out))
+sph_index sph_shim_rk_correction(int kernel, int dim, const sph_cloud *cloud, const sph_rk_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_interpolate_rk(K, D, *cloud, GIVEN(sph_rk, rk), GIVEN(sph_scalars, f), GIVEN(sph_scalar_out, out))
+sph_index sph_shim_interpolate_rk(int kernel, int dim, const sph_cloud *cloud, const sph_rk *rk,
+                                  const sph_scalars *f, const sph_scalar_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_interpolate_rows_rk(K, D, *cloud, GIVEN(sph_rk, rk), GIVEN(sph_rows_out, out))
+sph_index sph_shim_interpolate_rows_rk(int kernel, int dim, const sph_cloud *cloud, const sph_rk *rk,
+                                       const sph_rows_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_gradient_rk(K, D, *cloud, GIVEN(sph_rk, rk), GIVEN(sph_scalars, f), GIVEN(sph_vector_out, out))
+sph_index sph_shim_gradient_rk(int kernel, int dim, const sph_cloud *cloud, const sph_rk *rk,
+                               const sph_scalars *f, const sph_vector_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_gradient_rows_rk(K, D, *cloud, GIVEN(sph_rk, rk), GIVEN(sph_gradient_rows_out, out))
+sph_index sph_shim_gradient_rows_rk(int kernel, int dim, const sph_cloud *cloud, const sph_rk *rk,
+                                    const sph_gradient_rows_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_gas_rates_crk(K, D, *cloud, GIVEN(sph_fluid, fluid), GIVEN(sph_rk, rk), \
+                      GIVEN(sph_corrected_out, out))
+sph_index sph_shim_gas_rates_crk(int kernel, int dim, const sph_cloud *cloud, const sph_fluid *fluid,
+                                 const sph_rk *rk, const sph_corrected_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_gas_rates_iad(K, D, *cloud, GIVEN(sph_fluid, fluid), GIVEN(sph_matrices, inverse), \
+                      GIVEN(sph_corrected_out, out))
+sph_index sph_shim_gas_rates_iad(int kernel, int dim, const sph_cloud *cloud, const sph_fluid *fluid,
+                                 const sph_matrices *inverse, const sph_corrected_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
 sph_real sph_shim_gravity_pair(int kernel, sph_real r, sph_real h_i, sph_real h_j)
 {
     return sph_gravity_pair((sph_kernel)kernel, r, h_i, h_j);
@@ -1236,6 +1439,31 @@ sph_index sph_shim_gravity_correction(int kernel, const sph_cloud *cloud, const 
     sph_index answer = SPH_ERROR_KERNEL;
     if (!cloud) return missing("cloud");
     EVERY_KERNEL
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_deformation_gradient(K, D, *cloud, *x, GIVEN(sph_matrices, inverse), GIVEN(sph_matrix_out, out))
+sph_index sph_shim_deformation_gradient(int kernel, int dim, const sph_cloud *cloud, const sph_points *x,
+                                        const sph_matrices *inverse, const sph_matrix_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    if (!x) return missing("x");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_solid_acceleration(K, D, *cloud, GIVEN(sph_solid, solid), GIVEN(sph_vector_out, acceleration))
+sph_index sph_shim_solid_acceleration(int kernel, int dim, const sph_cloud *cloud, const sph_solid *solid,
+                                      const sph_vector_out *acceleration)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
     return answer;
 }
 #undef SWEEP
@@ -1343,6 +1571,16 @@ const sph_index *sph_shim_grid_permutation(const sph_grid *grid)
     return sph_grid_permutation(grid);
 }
 
+sph_index sph_shim_grid_permutation_own(const sph_grid *grid, sph_index n, sph_index *permutation)
+{
+    return sph_grid_permutation_own(grid, n, permutation);
+}
+
+sph_index sph_shim_grid_renumber_own(sph_grid *grid, sph_index n)
+{
+    return sph_grid_renumber_own(grid, n);
+}
+
 sph_index sph_shim_grid_renumber(sph_grid *grid)
 {
     return sph_grid_renumber(grid);
@@ -1388,6 +1626,41 @@ sph_index sph_shim_search(int dim, const sph_points *points, const sph_scalars *
 }
 #undef SWEEP
 
+#define SWEEP(D) \
+    sph_part_of(D, *points, GIVEN(sph_scalars, radius), part)
+sph_index sph_shim_part_of(int dim, const sph_points *points, const sph_scalars *radius, sph_part *part)
+{
+    sph_index answer = SPH_ERROR_DIM;
+    if (!points) return missing("points");
+    EVERY_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(D) \
+    sph_select_near(D, *points, GIVEN(sph_scalars, radius), criterion, GIVEN(sph_part, part), chosen, count)
+sph_index sph_shim_select_near(int dim, const sph_points *points, const sph_scalars *radius, int criterion,
+                               const sph_part *part, sph_index *chosen, int64_t *count)
+{
+    sph_index answer = SPH_ERROR_DIM;
+    if (!points) return missing("points");
+    EVERY_DIM
+    return answer;
+}
+#undef SWEEP
+
+sph_index sph_shim_list_prune(sph_index n, sph_index n_total, const sph_index *start, sph_index *index,
+                              sph_index *kept, int64_t *count)
+{
+    return sph_list_prune(n, n_total, start, index, kept, count);
+}
+
+sph_index sph_shim_list_sort(sph_index n, sph_index n_total, const sph_index *start, sph_index *index,
+                             const int64_t *key)
+{
+    return sph_list_sort(n, n_total, start, index, key);
+}
+
 sph_index sph_shim_permute(sph_index n, const sph_index *permutation, const sph_real *in, size_t stride,
                            sph_real *out)
 {
@@ -1422,9 +1695,12 @@ size_t sph_shim_struct_size(const char *name)
     if (!strcmp(name, "sph_vectors")) return sizeof(sph_vectors);
     if (!strcmp(name, "sph_vector_out")) return sizeof(sph_vector_out);
     if (!strcmp(name, "sph_scalar_out")) return sizeof(sph_scalar_out);
+    if (!strcmp(name, "sph_matrices")) return sizeof(sph_matrices);
+    if (!strcmp(name, "sph_matrix_out")) return sizeof(sph_matrix_out);
     if (!strcmp(name, "sph_cloud")) return sizeof(sph_cloud);
     if (!strcmp(name, "sph_derivatives_out")) return sizeof(sph_derivatives_out);
     if (!strcmp(name, "sph_rows_out")) return sizeof(sph_rows_out);
+    if (!strcmp(name, "sph_correction_out")) return sizeof(sph_correction_out);
     if (!strcmp(name, "sph_gradient_rows_out")) return sizeof(sph_gradient_rows_out);
     if (!strcmp(name, "sph_density_options")) return sizeof(sph_density_options);
     if (!strcmp(name, "sph_density_out")) return sizeof(sph_density_out);
@@ -1462,11 +1738,16 @@ size_t sph_shim_struct_size(const char *name)
     if (!strcmp(name, "sph_cleaning_out")) return sizeof(sph_cleaning_out);
     if (!strcmp(name, "sph_mhd")) return sizeof(sph_mhd);
     if (!strcmp(name, "sph_mhd_out")) return sizeof(sph_mhd_out);
+    if (!strcmp(name, "sph_rk")) return sizeof(sph_rk);
+    if (!strcmp(name, "sph_rk_out")) return sizeof(sph_rk_out);
+    if (!strcmp(name, "sph_corrected_out")) return sizeof(sph_corrected_out);
+    if (!strcmp(name, "sph_solid")) return sizeof(sph_solid);
     if (!strcmp(name, "sph_conserved")) return sizeof(sph_conserved);
     if (!strcmp(name, "sph_offender")) return sizeof(sph_offender);
     if (!strcmp(name, "sph_findings")) return sizeof(sph_findings);
     if (!strcmp(name, "sph_grid")) return sizeof(sph_grid);
     if (!strcmp(name, "sph_query")) return sizeof(sph_query);
     if (!strcmp(name, "sph_neighbors")) return sizeof(sph_neighbors);
+    if (!strcmp(name, "sph_part")) return sizeof(sph_part);
     return 0;
 }

@@ -38,6 +38,8 @@ SPH_SHIM_EXPORT sph_real sph_shim_laplacian_weight_brookshaw(int kernel, int dim
                                                              sph_real V_j);
 SPH_SHIM_EXPORT sph_real sph_shim_moment_weight_gradient(int kernel, int dim, sph_real r, sph_real h,
                                                          sph_real V_j);
+SPH_SHIM_EXPORT sph_real sph_shim_moment_weight_iad(int kernel, int dim, sph_real r, sph_real h,
+                                                    sph_real V_j);
 SPH_SHIM_EXPORT sph_real sph_shim_boundary_weight_bim(int kernel, sph_real e, sph_real normal, sph_real h);
 SPH_SHIM_EXPORT sph_real sph_shim_mobility_pair(int mean, sph_real m_i, sph_real m_j, sph_real upstream);
 SPH_SHIM_EXPORT sph_real sph_shim_signal_speed(sph_real c_i, sph_real c_j, sph_real beta_w);
@@ -74,8 +76,16 @@ SPH_SHIM_EXPORT sph_index sph_shim_gradient_difference(int kernel, int dim, cons
                                                        const sph_scalars *f, const sph_vector_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_gradient_cspm(int kernel, int dim, const sph_cloud *cloud,
                                                  const sph_scalars *f, const sph_derivatives_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_gradient_iad(int kernel, int dim, const sph_cloud *cloud,
+                                                const sph_scalars *f, const sph_derivatives_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_gradient_rows_cspm(int kernel, int dim, const sph_cloud *cloud,
                                                       const sph_gradient_rows_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_gradient_rows_iad(int kernel, int dim, const sph_cloud *cloud,
+                                                     const sph_gradient_rows_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_gradient_correction_cspm(int kernel, int dim, const sph_cloud *cloud,
+                                                            const sph_correction_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_gradient_correction_iad(int kernel, int dim, const sph_cloud *cloud,
+                                                           const sph_correction_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_laplacian_brookshaw(int kernel, int dim, const sph_cloud *cloud,
                                                        const sph_scalars *f, const sph_scalar_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_laplacian_rows_brookshaw(int kernel, int dim, const sph_cloud *cloud,
@@ -176,6 +186,12 @@ SPH_SHIM_EXPORT sph_index sph_shim_elliptic_diagnose(int kernel, int dim, const 
 SPH_SHIM_EXPORT sph_index sph_shim_elliptic_rows_anisotropic(int kernel, int dim, const sph_cloud *cloud,
                                                              const sph_diagonal *mobility,
                                                              const sph_rows_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_elliptic_tensor(int kernel, int dim, const sph_cloud *cloud,
+                                                   const sph_matrices *mobility, const sph_scalars *u,
+                                                   const sph_scalar_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_elliptic_rows_tensor(int kernel, int dim, const sph_cloud *cloud,
+                                                        const sph_matrices *mobility,
+                                                        const sph_rows_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_elliptic_rows_boundary(int kernel, int dim, const sph_cloud *cloud,
                                                           const sph_scalars *m,
                                                           const sph_elliptic_options *options,
@@ -247,6 +263,9 @@ SPH_SHIM_EXPORT sph_index sph_shim_shift_rates(int kernel, int dim, const sph_cl
 SPH_SHIM_EXPORT sph_index sph_shim_transport_adami(int kernel, int dim, const sph_cloud *cloud,
                                                    const sph_fluid *fluid, const sph_vectors *transport,
                                                    sph_real background, const sph_transport_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_pressure_factor_dfsph(int kernel, int dim, const sph_cloud *cloud,
+                                                         const sph_fluid *fluid, const sph_scalars *moves,
+                                                         const sph_scalar_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_fluid_rates_riemann(int kernel, int dim, const sph_cloud *cloud,
                                                        const sph_fluid *fluid,
                                                        const sph_riemann_options *options,
@@ -262,9 +281,16 @@ SPH_SHIM_EXPORT sph_index sph_shim_wall_gamma(int kernel, int dim, const sph_clo
 SPH_SHIM_EXPORT sph_index sph_shim_wall_gradient(int kernel, int dim, const sph_cloud *cloud,
                                                  const sph_wall_terms *wall, const sph_scalars *f,
                                                  const sph_vector_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_wall_gradient_rows(int kernel, int dim, const sph_cloud *cloud,
+                                                      const sph_wall_terms *wall,
+                                                      const sph_gradient_rows_out *out,
+                                                      const sph_vector_out *source);
 SPH_SHIM_EXPORT sph_index sph_shim_wall_laplacian(int kernel, int dim, const sph_cloud *cloud,
                                                   const sph_wall_terms *wall, const sph_scalars *f,
                                                   const sph_scalar_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_wall_laplacian_rows(int kernel, int dim, const sph_cloud *cloud,
+                                                       const sph_wall_terms *wall, const sph_rows_out *out,
+                                                       const sph_scalar_out *source);
 SPH_SHIM_EXPORT sph_index sph_shim_collision_sequential(int dim, const sph_cloud *cloud,
                                                         const sph_collision *collision,
                                                         const sph_vector_out *velocity,
@@ -292,6 +318,23 @@ SPH_SHIM_EXPORT sph_index sph_shim_cleaning_rates(int kernel, int dim, const sph
                                                   const sph_cleaning *state, const sph_cleaning_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_mhd_rates(int kernel, int dim, const sph_cloud *cloud,
                                              const sph_mhd *state, const sph_mhd_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_rk_correction(int kernel, int dim, const sph_cloud *cloud,
+                                                 const sph_rk_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_interpolate_rk(int kernel, int dim, const sph_cloud *cloud,
+                                                  const sph_rk *rk, const sph_scalars *f,
+                                                  const sph_scalar_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_interpolate_rows_rk(int kernel, int dim, const sph_cloud *cloud,
+                                                       const sph_rk *rk, const sph_rows_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_gradient_rk(int kernel, int dim, const sph_cloud *cloud, const sph_rk *rk,
+                                               const sph_scalars *f, const sph_vector_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_gradient_rows_rk(int kernel, int dim, const sph_cloud *cloud,
+                                                    const sph_rk *rk, const sph_gradient_rows_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_gas_rates_crk(int kernel, int dim, const sph_cloud *cloud,
+                                                 const sph_fluid *fluid, const sph_rk *rk,
+                                                 const sph_corrected_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_gas_rates_iad(int kernel, int dim, const sph_cloud *cloud,
+                                                 const sph_fluid *fluid, const sph_matrices *inverse,
+                                                 const sph_corrected_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_gravity_direct(int kernel, const sph_cloud *cloud, const sph_scalars *m,
                                                   sph_real newton, const sph_vector_out *acceleration,
                                                   const sph_scalar_out *potential);
@@ -300,6 +343,12 @@ SPH_SHIM_EXPORT sph_index sph_shim_gravity_zeta(int kernel, const sph_cloud *clo
 SPH_SHIM_EXPORT sph_index sph_shim_gravity_correction(int kernel, const sph_cloud *cloud,
                                                       const sph_medium *medium, const sph_scalars *zeta,
                                                       sph_real newton, const sph_vector_out *acceleration);
+SPH_SHIM_EXPORT sph_index sph_shim_deformation_gradient(int kernel, int dim, const sph_cloud *cloud,
+                                                        const sph_points *x, const sph_matrices *inverse,
+                                                        const sph_matrix_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_solid_acceleration(int kernel, int dim, const sph_cloud *cloud,
+                                                      const sph_solid *solid,
+                                                      const sph_vector_out *acceleration);
 SPH_SHIM_EXPORT sph_index sph_shim_nearest_distance(int dim, const sph_cloud *targets_of,
                                                     const sph_points *sources, const sph_scalar_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_hexatic_order(const sph_cloud *cloud, const sph_scalar_out *out);
@@ -315,6 +364,9 @@ SPH_SHIM_EXPORT sph_index sph_shim_cloud_examine(int kernel, int dim, const sph_
 SPH_SHIM_EXPORT sph_index sph_shim_grid_build(int dim, const sph_points *sources, const sph_scalars *radius,
                                               void *work, size_t work_size, sph_grid *grid);
 SPH_SHIM_EXPORT const sph_index *sph_shim_grid_permutation(const sph_grid *grid);
+SPH_SHIM_EXPORT sph_index sph_shim_grid_permutation_own(const sph_grid *grid, sph_index n,
+                                                        sph_index *permutation);
+SPH_SHIM_EXPORT sph_index sph_shim_grid_renumber_own(sph_grid *grid, sph_index n);
 SPH_SHIM_EXPORT sph_index sph_shim_grid_renumber(sph_grid *grid);
 SPH_SHIM_EXPORT sph_index sph_shim_grid_lists(int dim, const sph_grid *grid, const sph_query *query,
                                               sph_index *start, sph_index *index, int64_t capacity,
@@ -323,6 +375,15 @@ SPH_SHIM_EXPORT sph_index sph_shim_grid_count(int dim, const sph_grid *grid, con
                                               sph_index *start, int64_t *pairs);
 SPH_SHIM_EXPORT sph_index sph_shim_search(int dim, const sph_points *points, const sph_scalars *radius,
                                           int criterion, void *memory, size_t size, sph_neighbors *found);
+SPH_SHIM_EXPORT sph_index sph_shim_part_of(int dim, const sph_points *points, const sph_scalars *radius,
+                                           sph_part *part);
+SPH_SHIM_EXPORT sph_index sph_shim_select_near(int dim, const sph_points *points, const sph_scalars *radius,
+                                               int criterion, const sph_part *part, sph_index *chosen,
+                                               int64_t *count);
+SPH_SHIM_EXPORT sph_index sph_shim_list_prune(sph_index n, sph_index n_total, const sph_index *start,
+                                              sph_index *index, sph_index *kept, int64_t *count);
+SPH_SHIM_EXPORT sph_index sph_shim_list_sort(sph_index n, sph_index n_total, const sph_index *start,
+                                             sph_index *index, const int64_t *key);
 SPH_SHIM_EXPORT sph_index sph_shim_permute(sph_index n, const sph_index *permutation, const sph_real *in,
                                            size_t stride, sph_real *out);
 SPH_SHIM_EXPORT sph_index sph_shim_permute_inverse(sph_index n, const sph_index *permutation,

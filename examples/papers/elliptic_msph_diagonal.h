@@ -41,7 +41,7 @@ SPH_FN sph_index elliptic_rows_msph_diagonal(sph_kernel k, int dim, sph_cloud al
     sph_index i, p, failed = 0;
     for (i = all.first; i < all.last; i++) {
         sph_sym sum = {SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0)};
-        sph_elliptic_inverse inverse;
+        sph_mat inverse;
         sph_elliptic_moments moments;
         sph_vec n;
         sph_real scale = SPH_R(0);
@@ -84,7 +84,7 @@ SPH_FN sph_index elliptic_rows_msph_diagonal(sph_kernel k, int dim, sph_cloud al
             if (!singular)
                 row[p] = scale * elliptic_weight(k, dim, all, e, i, j) *
                          (sph_dot(dim, mu_e, e) / sph_dot(dim, e, e) -
-                          sph_dot(dim, sph_elliptic_inverse_times(dim, inverse, mu_n), e));
+                          sph_dot(dim, sph_mat_times(dim, inverse, mu_n), e));
         }
     }
     return failed;

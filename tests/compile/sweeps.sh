@@ -22,6 +22,20 @@ SPH_FN sph_fluid fluid(sph_scalars V, sph_scalars f)
 }
 END
     cat << 'END'
+SPH_FN sph_matrix_out nine(sph_real *p)
+{
+    sph_matrix_out m = {{p, p + 1, p + 2, 9}, {p + 3, p + 4, p + 5, 9}, {p + 6, p + 7, p + 8, 9}};
+    return m;
+}
+SPH_FN sph_solid solid(sph_scalars f, sph_points x)
+{
+    sph_solid s = {.inverse = {{f, f, f}, {f, f, f}, {f, f, f}}, .stress = {{f, f, f}, {f, f, f}, {f, f, f}}, .density = f};
+    s.gradient = s.inverse;
+    s.modulus = f;
+    s.hourglass = SPH_R(1);
+    s.x = x;
+    return s;
+}
 SPH_FN sph_diffusion delta(sph_fluid s, sph_scalars f)
 {
     sph_diffusion d = {.fluid = s, .delta = SPH_R(0.1), .tait = {.c = SPH_R(10)}, .gradient = {f, f, f}};
@@ -48,6 +62,8 @@ END
             'shift|sph_shift_displacement(SPH_WENDLAND_C2, D, x, (sph_shift){.strength = f, .tensile = 0.2, .spacing = 0.8}, sph_vector_out_separate(a, b, c))' \
             'fluid|sph_fluid_rates_colagrossi(SPH_WENDLAND_C2, D, x, fluid(x.volume, f), (sph_fluid_out){.acceleration = sph_vector_out_separate(a, b, c), .rate = out.gx, .heating = out.gy})' \
             'riemann|sph_fluid_rates_riemann(SPH_WENDLAND_C2, D, x, fluid(x.volume, f), (sph_riemann_options){0}, (sph_fluid_out){.acceleration = sph_vector_out_separate(a, b, c), .rate = out.gx, .heating = out.gy})' \
+            'rkcorrection|sph_rk_correction(SPH_WENDLAND_C2, D, x, (sph_rk_out){.scale = a, .slope = sph_vector_out_separate(b, c, out.gx), .scale_gradient = sph_vector_out_separate(out.gy, out.gz, out.hxx), .slope_gradient = nine(out.hxy)})' \
+            'solid|sph_solid_acceleration(SPH_WENDLAND_C2, D, x, solid(f, x.points), sph_vector_out_separate(a, b, c))' \
             'css|sph_tension_css(SPH_WENDLAND_C2, D, x, (sph_tension){.rho = f, .normal = {f, f, f}, .sigma = 1}, sph_vector_out_separate(a, b, c))' \
             'csf|sph_tension_csf(SPH_WENDLAND_C2, D, x, (sph_tension){.rho = f, .normal = {f, f, f}, .sigma = 1}, (sph_tension_out){.acceleration = sph_vector_out_separate(a, b, c)})' \
             'wallgradient|sph_wall_gradient(SPH_WENDLAND_C2, D, x, (sph_wall_terms){.gamma = f, .gradient = {f, f, f}, .value = f}, f, sph_vector_out_separate(a, b, c))' \

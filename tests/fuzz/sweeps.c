@@ -200,6 +200,56 @@ static sph_wall_terms wall_terms(const arguments *a)
     w.gradient = vectors(a, 5), w.slope = vectors(a, 8);
     return w;
 }
+static sph_matrices matrices(const arguments *a)
+{
+    sph_matrices m;
+    m.x = vectors(a, 5), m.y = vectors(a, 8), m.z = vectors(a, 4);
+    return m;
+}
+static sph_matrices mobility(const arguments *a) /* positive on the diagonal where numbers are tame */
+{
+    sph_matrices m;
+    m.x.x = a->s[1], m.x.y = m.y.x = a->s[8], m.x.z = m.z.x = a->s[9];
+    m.y.y = a->s[2], m.y.z = m.z.y = a->s[10], m.z.z = a->s[1];
+    return m;
+}
+static sph_matrix_out matrix_out(const arguments *a)
+{
+    sph_matrix_out o;
+    o.x = vector_out(a, 0), o.y = vector_out(a, 3), o.z = vector_out(a, 6);
+    return o;
+}
+static sph_correction_out correction_out(const arguments *a)
+{
+    sph_correction_out o = {0};
+    o.inverse = matrix_out(a), o.conditioning = OUT(9);
+    o.status = a->status;
+    return o;
+}
+static sph_rk rk(const arguments *a)
+{
+    sph_rk r;
+    r.scale = a->s[4];
+    r.slope = vectors(a, 5), r.scale_gradient = vectors(a, 8);
+    r.slope_gradient = matrices(a);
+    return r;
+}
+static sph_corrected_out corrected_out(const arguments *a)
+{
+    sph_corrected_out o = {0};
+    o.acceleration = vector_out(a, 0), o.rate_u = OUT(3);
+    return o;
+}
+static sph_solid solid(const arguments *a)
+{
+    sph_solid s;
+    s.inverse = s.gradient = matrices(a);
+    s.stress = mobility(a);
+    s.density = a->s[1], s.modulus = a->s[2];
+    s.hourglass = a->what & 1 ? a->number[0] : SPH_R(0);
+    s.x = a->cloud.points;
+    return s;
+}
 static sph_index right(const arguments *a) { return (sph_index)(a->what % MOST); } /* end of the domain */
 static sph_shear_bulk shear_bulk(const arguments *a)
 {
@@ -306,8 +356,8 @@ static sph_transport_out transport_out(const arguments *a)
 
 /* One X(call, outputs, pairs, flags) each: the first `pairs` outputs have a number for each pair, the others one for each target (ONE: one at all). VECTOR: of the first three as many as there are dimensions;
    VECTORS: of the first two times three, and all three of them where there is a third velocity, if VECTOR does not stand beside it; HESSIAN: of derivatives likewise; COUNTS: a->count; NO_COUNT: the answer is no number of targets that are not ok;
-   SOME: targets may be passed over. */
-enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16, THREE = 32, NO_COUNT = 64, ONE = 128, SOME = 256 };
+   SOME: targets may be passed over; MATRIX: the first nine are the rows of a matrix. */
+enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16, THREE = 32, NO_COUNT = 64, ONE = 128, SOME = 256, MATRIX = 512 };
 /* clang-format off */
 #define SWEEPS(X) \
     X(sph_shepard_sum(SWEEP, sph_scalar_out_array(OUT(0), 0)), 1, 0, PLAIN) \
@@ -386,6 +436,20 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_curl_difference(SWEEP, gas(a), vectors(a, 5), vector_out(a, 0)), 3, 0, THREE) \
     X(sph_cleaning_rates(SWEEP, cleaning(a), cleaning_out(a)), 5, 0, VECTOR) \
     X(sph_mhd_rates(SWEEP, mhd(a), mhd_out(a)), 11, 0, VECTORS) \
+    X(sph_gradient_iad(SWEEP, a->s[3], gradient_out(a)), 4, 0, VECTOR | STATUS) \
+    X(sph_gradient_rows_iad(SWEEP, gradient_row_out(a)), 4, 3, VECTOR | STATUS) \
+    X(sph_gradient_correction_cspm(SWEEP, correction_out(a)), 10, 0, MATRIX | STATUS) \
+    X(sph_gradient_correction_iad(SWEEP, correction_out(a)), 10, 0, MATRIX | STATUS) \
+    X(sph_elliptic_tensor(SWEEP, mobility(a), a->s[3], scalar_out(a)), 1, 0, STATUS) \
+    X(sph_elliptic_rows_tensor(SWEEP, mobility(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_interpolate_rk(SWEEP, rk(a), a->s[3], scalar_out(a)), 1, 0, STATUS) \
+    X(sph_interpolate_rows_rk(SWEEP, rk(a), row_out(a)), 4, 1, STATUS) \
+    X(sph_gradient_rk(SWEEP, rk(a), a->s[3], vector_out(a, 0)), 3, 0, VECTOR) \
+    X(sph_gradient_rows_rk(SWEEP, rk(a), gradient_row_out(a)), 4, 3, VECTOR | STATUS) \
+    X(sph_gas_rates_crk(SWEEP, fluid(a), rk(a), corrected_out(a)), 4, 0, VECTOR) \
+    X(sph_gas_rates_iad(SWEEP, fluid(a), matrices(a), corrected_out(a)), 4, 0, VECTOR) \
+    X(sph_deformation_gradient(SWEEP, a->cloud.points, matrices(a), matrix_out(a)), 9, 0, MATRIX) \
+    X(sph_solid_acceleration(SWEEP, solid(a), vector_out(a, 0)), 3, 0, VECTOR) \
     X(sph_gravity_direct(SWEEP_ONE, a->s[0], a->number[0], vector_out(a, 0), sph_scalar_out_array(OUT(3), 0)), 4, 0, THREE) \
     X(sph_gravity_zeta(SWEEP_ONE, a->s[0], a->s[1], sph_scalar_out_array(OUT(0), 0)), 1, 0, PLAIN) \
     X(sph_gravity_correction(SWEEP_ONE, gas(a), a->s[4], a->number[0], vector_out(a, 0)), 3, 0, THREE)
@@ -435,6 +499,7 @@ static int is_written(const arguments *a, int o)
 {
     const int flags = now->flags, parts = a->s[7].p && !(flags & VECTOR) ? 3 : a->dim;
     if (!a->out[o]) return 0;
+    if (flags & MATRIX) return o > 8 || (o % 3 < a->dim && o / 3 < a->dim);
     if (flags & VECTORS) return o > 5 || o % 3 < parts;
     if (flags & VECTOR) return o > 2 || o < a->dim;
     if (flags & HESSIAN) return o < 3 ? o < a->dim : o > 8 || o - 3 < a->dim * (a->dim + 1) / 2;
@@ -567,13 +632,26 @@ static void own_eliminate(const arguments *a) /* rows are read and written */
         REQUIRE(all_finite(a->out[0] + list.start[i], (size_t)(list.start[i + 1] - list.start[i])));
     }
 }
+static void own_rk_correction(const arguments *a)
+{
+    sph_real room[16 * MOST] = {SPH_R(0)};
+    sph_rk_out o = {0};
+    o.scale = room;
+    o.slope = sph_vector_out_separate(room + MOST, room + 2 * MOST, room + 3 * MOST);
+    o.scale_gradient = sph_vector_out_separate(room + 4 * MOST, room + 5 * MOST, room + 6 * MOST);
+    o.slope_gradient = sph_matrix_out_packed(a->dim, room + 7 * MOST);
+    o.status = a->status;
+    sph_rk_correction(SWEEP, o);
+    REQUIRE(all_finite(room, sizeof room / sizeof *room));
+}
 typedef struct own {
     void (*run)(const arguments *);
     description d;
 } own;
 static const own owns[] = {{own_density_adaptive, {"sph_density_adaptive", 0, 0, 0}}, {own_collide, {"sph_collision_sequential", 0, 0, 0}}, {own_weighted, {"sph_collision_change_weighted", 0, 0, 0}},
                            {own_separate, {"sph_coincident_separate", 0, 0, 0}},      {own_radial, {"sph_radial_distribution", 0, 0, 0}}, {own_sums, {"sph_conserved_sums", 0, 0, 0}},
-                           {own_growth, {"sph_rows_growth", 0, 0, 0}},               {own_eliminate, {"sph_wall_rows_eliminate", 0, 0, 0}}};
+                           {own_growth, {"sph_rows_growth", 0, 0, 0}},               {own_eliminate, {"sph_wall_rows_eliminate", 0, 0, 0}},
+                           {own_rk_correction, {"sph_rk_correction", 0, 0, 0}}};
 enum { OWNS = sizeof owns / sizeof *owns };
 
 /* ---- arguments ---- */

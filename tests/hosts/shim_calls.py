@@ -61,7 +61,7 @@ C_BEGIN = """\
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-enum { ROOM = 40000, OUTPUTS = 16 };
+enum { ROOM = 40000, OUTPUTS = 20 };
 static sph_real inputs[64][ROOM], outputs[2][OUTPUTS][ROOM], x[3][ROOM];
 static sph_index counts[2][ROOM], ones[ROOM];
 static unsigned char states[2][ROOM];
@@ -173,6 +173,13 @@ class InC:
                 self.lines.append(
                     f"if (dim > {'xyz'.index(axis)}) {path}.{axis} = scalars({seed(name + '.' + axis)}, 1.0);"
                 )
+        elif kind == "sph_matrices":
+            for row in "xyz":
+                for axis in "xyz":
+                    least = max("xyz".index(row), "xyz".index(axis))
+                    self.lines.append(
+                        f"if (dim > {least}) {path}.{row}.{axis} = scalars({seed(f'{name}.{row}.{axis}')}, 1.0);"
+                    )
         elif kind in ("sph_vec", "sph_sym"):
             for axis in [f.name for f in self.structs[kind].fields]:
                 least = max("xyz".index(letter) for letter in axis)
@@ -219,8 +226,8 @@ class InC:
             )
             if field.name == "status":
                 self.both += [f"a_{at} = states[0];", f"b_{at} = states[1];"]
-            elif field.type == "sph_vector_out":
-                self.out(at, field.type, field.name)
+            elif field.type in ("sph_vector_out", "sph_matrix_out"):
+                self.out(at, field.type, f"{name}.{field.name}" if kind == "sph_matrix_out" else field.name)
             elif field.pointer:
                 label = f".{field.name}" if kind == "sph_vector_out" else ""
                 self.output(
@@ -356,6 +363,12 @@ def flat(label, result):
         return out
     if hasattr(result, "ndim") and result.ndim == 2:
         result = [result[:, axis] for axis in range(result.shape[1])]
+    if hasattr(result, "ndim") and result.ndim == 3:
+        result = [[result[:, row, axis] for axis in range(result.shape[2])] for row in range(result.shape[1])]
+    if isinstance(result, list) and isinstance(result[0], list):
+        return {
+            f"{label}.{row}.{axis}": part for row, parts in zip("xyz", result) for axis, part in zip("xyz", parts)
+        }
     if isinstance(result, list):
         return {
             f"g{axis}" if label == "gradient" else f"{label}.{axis}": part
@@ -403,9 +416,10 @@ def through_python(path, sums):
                     (p, str(v.annotation)) for p, v in inspect.signature(call).parameters.items()
                 ):
                     vectors = [make(f"{p}.{axis}") for axis in "xyz"[:dim]]
+                    matrices = [[make(f"{p}.{row}.{axis}") for axis in "xyz"[:dim]] for row in "xyz"[:dim]]
                     if p == "kernel" or p == "dim":
                         arguments[p] = kernel if p == "kernel" else dim
-                    elif p in ("sources", "points"):
+                    elif p in ("sources", "points", "x"):
                         arguments[p] = x
                     elif p == "position":
                         parts = x.T if sph.numpy else x
@@ -420,6 +434,8 @@ def through_python(path, sums):
                         arguments[p] = [0.5] * (dim if p == "gradient" else dim * (dim + 1) // 2)
                     elif p in ("wave", "gravity"):
                         arguments[p] = [0.5] * dim
+                    elif hint == str(sph.Matrices):
+                        arguments[p] = matrices
                     elif hint == str(sph.Vectors):
                         arguments[p] = vectors
                     elif hint == str(sph.Scalars):

@@ -42,7 +42,7 @@ from typing import Any, Optional, Sequence, Tuple, Union
 from . import c, operators
 from .c import *  # noqa: F401,F403 - the constants of the headers, without SPH_
 from .operators import *  # noqa: F401,F403 - the functions of numbers
-from .operators import Array, Indices, Operators, Scalars, Vectors
+from .operators import Array, Indices, Matrices, Operators, Scalars, Vectors
 
 try:
     import numpy
@@ -824,6 +824,8 @@ class _Call:
             struct, alive = cloud._struct()
             self.alive.append(alive)
             return struct
+        if name == "sph_points" and self.values[label] is None:
+            return kind()  # not read
         if name == "sph_points":
             struct, dim, alive = _points(label, self.values[label])
             if dim != cloud.dim:
@@ -834,6 +836,10 @@ class _Call:
             return self.scalars(label, self.values[label])
         if name in ("sph_vectors", "sph_diagonal"):
             return self.vectors(label, kind)
+        if name == "sph_matrices":
+            return self.matrices(label)
+        if name == "sph_matrix_out":
+            return self.matrix_out(label)
         if name in ("sph_vec", "sph_sym"):
             return self.tensor(label, kind)
         if name == "sph_vector_out" and label in self.values:
@@ -878,6 +884,38 @@ class _Call:
             setattr(struct, _COORDINATES[axis], self.scalars(label, part))
         return struct
 
+    def matrices(self, label):
+        """the rows of a matrix for each particle"""
+        value, struct, dim = self.values[label], c.sph_matrices(), self.cloud.dim
+        if value is None:
+            return struct
+        whole = numpy and isinstance(value, numpy.ndarray) and value.ndim == 3
+        if (value.shape[1:] if whole else (len(value), len(value[0]))) != (dim, dim):
+            raise ValueError(f"{label}: matrices of {dim} x {dim} are wanted")
+        for row in range(dim):
+            vectors = c.sph_vectors()
+            for column in range(dim):
+                part = value[:, row, column] if whole else value[row][column]
+                setattr(vectors, _COORDINATES[column], self.scalars(label, part))
+            setattr(struct, _COORDINATES[row], vectors)
+        return struct
+
+    def matrix_out(self, label):
+        """a new matrix for each particle: of shape (n, dim, dim), or one list of arrays for each row"""
+        dim, n, struct = self.cloud.dim, self.cloud.n, c.sph_matrix_out()
+        if numpy:
+            out = numpy.zeros((n, dim, dim))
+            first, stride = _address(out), dim * dim
+            at = range(dim) if first else ()
+            rows = [[first + 8 * (dim * row + column) for column in at] for row in at]
+        else:
+            out, stride = [[_new("d", n) for _ in range(dim)] for _ in range(dim)], 1
+            rows = [[_address(part) for part in row] for row in out]
+        for axis, row in enumerate(rows):
+            setattr(struct, _COORDINATES[axis], c.sph_vector_out(*(row + [None] * (3 - dim)), stride))
+        self.results[label] = out
+        return struct
+
     def tensor(self, label, kind):
         value = self.values[label]
         names = [field for field, _ in kind._fields_]
@@ -916,6 +954,8 @@ class _Call:
                 struct.stride = 0
             elif of is c.sph_vector_out:
                 setattr(struct, field, self.vector_out(field))
+            elif of is c.sph_matrix_out:
+                setattr(struct, field, self.matrix_out(field))
             else:
                 self.member(kind, struct, field, parts)
         if kind is c.sph_scalar_out:
@@ -924,7 +964,8 @@ class _Call:
 
     def member(self, kind, struct, field, parts):
         cloud = self.cloud
-        if cloud.dim < _FROM_DIM.get(field, 1) or (self.name == "gradient_cspm" and field[0] in "hl"):
+        alone = self.name in ("gradient_cspm", "gradient_iad")  # a gradient without a Hessian
+        if cloud.dim < _FROM_DIM.get(field, 1) or (alone and field[0] in "hl"):
             return
         if (
             kind in (c.sph_gradient_rows_out, c.sph_interpolation_rows_out)

@@ -178,6 +178,22 @@ class sph_scalar_out(Structure):
     ]
 
 
+class sph_matrices(Structure):
+    _fields_ = [
+        ("x", sph_vectors),
+        ("y", sph_vectors),
+        ("z", sph_vectors),
+    ]
+
+
+class sph_matrix_out(Structure):
+    _fields_ = [
+        ("x", sph_vector_out),
+        ("y", sph_vector_out),
+        ("z", sph_vector_out),
+    ]
+
+
 class sph_cloud(Structure):
     _fields_ = [
         ("points", sph_points),
@@ -214,6 +230,15 @@ class sph_rows_out(Structure):
         ("row", c_void_p),
         ("diagonal", c_void_p),
         ("factor", c_void_p),
+        ("conditioning", c_void_p),
+        ("stride", c_size_t),
+        ("status", c_void_p),
+    ]
+
+
+class sph_correction_out(Structure):
+    _fields_ = [
+        ("inverse", sph_matrix_out),
         ("conditioning", c_void_p),
         ("stride", c_size_t),
         ("status", c_void_p),
@@ -584,6 +609,48 @@ class sph_mhd_out(Structure):
     ]
 
 
+class sph_rk(Structure):
+    _fields_ = [
+        ("scale", sph_scalars),
+        ("slope", sph_vectors),
+        ("scale_gradient", sph_vectors),
+        ("slope_gradient", sph_matrices),
+    ]
+
+
+class sph_rk_out(Structure):
+    _fields_ = [
+        ("scale", c_void_p),
+        ("conditioning", c_void_p),
+        ("stride", c_size_t),
+        ("slope", sph_vector_out),
+        ("scale_gradient", sph_vector_out),
+        ("slope_gradient", sph_matrix_out),
+        ("status", c_void_p),
+    ]
+
+
+class sph_corrected_out(Structure):
+    _fields_ = [
+        ("acceleration", sph_vector_out),
+        ("rate_u", c_void_p),
+        ("stride", c_size_t),
+        ("status", c_void_p),
+    ]
+
+
+class sph_solid(Structure):
+    _fields_ = [
+        ("inverse", sph_matrices),
+        ("stress", sph_matrices),
+        ("density", sph_scalars),
+        ("hourglass", c_double),
+        ("x", sph_points),
+        ("gradient", sph_matrices),
+        ("modulus", sph_scalars),
+    ]
+
+
 class sph_conserved(Structure):
     _fields_ = [
         ("mass", c_double),
@@ -620,6 +687,7 @@ class sph_grid(Structure):
         ("levels", c_int),
         ("scattered", c_int),
         ("cells", c_int64 * 3),
+        ("held", c_int64 * 3),
         ("buckets", c_size_t),
         ("radius", c_double),
         ("largest", c_double),
@@ -642,6 +710,7 @@ class sph_query(Structure):
         ("criterion", c_int),
         ("radius", sph_scalars),
         ("flags", c_int),
+        ("first", c_int32),
     ]
 
 
@@ -650,6 +719,15 @@ class sph_neighbors(Structure):
         ("pairs", c_int64),
         ("list", sph_list),
         ("grid", sph_grid),
+    ]
+
+
+class sph_part(Structure):
+    _fields_ = [
+        ("low", sph_vec),
+        ("high", sph_vec),
+        ("reach_low", sph_vec),
+        ("reach_high", sph_vec),
     ]
 
 
@@ -662,9 +740,12 @@ STRUCTS = [
     sph_vectors,
     sph_vector_out,
     sph_scalar_out,
+    sph_matrices,
+    sph_matrix_out,
     sph_cloud,
     sph_derivatives_out,
     sph_rows_out,
+    sph_correction_out,
     sph_gradient_rows_out,
     sph_density_options,
     sph_density_out,
@@ -702,12 +783,17 @@ STRUCTS = [
     sph_cleaning_out,
     sph_mhd,
     sph_mhd_out,
+    sph_rk,
+    sph_rk_out,
+    sph_corrected_out,
+    sph_solid,
     sph_conserved,
     sph_offender,
     sph_findings,
     sph_grid,
     sph_query,
     sph_neighbors,
+    sph_part,
 ]
 
 # name: (result, arguments). A struct is passed by its address; (type, const) is an array or the address of
@@ -781,6 +867,13 @@ FUNCTIONS = {
         ("h", c_double),
         ("V_j", c_double),
     ]),
+    "moment_weight_iad": (c_double, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("r", c_double),
+        ("h", c_double),
+        ("V_j", c_double),
+    ]),
     "gradient_difference": (c_int32, [
         ("kernel", c_int),
         ("dim", c_int),
@@ -795,11 +888,36 @@ FUNCTIONS = {
         ("f", sph_scalars),
         ("out", sph_derivatives_out),
     ]),
+    "gradient_iad": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("f", sph_scalars),
+        ("out", sph_derivatives_out),
+    ]),
     "gradient_rows_cspm": (c_int32, [
         ("kernel", c_int),
         ("dim", c_int),
         ("cloud", sph_cloud),
         ("out", sph_gradient_rows_out),
+    ]),
+    "gradient_rows_iad": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("out", sph_gradient_rows_out),
+    ]),
+    "gradient_correction_cspm": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("out", sph_correction_out),
+    ]),
+    "gradient_correction_iad": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("out", sph_correction_out),
     ]),
     "laplacian_brookshaw": (c_int32, [
         ("kernel", c_int),
@@ -1034,6 +1152,21 @@ FUNCTIONS = {
         ("mobility", sph_diagonal),
         ("out", sph_rows_out),
     ]),
+    "elliptic_tensor": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("mobility", sph_matrices),
+        ("u", sph_scalars),
+        ("out", sph_scalar_out),
+    ]),
+    "elliptic_rows_tensor": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("mobility", sph_matrices),
+        ("out", sph_rows_out),
+    ]),
     "elliptic_rows_boundary": (c_int32, [
         ("kernel", c_int),
         ("dim", c_int),
@@ -1238,6 +1371,14 @@ FUNCTIONS = {
         ("background", c_double),
         ("out", sph_transport_out),
     ]),
+    "pressure_factor_dfsph": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("fluid", sph_fluid),
+        ("moves", sph_scalars),
+        ("out", sph_scalar_out),
+    ]),
     "fluid_rates_riemann": (c_int32, [
         ("kernel", c_int),
         ("dim", c_int),
@@ -1275,6 +1416,14 @@ FUNCTIONS = {
         ("f", sph_scalars),
         ("out", sph_vector_out),
     ]),
+    "wall_gradient_rows": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("wall", sph_wall_terms),
+        ("out", sph_gradient_rows_out),
+        ("source", sph_vector_out),
+    ]),
     "wall_laplacian": (c_int32, [
         ("kernel", c_int),
         ("dim", c_int),
@@ -1282,6 +1431,14 @@ FUNCTIONS = {
         ("wall", sph_wall_terms),
         ("f", sph_scalars),
         ("out", sph_scalar_out),
+    ]),
+    "wall_laplacian_rows": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("wall", sph_wall_terms),
+        ("out", sph_rows_out),
+        ("source", sph_scalar_out),
     ]),
     "collision_sequential": (c_int32, [
         ("dim", c_int),
@@ -1355,6 +1512,58 @@ FUNCTIONS = {
         ("state", sph_mhd),
         ("out", sph_mhd_out),
     ]),
+    "rk_correction": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("out", sph_rk_out),
+    ]),
+    "interpolate_rk": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("rk", sph_rk),
+        ("f", sph_scalars),
+        ("out", sph_scalar_out),
+    ]),
+    "interpolate_rows_rk": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("rk", sph_rk),
+        ("out", sph_rows_out),
+    ]),
+    "gradient_rk": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("rk", sph_rk),
+        ("f", sph_scalars),
+        ("out", sph_vector_out),
+    ]),
+    "gradient_rows_rk": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("rk", sph_rk),
+        ("out", sph_gradient_rows_out),
+    ]),
+    "gas_rates_crk": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("fluid", sph_fluid),
+        ("rk", sph_rk),
+        ("out", sph_corrected_out),
+    ]),
+    "gas_rates_iad": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("fluid", sph_fluid),
+        ("inverse", sph_matrices),
+        ("out", sph_corrected_out),
+    ]),
     "gravity_pair": (c_double, [("kernel", c_int), ("r", c_double), ("h_i", c_double), ("h_j", c_double)]),
     "gravity_zeta_value": (c_double, [("h", c_double), ("rho", c_double), ("sum", c_double)]),
     "gravity_direct": (c_int32, [
@@ -1378,6 +1587,21 @@ FUNCTIONS = {
         ("medium", sph_medium),
         ("zeta", sph_scalars),
         ("newton", c_double),
+        ("acceleration", sph_vector_out),
+    ]),
+    "deformation_gradient": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("x", sph_points),
+        ("inverse", sph_matrices),
+        ("out", sph_matrix_out),
+    ]),
+    "solid_acceleration": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("solid", sph_solid),
         ("acceleration", sph_vector_out),
     ]),
     "nearest_distance": (c_int32, [
@@ -1429,6 +1653,12 @@ FUNCTIONS = {
         ("grid", sph_grid),
     ]),
     "grid_permutation": (c_void_p, [("grid", sph_grid)]),
+    "grid_permutation_own": (c_int32, [
+        ("grid", sph_grid),
+        ("n", c_int32),
+        ("permutation", (c_int32, False)),
+    ]),
+    "grid_renumber_own": (c_int32, [("grid", sph_grid), ("n", c_int32)]),
     "grid_renumber": (c_int32, [("grid", sph_grid)]),
     "grid_lists": (c_int32, [
         ("dim", c_int),
@@ -1455,6 +1685,36 @@ FUNCTIONS = {
         ("memory", c_void_p),
         ("size", c_size_t),
         ("found", sph_neighbors),
+    ]),
+    "part_of": (c_int32, [
+        ("dim", c_int),
+        ("points", sph_points),
+        ("radius", sph_scalars),
+        ("part", sph_part),
+    ]),
+    "select_near": (c_int32, [
+        ("dim", c_int),
+        ("points", sph_points),
+        ("radius", sph_scalars),
+        ("criterion", c_int),
+        ("part", sph_part),
+        ("chosen", (c_int32, False)),
+        ("count", (c_int64, False)),
+    ]),
+    "list_prune": (c_int32, [
+        ("n", c_int32),
+        ("n_total", c_int32),
+        ("start", (c_int32, True)),
+        ("index", (c_int32, False)),
+        ("kept", (c_int32, False)),
+        ("count", (c_int64, False)),
+    ]),
+    "list_sort": (c_int32, [
+        ("n", c_int32),
+        ("n_total", c_int32),
+        ("start", (c_int32, True)),
+        ("index", (c_int32, False)),
+        ("key", (c_int64, True)),
     ]),
     "permute": (c_int32, [
         ("n", c_int32),

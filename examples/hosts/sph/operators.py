@@ -7,6 +7,7 @@ from typing import Any, Sequence, Union
 Array = Any  # numpy's, or of the module array
 Scalars = Union[float, Array, None]  # one number for all, or one for each particle
 Vectors = Union[Array, Sequence[Array], None]  # of shape (n, dim), or one array for each component
+Matrices = Union[Array, None]  # of shape (n, dim, dim), or one list of arrays for each row
 Indices = Array
 
 
@@ -111,15 +112,49 @@ class Operators:
         """
         return self._call("gradient_cspm", locals())
 
+    def gradient_iad(self, f: Scalars) -> Any:
+        """sph_gradient_iad: likewise, without derivatives of W
+
+        grad f_i = C sum_j V_j W_ij e (f_j - f_i) with C^-1 = sum_j V_j W_ij e e^T and e = x_j - x_i: the
+        integral approach to derivatives (IAD). Exact for linear fields at any particle, and of the errors of
+        sph_gradient_cspm; it needs no derivative of the kernel, and near neighbours count less. Garcia-Senz,
+        Cabezon & Escartin 2012, A&A 538, A9. Outputs and statuses are those of sph_gradient_cspm.
+        """
+        return self._call("gradient_iad", locals())
+
     def gradient_rows_cspm(self) -> Any:
         """sph_gradient_rows_cspm: the same as rows
 
         The same gradient as rows: grad f_i = sum_p (x[p], y[p], z[p]) (f_j - f_i), where p runs along the
         list of i and j = index[p]. The rows of a target that is not SPH_OK are 0.
 
-        (What is the same: see gradient_cspm.)
+        (What is the same: see gradient_iad.)
         """
         return self._call("gradient_rows_cspm", locals())
+
+    def gradient_rows_iad(self) -> Any:
+        """sph_gradient_rows_iad.
+
+        Those of sph_gradient_iad.
+        """
+        return self._call("gradient_rows_iad", locals())
+
+    def gradient_correction_cspm(self) -> Any:
+        """sph_gradient_correction_cspm: the matrices that correct
+
+        K^-1 of sph_gradient_cspm, a symmetric matrix without unit: grad f_i = K^-1 sum_j V_j (f_j - f_i)
+        grad_i W_ij. It is what solids need of their reference state. The matrix of a target that is
+        SPH_TOO_FEW, SPH_SINGULAR or SPH_NOT_FINITE is 0.
+        """
+        return self._call("gradient_correction_cspm", locals())
+
+    def gradient_correction_iad(self) -> Any:
+        """sph_gradient_correction_iad.
+
+        C of sph_gradient_iad, a symmetric matrix of the unit 1 / length^2. It is what sph_gas_rates_iad
+        needs.
+        """
+        return self._call("gradient_correction_iad", locals())
 
     def laplacian_brookshaw(self, f: Scalars) -> Array:
         """sph_laplacian_brookshaw: sum_j 2 V_j (f_i - f_j) F_ij
@@ -701,6 +736,37 @@ class Operators:
         sph_error.
         """
         return self._call("elliptic_rows_anisotropic", locals())
+
+    def elliptic_tensor(self, mobility: Matrices, u: Scalars) -> Array:
+        """sph_elliptic_tensor: div(M grad u) for any symmetric M
+
+        div(M grad u) for a full symmetric tensor M of each particle, at any orientation of its axes: L u_i =
+        sum_j V_j G sum_s S(M_i + M_j)_s (q_s / |e|^2 - (K^-1 N_s) . e) (u_j - u_i) with G = -F_ij, e = x_j -
+        x_i, the products q_s of the components of e (xx, xy, yy, ...), and S(M) = T^-1 M,   T_rs = sum_j V_j
+        G q_r (q_s / |e|^2 - (K^-1 N_s) . e), N_s = sum_j V_j G e q_s / |e|^2,   K = sum_j V_j G e e^T. It is
+        the form of sph_elliptic_rows_anisotropic with all products in the place of the squares, and with
+        third moments in T. An addition of this toolkit. Exact for linear and quadratic u (M constant), and
+        for products of a linear M and a linear u, at every particle that is SPH_OK: also in disorder, and
+        where the support is cut off, if enough neighbours are left. The error is O(h^2) in the interior of
+        lattices, and O(h) elsewhere. M is the symmetric part of the matrices; it should be positive
+        semidefinite, of which the diagonal is checked. Signs: weights have both signs where M is far from
+        isotropic (in 2D and on the axes, beyond a ratio of 3), and in disorder; maximum principles are lost
+        then. The gradient is (15), means are arithmetic, a pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). The
+        result is 0 where the state is SPH_TOO_FEW or SPH_SINGULAR: K or T is singular, as it is where the
+        neighbours lie in fewer directions than a quadratic form has coefficients (four neighbours on the axes
+        do not see xy). Returns the number of targets that are not SPH_OK, or a negative sph_error.
+        """
+        return self._call("elliptic_tensor", locals())
+
+    def elliptic_rows_tensor(self, mobility: Matrices) -> Any:
+        """sph_elliptic_rows_tensor.
+
+        The same as rows, with the factor 1. conditioning is the smallest pivot of K (scaled to a unit
+        diagonal) and T.
+
+        (What is the same: see elliptic_tensor.)
+        """
+        return self._call("elliptic_rows_tensor", locals())
 
     def elliptic_rows_boundary(
         self,
@@ -1433,6 +1499,38 @@ class Operators:
         """
         return self._call("transport_adami", locals())
 
+    def pressure_factor_dfsph(
+        self,
+        moves: Scalars,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+    ) -> Array:
+        """sph_pressure_factor_dfsph: alpha of DFSPH
+
+        The factor alpha of DFSPH, see above. Of fluid, the members m and rho are read. moves: 1 for particles
+        that pressure moves, 0 for walls; null: all move. The targets are particles that move. A pair uses
+        (h_i + h_j) / 2 (lists by SPH_MEAN). A target that no neighbour can push has the factor 0 and
+        SPH_TOO_FEW. Returns the number of targets that are not SPH_OK, or a negative sph_error.
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        """
+        return self._call("pressure_factor_dfsph", locals())
+
     def fluid_rates_riemann(
         self,
         m: Scalars = None,
@@ -1527,11 +1625,30 @@ class Operators:
 
         grad f_i = (sum_j V_j f_j grad_i W_ij - f_w grad gamma_i) / gamma_i, the particles of the fluid being
         all sources, with wall.value the f_w of each target. Ferrand et al. 2013. W has the h of the target.
-        As rows: V_j F_ij x_ij / gamma_i for each neighbour, and -grad gamma_i / gamma_i for f_w. For its
-        error see above. SPH_ERROR_VALUE for a gamma that is not positive. Returns the number of targets whose
-        result overflowed (it is 0 then), or a negative sph_error.
+        For its error see above. SPH_ERROR_VALUE for a gamma that is not positive. Returns the number of
+        targets whose result overflowed (it is 0 then), or a negative sph_error.
         """
         return self._call("wall_gradient", locals())
+
+    def wall_gradient_rows(
+        self,
+        gamma: Scalars = None,
+        gradient: Vectors = None,
+        value: Scalars = None,
+        slope: Vectors = None,
+    ) -> Any:
+        """sph_wall_gradient_rows: the same as rows
+
+        The same gradient as rows, for an f that is not known yet: grad f_i = sum_p (x[p], y[p], z[p]) f_j +
+        source_i, with the weights V_j F_ij x_ij / gamma_i, and source_i = -f_w grad gamma_i / gamma_i. In
+        contrast to sph_gradient_rows_cspm they multiply f_j, not f_j - f_i: this is the sum form. The
+        conditioning of out is 1. The weight of f_w itself is the source for wall.value = 1. Where a row or
+        its source overflows, both are 0, with SPH_NOT_FINITE. Returns the number of these targets, or a
+        negative sph_error.
+
+        (What is the same: see wall_gradient.)
+        """
+        return self._call("wall_gradient_rows", locals())
 
     def wall_laplacian(
         self,
@@ -1546,10 +1663,26 @@ class Operators:
         lap f_i = (sum_j 2 V_j (f_i - f_j) F_ij - 2 g_w . grad gamma_i) / gamma_i, with wall.slope the g_w of
         each target: the gradient of f at the wall, of which the part along the normal counts. Where f_w is
         given instead, at the distance d in front of one wall, g_w = (f_w - f_i) / d n. Macia et al. 2012;
-        Ferrand et al. 2013, who take the mean of the gradients on both sides. The rows are those of
-        sph_laplacian_rows_brookshaw by gamma_i. Errors and answer as above.
+        Ferrand et al. 2013, who take the mean of the gradients on both sides. Errors and answer as above.
         """
         return self._call("wall_laplacian", locals())
+
+    def wall_laplacian_rows(
+        self,
+        gamma: Scalars = None,
+        gradient: Vectors = None,
+        value: Scalars = None,
+        slope: Vectors = None,
+    ) -> Any:
+        """sph_wall_laplacian_rows.
+
+        The same Laplacian as rows, for an f that is not known yet: lap f_i = sum_p row[p] (f_j - f_i) +
+        source_i, with row[p] = -2 V_j F_ij / gamma_i >= 0, factor 1 and conditioning 1, and source_i = -2 g_w
+        . grad gamma_i / gamma_i. Answers as above; the status of out is written, that of source is not.
+
+        (What is the same: see wall_laplacian.)
+        """
+        return self._call("wall_laplacian_rows", locals())
 
     def collision_sequential(
         self,
@@ -1760,6 +1893,156 @@ class Operators:
         """
         return self._call("mhd_rates", locals())
 
+    def rk_correction(self) -> Any:
+        """sph_rk_correction: makes kernels exact
+
+        A, B and their gradients for the targets (see the beginning of this chapter). The kernel of a particle
+        has its own h_i. A target whose m2 is singular (its neighbours are on one line with it, in 3D in one
+        plane, or it has none) is SPH_FELL_BACK: B = 0 and A = 1 / m0, exact for constants only. It is
+        SPH_TOO_FEW, and all is 0, where m0 is not positive. conditioning: see sph_rk_solve. Where a number
+        overflows, it is 0 with SPH_NOT_FINITE.
+        """
+        return self._call("rk_correction", locals())
+
+    def interpolate_rk(
+        self,
+        f: Scalars,
+        scale: Scalars = None,
+        slope: Vectors = None,
+        scale_gradient: Vectors = None,
+        slope_gradient: Matrices = None,
+    ) -> Array:
+        """sph_interpolate_rk: for linear fields, everywhere
+
+        f_i = sum_j V_j f_j W^R_ij, the particle itself included: exact for linear fields, error O(h^2), at
+        boundaries, too. rk holds what sph_rk_correction wrote for the targets, of which A and B are read;
+        those of the other sources are not. The result is 0 where A is 0 (SPH_TOO_FEW) or the sum overflows
+        (SPH_NOT_FINITE).
+        """
+        return self._call("interpolate_rk", locals())
+
+    def interpolate_rows_rk(
+        self,
+        scale: Scalars = None,
+        slope: Vectors = None,
+        scale_gradient: Vectors = None,
+        slope_gradient: Matrices = None,
+    ) -> Any:
+        """sph_interpolate_rows_rk.
+
+        The same as rows: f_i = diagonal[i] f_i + sum_p row[p] f_j. diagonal[i] is what the particle itself
+        adds; its sum with the row is 1. factor and conditioning are 1. Rows of targets without answer are 0.
+
+        (What is the same: see interpolate_rk.)
+        """
+        return self._call("interpolate_rows_rk", locals())
+
+    def gradient_rk(
+        self,
+        f: Scalars,
+        scale: Scalars = None,
+        slope: Vectors = None,
+        scale_gradient: Vectors = None,
+        slope_gradient: Matrices = None,
+    ) -> Array:
+        """sph_gradient_rk: likewise
+
+        grad f_i = sum_j V_j (f_j - f_i) grad W^R_ij: exact for linear fields, error O(h^2) in the interior of
+        a regular cloud and O(h) elsewhere. f_i drops out, because sum_j V_j grad W^R = 0. rk: as for
+        sph_interpolate_rk. Where a component overflows, the gradient is 0 and the target counts as failed.
+        """
+        return self._call("gradient_rk", locals())
+
+    def gradient_rows_rk(
+        self,
+        scale: Scalars = None,
+        slope: Vectors = None,
+        scale_gradient: Vectors = None,
+        slope_gradient: Matrices = None,
+    ) -> Any:
+        """sph_gradient_rows_rk.
+
+        The same as rows: grad f_i = sum_p (x[p], y[p], z[p]) (f_j - f_i). conditioning is 1.
+
+        (What is the same: see gradient_rk.)
+        """
+        return self._call("gradient_rows_rk", locals())
+
+    def gas_rates_crk(
+        self,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+        scale: Scalars = None,
+        slope: Vectors = None,
+        scale_gradient: Vectors = None,
+        slope_gradient: Matrices = None,
+    ) -> Any:
+        """sph_gas_rates_crk: forces that conserve (CRKSPH)
+
+        Acceleration and du/dt of a gas by reproducing kernels (CRKSPH): the sums of sph_gas_pair_crk.
+        Frontiere, Raskin & Owen 2017, JCP 332, 160, without their limiter of the viscosity. Momentum, and the
+        energy sum m (v^2/2 + u), do not change, to round-off. What that costs: see the beginning of this
+        chapter. Of fluid all members are read; c only with artificial viscosity, whose kind and coefficients
+        are those of fluid. Its heating may be negative for single pairs, where the difference of the
+        gradients is far from the line between the particles. Volumes are those that sph_rk_correction saw (1
+        / sum W, or m / rho), and rk holds its results for all sources. Lists hold all pairs with r < support
+        ratio * max(h_i, h_j) (SPH_LARGER). out.rate_u and out.status may be null. Returns the number of
+        targets of which a result overflowed (it is 0 then), or a negative sph_error: SPH_ERROR_VALUE also for
+        masses, densities and volumes that are not positive.
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        """
+        return self._call("gas_rates_crk", locals())
+
+    def gas_rates_iad(
+        self,
+        inverse: Matrices,
+        m: Scalars = None,
+        rho: Scalars = None,
+        p: Scalars = None,
+        c: Scalars = None,
+        v: Vectors = None,
+        viscosity: int = 0,
+        alpha: float = 0.0,
+        beta: float = 0.0,
+        eta: float = 0.0,
+    ) -> Any:
+        """sph_gas_rates_iad: by the integral approach
+
+        The same by the integral approach (IAD): the sums of sph_gas_pair_iad. Garcia-Senz, Cabezon & Escartin
+        2012, A&A 538, A9. inverse: C of all sources, by sph_gradient_correction_iad. With h that follows the
+        density, give p / Omega for the pressure (the papers on IAD set Omega aside). Volumes are not read. On
+        particles without order its error is larger than that of plain SPH.
+
+        (What is the same: see gas_rates_crk.)
+
+        m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        p: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        c: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
+        v: velocity
+        viscosity: the artificial viscosity: an sph_viscosity
+        alpha: its coefficients, pure numbers
+        beta: its coefficients, pure numbers
+        eta: softens r^2 to r^2 + eta^2 h^2; 0 means the usual 0.1, a negative number none
+        """
+        return self._call("gas_rates_iad", locals())
+
     def gravity_direct(self, m: Scalars, newton: float) -> Any:
         """sph_gravity_direct: all pairs
 
@@ -1796,6 +2079,44 @@ class Operators:
         targets whose result overflowed (it is 0 then), or a negative sph_error.
         """
         return self._call("gravity_correction", locals())
+
+    def deformation_gradient(self, x: Vectors, inverse: Matrices) -> Array:
+        """sph_deformation_gradient: exact for affine maps
+
+        The deformation gradient F of the targets (see the beginning of this chapter). x: the current
+        positions; in a box that repeats they have the box of their own, and pairs are those of the nearest
+        images. inverse: L of the targets; where it is 0, F = 1. Exact for affine maps, also at boundaries;
+        for other maps the error is O(h) there and in disorder, O(h^2) in the interior of a lattice. Where an
+        entry overflows, the matrix is 0 and the target counts as failed.
+        """
+        return self._call("deformation_gradient", locals())
+
+    def solid_acceleration(
+        self,
+        inverse: Matrices = None,
+        stress: Matrices = None,
+        density: Scalars = None,
+        hourglass: float = 0.0,
+        x: Vectors = None,
+        gradient: Matrices = None,
+        modulus: Scalars = None,
+    ) -> Array:
+        """sph_solid_acceleration: by stress and hourglass control: keeps both momenta
+
+        The acceleration of the targets by stress, and by hourglass control if solid.hourglass is not 0 (see
+        the beginning of this chapter). Momentum and angular momentum are kept to round-off, if stress is the
+        law of F. Lists hold all pairs with r < support ratio * max(h_i, h_j) in the reference state
+        (SPH_LARGER). A particle whose L is 0 exerts no stress. Returns the number of targets whose
+        acceleration overflowed (it is 0 then), or a negative sph_error: SPH_ERROR_VALUE also for densities
+        that are not positive.
+
+        inverse: L of sph_gradient_correction_cspm, and P
+        stress: L of sph_gradient_correction_cspm, and P
+        density: of the reference state
+        hourglass: For hourglass control: its coefficient alpha (0: none; 1 is usual), and what else it reads:
+        the current positions, F, and Young's modulus, not negative.
+        """
+        return self._call("solid_acceleration", locals())
 
     def nearest_distance(self, sources: Vectors) -> Array:
         """sph_nearest_distance.
@@ -1860,6 +2181,75 @@ class Operators:
         never wrapped. Returns 0; or 1 if a sum overflowed (all sums are 0 then); or a negative sph_error.
         """
         return self._call("conserved_sums", locals())
+
+    def grid_permutation_own(self, n: int) -> Any:
+        """sph_grid_permutation_own: the same for the first n particles alone,
+
+        The permutation for a host whose first n particles are its own, and whose other ones are copies of
+        those of other machines, which stay behind: permutation[0 ... grid->n - 1] puts the own ones into the
+        grid's order, and leaves the others where they are. For sph_permute, and then for
+        sph_grid_renumber_own. Returns 0 or a negative sph_error.
+        """
+        return self._call("grid_permutation_own", locals())
+
+    def grid_renumber_own(self, n: int) -> Any:
+        """sph_grid_renumber_own: where the others stay behind them
+
+        For a host that has put its first n particles into the grid's order, and has left the others. The grid
+        then uses the new numbers. Returns 0 or a negative sph_error.
+        """
+        return self._call("grid_renumber_own", locals())
+
+    def part_of(self, points: Vectors, radius: Scalars) -> Any:
+        """sph_part_of: several machines: where particles are, and how far they reach
+
+        The part of these points: low is the least of x_i along each axis, and reach_low that of x_i - R_i;
+        high and reach_high likewise. Along a periodic axis the part begins behind the longest stretch without
+        points, and may end beyond the box. radius: R_i of each point, or one for all. Returns 0 or a negative
+        sph_error; SPH_ERROR_H as for sph_grid_lists.
+        """
+        return self._call("part_of", locals())
+
+    def select_near(
+        self,
+        points: Vectors,
+        radius: Scalars,
+        criterion: int,
+        low: Sequence[float] = (),
+        high: Sequence[float] = (),
+        reach_low: Sequence[float] = (),
+        reach_high: Sequence[float] = (),
+    ) -> Any:
+        """sph_select_near: which of them another machine needs
+
+        Of these points those that may be neighbours of a target of the part: chosen[0 ... *count - 1] are
+        their numbers, in ascending order; it has room for points.n. By SPH_GATHER they lie within the reach
+        of the part, by SPH_SCATTER the part lies within theirs, and by the others one or the other. radius:
+        of each point, or one for all; SPH_GATHER does not read it. The boxes of the part are larger than what
+        it reaches, so that some are not needed: sph_list_prune tells which. Returns 0, or a negative
+        sph_error, and then *count is 0.
+        """
+        return self._call("select_near", locals())
+
+    def list_prune(self, n: int, n_total: int, start: Indices) -> Any:
+        """sph_list_prune: without the sources that no row names
+
+        Leaves out the sources that no row names: of n_total sources the first n stay, and of the others those
+        that an entry of index names. These get the numbers n, n + 1, ... in the same order, and index is
+        changed to them. kept[new] = old for all that stay, of which there are *count; it has room for
+        n_total. start and index: rows of n targets. Returns 0, or a negative sph_error, and then *count is 0.
+        """
+        return self._call("list_prune", locals())
+
+    def list_sort(self, n: int, n_total: int, start: Indices, key: Scalars) -> Any:
+        """sph_list_sort: rows in the order of the host's keys
+
+        Puts each of the rows of n targets into the order of the keys of its sources, of which there are
+        n_total. With keys that belong to the particles (global numbers, of 64 bits) sums have the same
+        roundings on any number of machines. Null: by the numbers of the sources here. Entries with equal keys
+        come in any order. Returns 0 or a negative sph_error.
+        """
+        return self._call("list_sort", locals())
 
 
 def _number(name: str, *values: Any) -> Any:
@@ -2095,6 +2485,15 @@ def moment_weight_gradient(kernel: Union[str, int], dim: int, r: float, h: float
     return _number("moment_weight_gradient", kernel, dim, r, h, V_j)
 
 
+def moment_weight_iad(kernel: Union[str, int], dim: int, r: float, h: float, V_j: float) -> float:
+    """sph_moment_weight_iad.
+
+    The weight V_j W_ij of the integral approach to derivatives (IAD), in the place of -V_j F_ij of CSPM. It
+    needs no derivative of the kernel. Garcia-Senz, Cabezon & Escartin 2012, A&A 538, A9.
+    """
+    return _number("moment_weight_iad", kernel, dim, r, h, V_j)
+
+
 def boundary_weight_bim(kernel: Union[str, int], e: float, normal: float, h: float) -> float:
     """sph_boundary_weight_bim.
 
@@ -2294,6 +2693,7 @@ __all__ = [
     "gravity_dphidh",
     "laplacian_weight_brookshaw",
     "moment_weight_gradient",
+    "moment_weight_iad",
     "boundary_weight_bim",
     "mobility_pair",
     "signal_speed",
