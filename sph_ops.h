@@ -8842,7 +8842,7 @@ SPH_FN sph_sym sphi_third_times(int dim, sph_sym_third t, sph_vec b)
    1]: the smallest pivot of m2 scaled to a unit diagonal, and 1 / (A m0). */
 SPH_FN int sph_rk_solve(int dim, sph_rk_moments m, sph_rk_side *side, sph_real *conditioning)
 {
-    sph_sym inverse;
+    sph_sym inverse = {SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0)};
     sph_vec row;
     sph_mat q;
     sph_real per, pivot = SPH_R(0);

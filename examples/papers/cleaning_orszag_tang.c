@@ -1064,7 +1064,7 @@ static void claims(report *r, const level *l, const level *coarser)
 {
     const char *const coarse =
         "nor with 512 x 590 particles, as published: the control's error falls slowly with h, that of "
-        "cleaning nearly as h; case v has both of the paper's figures, and B0 = 1 as printed comes near";
+        "cleaning nearly as h; case v has both of the paper's figures, B0 = 1 as printed has not";
     const outcome *const o = l->o;
     char text[REASON];
     if (l->cases >> BEFORE & 1u && l->end > 0.999) {
