@@ -85,6 +85,12 @@
  *   sph_index sph_list_sort(n, n_total, start, index, key)
  *                                                         rows in the order of the host's keys
  *   int       sph_rebuild_due(dim, now, then, skin)       1 if a particle moved by more than skin / 2
+ *   for lists that you make yourself, on a device too:
+ *   sph_real  sph_grid_pair_radius(criterion, R_i, R_j)   below which a pair is a neighbour
+ *   long      sph_grid_cell(x, low, inverse_width, cells)      the cell of a place along an axis,
+ *   long      sph_grid_cell_periodic(x, low, inverse_width)    and where it may lie outside of a box
+ *   long      sph_grid_image(cells, c)                    in which image a cell is
+ *   sph_real  sph_grid_wrap(x, low, length)               x moved into a box
  *
  * OPTIONS, besides those of sph_kernels.h, and set in the same way
  *   SPH_OPENMP   0.
@@ -103,6 +109,80 @@
 #if SPH_VERSION != 200
 #error "sph.h and sph_ops.h are of different releases"
 #endif
+
+/* ================================================================ the arithmetic of a grid
+
+   For those who make lists themselves: on a device (in OpenCL C this is all that there is of this header), or
+   with a grid of their own. Cells are counted along each axis, and in 64 bits. */
+
+#if SPH_OPENCL
+#define SPHI_INT64 long
+#define SPHI_FLOOR(x) floor(x)
+#else
+#define SPHI_INT64 int64_t
+#if SPH_SINGLE
+#define SPHI_FLOOR(x) floorf(x)
+#else
+#define SPHI_FLOOR(x) floor(x)
+#endif
+#endif
+
+SPHI_BEGIN
+
+/* Which pairs at the distance r are neighbours; R_i and R_j are their support radii. The operators of
+   sph_ops.h need a gather list. Pair-symmetric operators need the larger of both radii. */
+typedef enum sph_criterion {
+    SPH_GATHER,  /* r < R_i */
+    SPH_SCATTER, /* r < R_j */
+    SPH_LARGER,  /* r < max(R_i, R_j) */
+    SPH_MEAN     /* r < (R_i + R_j) / 2 */
+} sph_criterion;
+/* The distance below which a pair is a neighbour, by a criterion (an sph_criterion). */
+SPH_FN sph_real sph_grid_pair_radius(int criterion, sph_real R_i, sph_real R_j)
+{
+    switch (criterion) {
+    case SPH_SCATTER:
+        return R_j;
+    case SPH_LARGER:
+        return R_i > R_j ? R_i : R_j;
+    case SPH_MEAN:
+        return SPH_R(0.5) * (R_i + R_j);
+    default:
+        return R_i;
+    }
+}
+/* The number of a cell along an axis, within [0, cells). It never falls as x rises, so all particles between
+   x - radius and x + radius are in the cells between those of these two ends. */
+SPH_FN SPHI_INT64 sph_grid_cell(sph_real x, sph_real low, sph_real inverse_width, SPHI_INT64 cells)
+{
+    const sph_real c = (x - low) * inverse_width, last = (sph_real)(cells - 1);
+    return c > SPH_R(0) ? (c < last ? (SPHI_INT64)c : cells - 1) : 0;
+}
+/* The same along a periodic axis, for the ends of a search range, which may lie outside of the box. */
+SPH_FN SPHI_INT64 sph_grid_cell_periodic(sph_real x, sph_real low, sph_real inverse_width)
+{
+    const sph_real c = (x - low) * inverse_width;
+    const SPHI_INT64 i = (SPHI_INT64)c;
+    return (sph_real)i > c ? i - 1 : i;
+}
+/* Moves x into [low, low + length). It does not change if it is there already. */
+SPH_FN sph_real sph_grid_wrap(sph_real x, sph_real low, sph_real length)
+{
+    if (length > SPH_R(0) && !(x >= low && x < low + length)) {
+        x -= length * SPHI_FLOOR((x - low) / length);
+        if (!(x >= low && x < low + length)) x = low; /* rounding */
+    }
+    return x;
+}
+/* In which image the cell c of a periodic axis is, 0 being the box itself: inside the box it is the cell
+   c - image cells, and a particle there is seen at its place plus image box lengths. Needs cells >= 1. */
+SPH_FN SPHI_INT64 sph_grid_image(SPHI_INT64 cells, SPHI_INT64 c)
+{
+    SPH_ASSERT(cells >= 1);
+    return c >= 0 ? c / cells : -((cells - 1 - c) / cells);
+}
+
+SPHI_END
 
 #if !SPH_OPENCL
 
@@ -154,23 +234,9 @@
 
 SPHI_BEGIN
 
-#if SPH_SINGLE
-#define SPHI_FLOOR(x) floorf(x)
-#else
-#define SPHI_FLOOR(x) floor(x)
-#endif
 #define SPHI_INDEX_MAX ((((int64_t)1 << (8 * sizeof(sph_index) - 2)) - 1) * 2 + 1)
 
 /* ================================================================ the grid */
-
-/* Which pairs at the distance r are neighbours; R_i and R_j are their support radii. The operators of
-   sph_ops.h need a gather list. Pair-symmetric operators need the larger of both radii. */
-typedef enum sph_criterion {
-    SPH_GATHER,  /* r < R_i */
-    SPH_SCATTER, /* r < R_j */
-    SPH_LARGER,  /* r < max(R_i, R_j) */
-    SPH_MEAN     /* r < (R_i + R_j) / 2 */
-} sph_criterion;
 
 typedef enum sph_list_flags {
     SPH_LIST_SELF = 1,   /* a row also holds its own particle */
@@ -255,34 +321,11 @@ SPH_FN void *sphi_aligned(void *memory)
     return (char *)memory + (SPHI_ALIGN - (uintptr_t)memory % SPHI_ALIGN) % SPHI_ALIGN;
 }
 
-/* The number of a cell along an axis, within [0, cells). It never falls as x rises, so all particles between
-   x - radius and x + radius are in the cells between those of these two ends. */
-SPH_FN int64_t sphi_cell(sph_real x, sph_real low, sph_real inverse_width, int64_t cells)
-{
-    const sph_real c = (x - low) * inverse_width, last = (sph_real)(cells - 1);
-    return c > SPH_R(0) ? (c < last ? (int64_t)c : cells - 1) : 0;
-}
-/* The same along a periodic axis, for the ends of a search range, which may lie outside of the box. */
-SPH_FN int64_t sphi_cell_periodic(sph_real x, sph_real low, sph_real inverse_width)
-{
-    const sph_real c = (x - low) * inverse_width;
-    const int64_t i = (int64_t)c;
-    return (sph_real)i > c ? i - 1 : i;
-}
-/* Moves x into [low, low + length). It does not change if it is there already. */
-SPH_FN sph_real sphi_wrap(sph_real x, sph_real low, sph_real length)
-{
-    if (length > SPH_R(0) && !(x >= low && x < low + length)) {
-        x -= length * SPHI_FLOOR((x - low) / length);
-        if (!(x >= low && x < low + length)) x = low; /* rounding */
-    }
-    return x;
-}
 SPH_FN sph_vec sphi_wrap_point(int dim, const sph_grid *g, sph_vec p)
 {
-    p.x = sphi_wrap(p.x, g->low.x, g->box.x);
-    if (dim > 1) p.y = sphi_wrap(p.y, g->low.y, g->box.y);
-    if (dim > 2) p.z = sphi_wrap(p.z, g->low.z, g->box.z);
+    p.x = sph_grid_wrap(p.x, g->low.x, g->box.x);
+    if (dim > 1) p.y = sph_grid_wrap(p.y, g->low.y, g->box.y);
+    if (dim > 2) p.z = sph_grid_wrap(p.z, g->low.z, g->box.z);
     return p;
 }
 
@@ -304,10 +347,10 @@ SPH_FN size_t sphi_row_bucket(const sph_grid *g, int64_t cy, int64_t cz)
 }
 SPH_FN size_t sphi_bucket(int dim, const sph_grid *g, sph_vec p)
 {
-    const int64_t cy = dim > 1 ? sphi_cell(p.y, g->low.y, g->inverse_width.y, g->held[1]) : 0;
-    const int64_t cz = dim > 2 ? sphi_cell(p.z, g->low.z, g->inverse_width.z, g->held[2]) : 0;
+    const int64_t cy = dim > 1 ? sph_grid_cell(p.y, g->low.y, g->inverse_width.y, g->held[1]) : 0;
+    const int64_t cz = dim > 2 ? sph_grid_cell(p.z, g->low.z, g->inverse_width.z, g->held[2]) : 0;
     const size_t b =
-        sphi_row_bucket(g, cy, cz) + (size_t)sphi_cell(p.x, g->low.x, g->inverse_width.x, g->held[0]);
+        sphi_row_bucket(g, cy, cz) + (size_t)sph_grid_cell(p.x, g->low.x, g->inverse_width.x, g->held[0]);
     return g->hashed ? b & (g->buckets - 1) : b;
 }
 
@@ -360,8 +403,8 @@ SPH_FN double sphi_axes(int dim, sph_grid *g, sph_vec low, sph_vec high, sph_rea
             inverse[c] = (sph_real)g->cells[c] / box[c];
             g->held[c] = g->cells[c];
             if (part) /* as far as the last particle, whatever the rounding */
-                g->held[c] = sphi_cell(highs[c] + SPH_R(16) * SPH_EPSILON * (box[c] + SPHI_ABS(lows[c])),
-                                       lows[c], inverse[c], g->cells[c]) +
+                g->held[c] = sph_grid_cell(highs[c] + SPH_R(16) * SPH_EPSILON * (box[c] + SPHI_ABS(lows[c])),
+                                           lows[c], inverse[c], g->cells[c]) +
                              1;
         } else {
             count = (highs[c] - lows[c]) * inverse[c];
@@ -449,8 +492,8 @@ SPHI_LARGE int sphi_arcs(int dim, sph_points s, sph_vec *low, sph_vec *high)
         if (!(box[c] > SPH_R(0))) continue;
         for (i = 0; i < s.n; i++) {
             const sph_vec p = sphi_point(dim, s, i);
-            const sph_real x = sphi_wrap(c == 0 ? p.x : c == 1 ? p.y : p.z, SPH_R(0), box[c]);
-            held[sphi_cell(x, SPH_R(0), SPH_R(BINS) / box[c], BINS)] = 1;
+            const sph_real x = sph_grid_wrap(c == 0 ? p.x : c == 1 ? p.y : p.z, SPH_R(0), box[c]);
+            held[sph_grid_cell(x, SPH_R(0), SPH_R(BINS) / box[c], BINS)] = 1;
         }
         for (b = 0; b < 2 * BINS; b++) { /* twice around */
             empty = held[b % BINS] ? 0 : empty + 1;
@@ -465,7 +508,7 @@ SPHI_LARGE int sphi_arcs(int dim, sph_points s, sph_vec *low, sph_vec *high)
         last = edge;
         for (i = 0; i < s.n; i++) {
             const sph_vec p = sphi_point(dim, s, i);
-            const sph_real x = sphi_wrap(c == 0 ? p.x : c == 1 ? p.y : p.z, edge, box[c]);
+            const sph_real x = sph_grid_wrap(c == 0 ? p.x : c == 1 ? p.y : p.z, edge, box[c]);
             if (x < first) first = x;
             if (x > last) last = x;
         }
@@ -885,20 +928,6 @@ typedef struct sphi_run {
     int met; /* becomes 1 where it was found, or would have been */
 } sphi_run;
 
-SPH_FN sph_real sphi_pair_radius(int criterion, sph_real R_i, sph_real R_j)
-{
-    switch (criterion) {
-    case SPH_SCATTER:
-        return R_j;
-    case SPH_LARGER:
-        return R_i > R_j ? R_i : R_j;
-    case SPH_MEAN:
-        return SPH_R(0.5) * (R_i + R_j);
-    default:
-        return R_i;
-    }
-}
-
 /* The place of a slot, inside the box. */
 SPH_FN sph_vec sphi_slot(int dim, const sph_grid *g, sph_index slot)
 {
@@ -912,10 +941,10 @@ SPH_FN sph_vec sphi_slot(int dim, const sph_grid *g, sph_index slot)
    must count in its own row only. */
 SPH_FN int sphi_in_run(int dim, const sph_grid *g, sph_vec p, const sphi_run *run)
 {
-    const int64_t x = sphi_cell(p.x, g->low.x, g->inverse_width.x, g->held[0]);
+    const int64_t x = sph_grid_cell(p.x, g->low.x, g->inverse_width.x, g->held[0]);
     if (x < run->x0 || x > run->x1) return 0;
-    if (dim > 1 && sphi_cell(p.y, g->low.y, g->inverse_width.y, g->held[1]) != run->y) return 0;
-    return dim < 3 || sphi_cell(p.z, g->low.z, g->inverse_width.z, g->held[2]) == run->z;
+    if (dim > 1 && sph_grid_cell(p.y, g->low.y, g->inverse_width.y, g->held[1]) != run->y) return 0;
+    return dim < 3 || sph_grid_cell(p.z, g->low.z, g->inverse_width.z, g->held[2]) == run->z;
 }
 
 /* What is known when the loops are compiled: that there is a tree, or that cells are hashed, with any radii;
@@ -931,7 +960,7 @@ SPH_FN void sphi_limits_by(int criterion, const sphi_search *s, const sph_real *
     int l;
     SPH_ASSERT(n >= SPHI_BLOCK);
     for (l = 0; l < n; l++) {
-        const sph_real pair = sphi_lesser(sphi_pair_radius(criterion, own, radius[l]), widest);
+        const sph_real pair = sphi_lesser(sph_grid_pair_radius(criterion, own, radius[l]), widest);
         limit[l] = pair * pair;
     }
 }
@@ -1189,25 +1218,16 @@ SPH_FN void sphi_range(sph_real x, sph_real radius, sph_real low, sph_real inver
     if (length > SPH_R(0)) {
         /* somewhat more than the radius, because rounding differs from image to image */
         const sph_real more = radius + SPH_R(16) * SPH_EPSILON * (length + SPHI_ABS(low));
-        *c0 = sphi_cell_periodic(x - more, low, inverse_width);
-        *c1 = sphi_cell_periodic(x + more, low, inverse_width);
+        *c0 = sph_grid_cell_periodic(x - more, low, inverse_width);
+        *c1 = sph_grid_cell_periodic(x + more, low, inverse_width);
     } else {
 #ifdef __FAST_MATH__ /* the order of sums is then the compiler's */
         const sph_real more = SPH_R(16) * SPH_EPSILON * (SPHI_ABS(low) + (sph_real)cells / inverse_width);
         radius += more < radius ? more : radius;
 #endif
-        *c0 = sphi_cell(x - radius, low, inverse_width, cells);
-        *c1 = sphi_cell(x + radius, low, inverse_width, cells);
+        *c0 = sph_grid_cell(x - radius, low, inverse_width, cells);
+        *c1 = sph_grid_cell(x + radius, low, inverse_width, cells);
     }
-}
-/* In which image a cell is (0: inside the box). Moves c inside. */
-SPH_FN int64_t sphi_image(int64_t cells, int64_t *c)
-{
-    int64_t image;
-    SPH_ASSERT(cells >= 1);
-    image = *c >= 0 ? *c / cells : -((cells - 1 - *c) / cells);
-    *c -= image * cells;
-    return image;
 }
 
 /* -------- lists: crowded cells. Where many particles have collapsed into a small place, rows are as long as
@@ -1258,7 +1278,7 @@ SPH_FN sph_real sphi_farther2(sph_real p, sph_real low, sph_real high, sph_real 
 SPH_FN int sphi_crowd_near(int kind, const sph_grid *g, const sphi_search *s, const sphi_run *run,
                            const sphi_crowd *crowd)
 {
-    const sph_real radius = sphi_lesser(sphi_pair_radius(s->criterion, s->own, crowd->least), s->widest);
+    const sph_real radius = sphi_lesser(sph_grid_pair_radius(s->criterion, s->own, crowd->least), s->widest);
     const sph_vec shift = run->shift, low = crowd->low, high = crowd->high;
     sph_real d2 = sphi_farther2(s->p.x, low.x, high.x, shift.x);
     if (g->dim > 1) d2 += sphi_farther2(s->p.y, low.y, high.y, shift.y);
@@ -1352,12 +1372,12 @@ SPH_FN sphi_block sphi_block_of(int dim, int kind, const sph_grid *g, const sphi
     if (dim > 1) {
         sphi_range(p.y, s->radius, g->low.y, g->inverse_width.y, boxed ? box.y : SPH_R(0), g->cells[1], &k.y0,
                    &k.y1);
-        k.y = sphi_cell(p.y, g->low.y, g->inverse_width.y, g->cells[1]);
+        k.y = sph_grid_cell(p.y, g->low.y, g->inverse_width.y, g->cells[1]);
     }
     if (dim > 2) {
         sphi_range(p.z, s->radius, g->low.z, g->inverse_width.z, boxed ? box.z : SPH_R(0), g->cells[2], &k.z0,
                    &k.z1);
-        k.z = sphi_cell(p.z, g->low.z, g->inverse_width.z, g->cells[2]);
+        k.z = sph_grid_cell(p.z, g->low.z, g->inverse_width.z, g->cells[2]);
     }
     sphi_range(p.x, s->radius, g->low.x, g->inverse_width.x, boxed ? box.x : SPH_R(0), g->cells[0], &k.x0,
                &k.x1);
@@ -1366,7 +1386,11 @@ SPH_FN sphi_block sphi_block_of(int dim, int kind, const sph_grid *g, const sphi
 /* The image of a row, as a distance along y or z. Moves the row into the box. */
 SPH_FN sph_real sphi_row_shift(sph_real length, int64_t cells, int64_t *row)
 {
-    return length > SPH_R(0) ? length * (sph_real)sphi_image(cells, row) : SPH_R(0);
+    int64_t image;
+    if (!(length > SPH_R(0))) return SPH_R(0);
+    image = sph_grid_image(cells, *row);
+    *row -= image * cells;
+    return length * (sph_real)image;
 }
 
 /* Finds where the rows of a block begin in the table of a hashed grid, and how far apart. */
@@ -1384,8 +1408,8 @@ SPHI_LARGE void sphi_rows_find(const sph_grid *g, const sphi_block *k, sphi_rows
     for (z = k->z0; z <= k->z1; z++)
         for (y = k->y0; y <= k->y1; y++) {
             int64_t in_y = y, in_z = z;
-            if (g->box.y > SPH_R(0)) sphi_image(g->cells[1], &in_y);
-            if (g->box.z > SPH_R(0)) sphi_image(g->cells[2], &in_z);
+            sphi_row_shift(g->box.y, g->cells[1], &in_y);
+            sphi_row_shift(g->box.z, g->cells[2], &in_z);
             rows->from[count] = sphi_row_bucket(g, in_y, in_z);
             for (i = 0; i < count; i++) {
                 const size_t ahead = (rows->from[count] - rows->from[i]) & (g->buckets - 1),
@@ -1580,7 +1604,7 @@ SPHI_LARGE void sphi_view_fill(const sph_grid *g, const sphi_search *s, sphi_vie
                            b = sphi_outside(v->p.y - y, v->half_length.y + dy),
                            c = sphi_outside(v->p.z - z, v->half_length.z + dz);
             const sph_real pair =
-                sphi_lesser(sphi_pair_radius(s->criterion, v->own, node[2 * dim]), s->widest);
+                sphi_lesser(sph_grid_pair_radius(s->criterion, v->own, node[2 * dim]), s->widest);
             if (a * a + b * b + c * c <= pair * pair * (SPH_R(1) + SPH_R(16) * SPH_EPSILON)) {
                 if (v->next < leaves) {
                     v->next *= 2;
@@ -1757,8 +1781,8 @@ SPH_FN sph_index sphi_target(int dim, int kind, const sphi_job *job, sph_index k
     if (i < 0 || i >= job->targets.n) return -1;
     s->p = job->by_slots ? sphi_slot(dim, g, k) : sphi_wrap_point(dim, g, sphi_point(dim, job->targets, i));
     s->own = job->criterion == SPH_SCATTER ? SPH_R(0) : sphi_at(job->radius, i);
-    if (job->plain) s->own = sphi_pair_radius(job->criterion, s->own, g->largest);
-    s->radius = kind > SPHI_RADII ? s->own : sphi_pair_radius(s->criterion, s->own, g->largest);
+    if (job->plain) s->own = sph_grid_pair_radius(job->criterion, s->own, g->largest);
+    s->radius = kind > SPHI_RADII ? s->own : sph_grid_pair_radius(s->criterion, s->own, g->largest);
     s->radius = sphi_lesser(s->radius, s->widest);
     s->skip = job->flags & (SPH_LIST_SELF | SPH_LIST_FOREIGN) ? -1 : source;
     s->least = job->flags & SPH_LIST_HALF ? source : 0;
@@ -2290,9 +2314,9 @@ SPH_FN sph_index sph_part_of(int dim, sph_points points, sph_scalars radius, sph
     for (i = 0; i < points.n; i++) {
         const sph_real reach = sphi_at(radius, i);
         sph_vec p = sphi_point(dim, points, i), l, h;
-        p.x = sphi_wrap(p.x, low.x, points.box.x);
-        p.y = dim > 1 ? sphi_wrap(p.y, low.y, points.box.y) : SPH_R(0);
-        p.z = dim > 2 ? sphi_wrap(p.z, low.z, points.box.z) : SPH_R(0);
+        p.x = sph_grid_wrap(p.x, low.x, points.box.x);
+        p.y = dim > 1 ? sph_grid_wrap(p.y, low.y, points.box.y) : SPH_R(0);
+        p.z = dim > 2 ? sph_grid_wrap(p.z, low.z, points.box.z) : SPH_R(0);
         sphi_enclose(p, &part->low, &part->high);
         l.x = p.x - reach;
         l.y = p.y - reach;
@@ -2310,7 +2334,7 @@ SPH_FN int sphi_between(sph_real x, sph_real reach, sph_real low, sph_real high,
 {
     const sph_real more =
         reach + SPH_R(32) * SPH_EPSILON * (length + reach + SPHI_ABS(x) + SPHI_ABS(low) + SPHI_ABS(high));
-    if (length > SPH_R(0)) x = sphi_wrap(x, low - more, length); /* the first image that is not below */
+    if (length > SPH_R(0)) x = sph_grid_wrap(x, low - more, length); /* the first image that is not below */
     return low <= high && x >= low - more && x <= high + more;
 }
 /* Of these points those that may be neighbours of a target of the part: chosen[0 ... *count - 1] are their

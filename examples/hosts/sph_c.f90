@@ -146,7 +146,7 @@ module sph_c
     integer(c_int), parameter :: SPH_LARGER = 2 ! r < max(R_i, R_j)
     integer(c_int), parameter :: SPH_MEAN = 3 ! r < (R_i + R_j) / 2
 
-    ! sph_list_flags
+    ! sph_list_flags: ================================================================ the grid
     integer(c_int), parameter :: SPH_LIST_SELF = 1 ! a row also holds its own particle
     integer(c_int), parameter :: SPH_LIST_HALF = 2 ! each pair once: only j > i (for a symmetric criterion)
     integer(c_int), parameter :: SPH_LIST_SORTED = 4 ! each row in ascending order of j
@@ -2210,6 +2210,20 @@ module sph_c
             import
             integer(c_int), value :: finding
             type(c_ptr) :: answer
+        end function
+        ! below which a pair is a neighbour
+        pure function sph_grid_pair_radius(criterion, R_i, R_j) &
+            bind(c, name='sph_shim_grid_pair_radius') result(answer)
+            import
+            integer(c_int), value :: criterion
+            real(sph_real), value :: R_i, R_j
+            real(sph_real) :: answer
+        end function
+        ! x moved into a box
+        pure function sph_grid_wrap(x, low, length) bind(c, name='sph_shim_grid_wrap') result(answer)
+            import
+            real(sph_real), value :: x, low, length
+            real(sph_real) :: answer
         end function
         ! bytes of workspace for n sources, or 0
         pure function sph_grid_workspace(dim, n) bind(c, name='sph_shim_grid_workspace') result(answer)

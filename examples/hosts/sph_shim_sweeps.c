@@ -1549,6 +1549,14 @@ const char *sph_shim_finding_text(int finding)
 {
     return sph_finding_text(finding);
 }
+sph_real sph_shim_grid_pair_radius(int criterion, sph_real R_i, sph_real R_j)
+{
+    return sph_grid_pair_radius(criterion, R_i, R_j);
+}
+sph_real sph_shim_grid_wrap(sph_real x, sph_real low, sph_real length)
+{
+    return sph_grid_wrap(x, low, length);
+}
 size_t sph_shim_grid_workspace(int dim, sph_index n)
 {
     return sph_grid_workspace(dim, n);

@@ -59,6 +59,8 @@ SPH_SHIM_EXPORT sph_real sph_shim_resistivity_switch(sph_real h, sph_real change
 SPH_SHIM_EXPORT sph_real sph_shim_resistivity_pair(sph_real weight, sph_real alpha_speed, sph_real per_rho);
 SPH_SHIM_EXPORT sph_real sph_shim_gravity_pair(int kernel, sph_real r, sph_real h_i, sph_real h_j);
 SPH_SHIM_EXPORT sph_real sph_shim_gravity_zeta_value(sph_real h, sph_real rho, sph_real sum);
+SPH_SHIM_EXPORT sph_real sph_shim_grid_pair_radius(int criterion, sph_real R_i, sph_real R_j);
+SPH_SHIM_EXPORT sph_real sph_shim_grid_wrap(sph_real x, sph_real low, sph_real length);
 SPH_SHIM_EXPORT size_t sph_shim_grid_workspace(int dim, sph_index n);
 SPH_SHIM_EXPORT size_t sph_shim_search_size(int dim, sph_index n, int64_t pairs);
 

@@ -137,6 +137,9 @@ if usable "$opencl" "$platforms" '' "$CC -std=c99 $warn -O2" -lOpenCL -lm; then
         # shellcheck disable=SC2086
         built OpenCL "$scratch/host_opencl-$single" $CC -std=c99 $warn -O2 -DSPH_SINGLE=$single -I. $hosts/host_opencl.c -o "$scratch/host_opencl-$single" -lOpenCL -lm || continue
         for version in CL1.2 CL3.0; do run "OpenCL, $version, SPH_SINGLE=$single" "$scratch/host_opencl-$single" $version; done
+        # shellcheck disable=SC2086
+        built "OpenCL, lists" "$scratch/lists-$single" $CC -std=c99 $warn -O2 -DSPH_SINGLE=$single -I. $hosts/host_opencl_lists.c -o "$scratch/lists-$single" -lOpenCL -lm &&
+            run "OpenCL, lists made on the device, SPH_SINGLE=$single" "$scratch/lists-$single"
     done
 fi
 

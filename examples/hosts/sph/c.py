@@ -1643,6 +1643,8 @@ FUNCTIONS = {
         ("out", sph_findings),
     ]),
     "finding_text": (c_char_p, [("finding", c_int)]),
+    "grid_pair_radius": (c_double, [("criterion", c_int), ("R_i", c_double), ("R_j", c_double)]),
+    "grid_wrap": (c_double, [("x", c_double), ("low", c_double), ("length", c_double)]),
     "grid_workspace": (c_size_t, [("dim", c_int), ("n", c_int32)]),
     "grid_build": (c_int32, [
         ("dim", c_int),
