@@ -111,9 +111,10 @@
 #endif
 
 /* ================================================================ the arithmetic of a grid
-
-   For those who make lists themselves: on a device (in OpenCL C this is all that there is of this header), or
-   with a grid of their own. Cells are counted along each axis, and in 64 bits. */
+ *
+ * For those who make lists themselves: on a device (in OpenCL C this is all that there is of this header), or
+ * with a grid of their own. Cells are counted along each axis, and in 64 bits.
+ */
 
 #if SPH_OPENCL
 #define SPHI_INT64 long
@@ -137,7 +138,8 @@ typedef enum sph_criterion {
     SPH_LARGER,  /* r < max(R_i, R_j) */
     SPH_MEAN     /* r < (R_i + R_j) / 2 */
 } sph_criterion;
-/* The distance below which a pair is a neighbour, by a criterion (an sph_criterion). */
+/* The distance below which a pair with the support radii R_i and R_j is a neighbour, by a criterion (an
+   sph_criterion). */
 SPH_FN sph_real sph_grid_pair_radius(int criterion, sph_real R_i, sph_real R_j)
 {
     switch (criterion) {
@@ -151,14 +153,16 @@ SPH_FN sph_real sph_grid_pair_radius(int criterion, sph_real R_i, sph_real R_j)
         return R_i;
     }
 }
-/* The number of a cell along an axis, within [0, cells). It never falls as x rises, so all particles between
+/* The number of the cell of the place x along an axis, within [0, cells). The cells begin at low and have the
+   width 1 / inverse_width; the first and the last take what lies beyond. It never falls as x rises, so all particles between
    x - radius and x + radius are in the cells between those of these two ends. */
 SPH_FN SPHI_INT64 sph_grid_cell(sph_real x, sph_real low, sph_real inverse_width, SPHI_INT64 cells)
 {
     const sph_real c = (x - low) * inverse_width, last = (sph_real)(cells - 1);
     return c > SPH_R(0) ? (c < last ? (SPHI_INT64)c : cells - 1) : 0;
 }
-/* The same along a periodic axis, for the ends of a search range, which may lie outside of the box. */
+/* The same along a periodic axis, for x at the ends of a search range, which may lie outside of the box: cells
+   of the width 1 / inverse_width, the one that begins at low having the number 0. */
 SPH_FN SPHI_INT64 sph_grid_cell_periodic(sph_real x, sph_real low, sph_real inverse_width)
 {
     const sph_real c = (x - low) * inverse_width;
@@ -2253,16 +2257,17 @@ SPH_FN sph_index sph_search(int dim, sph_points points, sph_scalars radius, int 
 }
 
 /* ================================================================ parts of a cloud, on several machines
-
-   Each machine owns some particles, its targets. It needs copies of those of the others that are neighbours
-   of its targets: they stand behind its own ones, and are sources only. What goes where is the host's
-   business; which particles are needed is decided here:
-
-       sph_part_of(dim, own, radius, &mine);                      where my targets are, and how far they reach
-       ... each machine tells the others its sph_part ...
-       sph_select_near(dim, own, radius, criterion, part[k], chosen, &count);      what part k needs of mine
-
-   A copy is sent once, and as it is: a periodic box finds its images. */
+ *
+ * Each machine owns some particles, its targets. It needs copies of those of the others that are neighbours
+ * of its targets: they stand behind its own ones, and are sources only. What goes where is the host's
+ * business; which particles are needed is decided here:
+ *
+ *     sph_part_of(dim, own, radius, &mine);                      where my targets are, and how far they reach
+ *     ... each machine tells the others its sph_part ...
+ *     sph_select_near(dim, own, radius, criterion, part[k], chosen, &count);      what part k needs of mine
+ *
+ * A copy is sent once, and as it is: a periodic box finds its images.
+ */
 
 /* Where the points of a part are, and how far their radii reach: two boxes along the axes. low > high if the
    part is empty. Numbers only, so that it can be sent to other machines. */
@@ -2399,10 +2404,10 @@ SPH_FN sph_index sph_list_prune(sph_index n, sph_index n_total, const sph_index 
     *count = next;
     return 0;
 }
-/* Puts each of the rows of n targets into the order of the keys of its sources, of which there are n_total.
-   With keys that belong to the particles (global numbers, of 64 bits) sums have the same roundings on any
-   number of machines. Null: by the numbers of the sources here. Entries with equal keys come in any order.
-   Returns 0 or a negative sph_error. */
+/* Puts each of the rows of n targets (start, index) into the order of the key of its sources, of which there
+   are n_total. With keys that belong to the particles (global numbers, of 64 bits) sums have the same roundings
+   on any number of machines. A null key stands for the number of the source here. Entries with equal keys come
+   in any order. Returns 0 or a negative sph_error. */
 SPH_FN sph_index sph_list_sort(sph_index n, sph_index n_total, const sph_index *start, sph_index *index,
                                const int64_t *key)
 {
