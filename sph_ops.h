@@ -8542,7 +8542,7 @@ SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_cloud cloud, sph_mhd s
  *     IAD   a_i     = -sum_j m_j (P_i / rho_i^2 A_i + P_j / rho_j^2 A_j),
  * where A_i = C_i x_ji W_ij(h_i) and A_j = C_j x_ji W_ij(h_j) (see sph_gradient_iad). What conservation
  * costs, on 80 x 80 particles in a periodic box (cubic spline, h = 1.4 dx, V = 1 / sum W): the force that is
- * left of a uniform pressure, rms of |a| h rho / P, means of three seeds (tests/test_reproducing.c).
+ * left of a uniform pressure, rms of |a| h rho / P, means of three seeds (tests/test_conservation_cost.c).
  *                               jitter 0.2 dx   300 shifts   300 shifts, tensile term
  *     P / rho^2, symmetric          0.160         0.0060         0.0019
  *     CRK pair                      0.071         0.0070         0.0003

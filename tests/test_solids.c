@@ -3,6 +3,8 @@
  * test_solids.c - solids in total Lagrangian form: affine maps and rotations are exact, laws are derivatives of their energies, momentum and angular momentum (without L in the force
  * the latter is lost), power, the force of a linear stress, hourglass control, a row of particles in the plane.
  */
+#include "one_copy.h"
+
 #include "../sph.h"
 #include "check.h"
 #include "clouds.h"
