@@ -4390,7 +4390,7 @@ SPH_FN int sphi_tensor_solve(sph_kernel k, int dim, const sphi_elliptic *a, sph_
     const sph_real h_i = sphi_at(a->cloud.h, i);
     sph_sym moment = {SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0)}, inverse = moment;
     sph_vec n[SPHI_MAX], third[SPHI_MAX];
-    sph_real q[SPHI_MAX] = {SPH_R(0)}, pivot;
+    sph_real q[SPHI_MAX] = {SPH_R(0)}, pivot, size;
     sph_shepard none;
     sphi_lu lu;
     sph_index p;
@@ -4419,11 +4419,13 @@ SPH_FN int sphi_tensor_solve(sph_kernel k, int dim, const sphi_elliptic *a, sph_
     }
     if (!many || sph_solve_gradient(dim, moment, &inverse, &pivot))
         return sphi_singular_status(k, dim, i, a->cloud.points, a->cloud.list, h_i, dim);
+    /* T is compared with the trace of K, which has its size. */
+    size = SPH_R(1) / sphi_trace(dim, moment);
     for (s = 0; s < many; s++) {
         t->kn[s] = sphi_sym_times(dim, inverse, n[s]);
         for (r = 0; r < many; r++) {
-            lu.a[r][s] -= sph_dot(dim, third[r], t->kn[s]);
-            t->inverse[r * many + s] = r == s ? SPH_R(1) : SPH_R(0);
+            lu.a[r][s] = (lu.a[r][s] - sph_dot(dim, third[r], t->kn[s])) * size;
+            t->inverse[r * many + s] = r == s ? size : SPH_R(0);
         }
     }
     sphi_lu_factor(many, &lu);
@@ -4520,7 +4522,7 @@ SPH_FN sph_index sph_elliptic_tensor(sph_kernel k, int dim, sph_cloud cloud, sph
     return sphi_elliptic_tensor(k, dim, cloud, mobility, &u, out, none);
 }
 /* The same as rows, with the factor 1. conditioning is the smallest pivot of K (scaled to a unit diagonal)
-   and T. */
+   and T / tr K. */
 SPH_FN sph_index sph_elliptic_rows_tensor(sph_kernel k, int dim, sph_cloud cloud, sph_matrices mobility,
                                           sph_rows_out out)
 {
