@@ -4393,7 +4393,7 @@ SPH_FN int sphi_tensor_solve(sph_kernel k, int dim, const sphi_elliptic *a, sph_
     const sph_real h_i = sphi_at(a->cloud.h, i);
     sph_sym moment = {SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0), SPH_R(0)}, inverse = moment;
     sph_vec n[SPHI_MAX], third[SPHI_MAX];
-    sph_real q[SPHI_MAX] = {SPH_R(0)}, pivot;
+    sph_real q[SPHI_MAX] = {SPH_R(0)}, pivot, size;
     sph_shepard none;
     sphi_lu lu;
     sph_index p;
@@ -4422,11 +4422,13 @@ SPH_FN int sphi_tensor_solve(sph_kernel k, int dim, const sphi_elliptic *a, sph_
     }
     if (!many || sph_solve_gradient(dim, moment, &inverse, &pivot))
         return sphi_singular_status(k, dim, i, a->cloud.points, a->cloud.list, h_i, dim);
+    /* T is compared with the trace of K, which has its size. */
+    size = SPH_R(1) / sphi_trace(dim, moment);
     for (s = 0; s < many; s++) {
         t->kn[s] = sphi_sym_times(dim, inverse, n[s]);
         for (r = 0; r < many; r++) {
-            lu.a[r][s] -= sph_dot(dim, third[r], t->kn[s]);
-            t->inverse[r * many + s] = r == s ? SPH_R(1) : SPH_R(0);
+            lu.a[r][s] = (lu.a[r][s] - sph_dot(dim, third[r], t->kn[s])) * size;
+            t->inverse[r * many + s] = r == s ? size : SPH_R(0);
         }
     }
     sphi_lu_factor(many, &lu);
@@ -4523,7 +4525,7 @@ SPH_FN sph_index sph_elliptic_tensor(sph_kernel k, int dim, sph_cloud cloud, sph
     return sphi_elliptic_tensor(k, dim, cloud, mobility, &u, out, none);
 }
 /* The same as rows, with the factor 1. conditioning is the smallest pivot of K (scaled to a unit diagonal)
-   and T. */
+   and T / tr K. */
 SPH_FN sph_index sph_elliptic_rows_tensor(sph_kernel k, int dim, sph_cloud cloud, sph_matrices mobility,
                                           sph_rows_out out)
 {
@@ -8722,7 +8724,7 @@ SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_cloud cloud, sph_mhd s
  *     IAD   a_i     = -sum_j m_j (P_i / rho_i^2 A_i + P_j / rho_j^2 A_j),
  * where A_i = C_i x_ji W_ij(h_i) and A_j = C_j x_ji W_ij(h_j) (see sph_gradient_iad). What conservation
  * costs, on 80 x 80 particles in a periodic box (cubic spline, h = 1.4 dx, V = 1 / sum W): the force that is
- * left of a uniform pressure, rms of |a| h rho / P, means of three seeds (tests/test_reproducing.c).
+ * left of a uniform pressure, rms of |a| h rho / P, means of three seeds (tests/test_conservation_cost.c).
  *                               jitter 0.2 dx   300 shifts   300 shifts, tensile term
  *     P / rho^2, symmetric          0.160         0.0060         0.0019
  *     CRK pair                      0.071         0.0070         0.0003
@@ -9532,17 +9534,23 @@ SPH_FN sph_index sph_gravity_correction(sph_kernel k, sph_cloud cloud, sph_mediu
  *   angular momentum  the torque on all is that of sum_i V_i P_i F_i^T, which is symmetric for every law that
  *                     does not depend on the observer. Without L_i and L_j in the force it is lost;
  *   energy            sum_i V_i P_i : dF_i/dt = -sum_i m_i a_i . v_i: what the stress takes the motion loses.
- * A checkerboard of displacements leaves F inside as it is, so that stress does not see it. The hourglass
- * control of Ganzenmueller pulls every pair towards the distance that F tells: with
- * d_i = (F_i X_ij - x_ij) . x_ij / |x_ij|, which is negative where the pair is too far apart,
- *     a_i += 1 / rho_i sum_j V_j alpha / 2 E W_ij / |X_ij|^2 (d_i + d_j) x_ij / |x_ij|.
- * It is central, so that both momenta are kept; it is 0 for affine maps, and is no derivative of an energy.
+ * A checkerboard of displacements leaves F inside as it is, so that stress does not see it. Hourglass control
+ * pulls every pair towards the place that F tells, with e_i = F_i X_ij - x_ij, the rest that F does not
+ * explain:
+ *     a_i += 1 / rho_i sum_j V_j alpha / 2 (E_i (-F_ij(h_i)) e_i + E_j (-F_ij(h_j)) e_j).
+ * It is the derivative of the energy sum_ij V_i V_j alpha / 4 E_i (-F_ij(h_i)) |e_i|^2: F_i is the matrix
+ * that makes this energy least, because L stands in it, so that no derivative of F appears. So energy and
+ * both momenta are kept, and it is 0 for affine maps. The form of Ganzenmueller 2015, with W_ij / |X_ij|^2 in
+ * the place of -F_ij and the part of e along the pair alone, keeps the momenta, but feeds energy into bodies
+ * that are not damped (examples/solids/solids_torque.c: 2.6 times the energy after 2000 steps, where this
+ * form keeps it).
  *
  * The order of a step: sph_deformation_gradient, the law for each particle, sph_solid_acceleration; then v,
  * then x. The longest step is about that of sph_time_step_sound with sph_sound_speed_elastic.
  *
  * Sources: Randles & Libersky 2000, IJNME 48, 1445; Vignjevic, Reveles & Campbell 2006, CMES 14, 181;
- * Ganzenmueller 2015, CMAME 286, 87 (hourglass control).
+ * Ganzenmueller 2015, CMAME 286, 87 (hourglass control); Silling 2017, CMAME 322, 42 (the form with an
+ * energy, in peridynamics).
  */
 
 /* -------- solids: laws and pair functions */
@@ -9657,18 +9665,17 @@ SPH_FN sph_vec sph_stress_pair(int dim, sph_solid_side i, sph_solid_side j, sph_
         dim, sph_mat_times(dim, i.stress, sph_scale(weight * f.f_i, sph_mat_times(dim, i.inverse, x0_ij))),
         sph_mat_times(dim, j.stress, sph_scale(weight * f.f_j, sph_mat_times(dim, j.inverse, x0_ij))));
 }
-/* By hourglass control: weight (E_i + E_j) / 4 (d_i + d_j) / |X_ij|^2 x_ij / |x_ij| with X_ij = x0_ij and
-   weight = alpha V_j W / rho_i (see the beginning of this chapter). A pair that is too far apart attracts. It
-   is 0 where particles coincide. inverse and stress are not read. */
+/* By hourglass control: weight / 2 (E_i (-f_i) e_i + E_j (-f_j) e_j) with e_i = F_i X_ij - x_ij, X_ij = x0_ij
+   and weight = alpha V_j / rho_i (see the beginning of this chapter). A pair that is too far apart attracts.
+   inverse and stress are not read. */
 SPH_FN sph_vec sph_hourglass_pair(int dim, sph_solid_side i, sph_solid_side j, sph_real weight, sph_vec x0_ij,
-                                  sph_vec x_ij)
+                                  sph_vec x_ij, sph_pair_kernel f)
 {
-    const sph_vec told =
-        sphi_plus(dim, sph_mat_times(dim, i.gradient, x0_ij), sph_mat_times(dim, j.gradient, x0_ij));
-    const sph_real r = sph_length(dim, x_ij), per_r = SPH_R(1) / (r + SPHI_TINY),
-                   off = sph_dot(dim, told, x_ij) * per_r - SPH_R(2) * r,
-                   stiffness = SPH_R(0.25) * (i.modulus + j.modulus);
-    return sph_scale(weight * stiffness * off * per_r / (sph_dot(dim, x0_ij, x0_ij) + SPHI_TINY), x_ij);
+    const sph_vec e_i = sph_subtract(dim, sph_mat_times(dim, i.gradient, x0_ij), x_ij),
+                  e_j = sph_subtract(dim, sph_mat_times(dim, j.gradient, x0_ij), x_ij);
+    const sph_real half_weight = SPH_R(-0.5) * weight;
+    return sphi_plus(dim, sph_scale(half_weight * i.modulus * f.f_i, e_i),
+                     sph_scale(half_weight * j.modulus * f.f_j, e_j));
 }
 
 /* -------- solids: sweeps
@@ -9773,9 +9780,8 @@ SPH_FN sph_index sphi_solid_range(int controlled, int uniform, sph_kernel k, int
             sph_vec c = sph_stress_pair(dim, own, other, weight, x0_ij, f);
             if (controlled) {
                 const sph_vec x_ij = sphi_separation(dim, s->x, x_i, sphi_point(dim, s->x, j));
-                const sph_real w = sph_kernel_w(k, dim, f.r, sphi_mean_h(uniform, cloud.h, h_i, j));
                 c = sphi_plus(dim, c,
-                              sph_hourglass_pair(dim, own, other, s->hourglass * weight * w, x0_ij, x_ij));
+                              sph_hourglass_pair(dim, own, other, s->hourglass * weight, x0_ij, x_ij, f));
             }
             ax += c.x;
             if (dim > 1) ay += c.y;

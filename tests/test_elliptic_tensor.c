@@ -3,6 +3,8 @@
  * test_elliptic_tensor.c - div(M grad u) for a full tensor M: exact for quadratic fields at every particle and for any orientation, also in disorder and at boundaries; of second order
  * for smooth M; rows and applied form agree; the operator for a diagonal M as negative control.
  */
+#include "one_copy.h"
+
 #include "../sph.h"
 #include "check.h"
 #include "clouds.h"
