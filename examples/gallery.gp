@@ -81,6 +81,23 @@ if (there("dam_break")) {
     unset multiplot
 }
 
+if (there("delta_dam")) {
+    set terminal pngcairo size 600,400 font "sans,10"
+    set output "delta_dam.png"
+    set multiplot layout 2,2 title "the pressure of a dam that breaks: plain, and with density diffusion and shifting"
+    set xrange [-0.3:4.3]
+    set yrange [-0.3:2.2]
+    set cbrange [0:1.5]
+    do for [s = 0:1] {
+        do for [k = 1:2] {
+            set title sprintf("%s, t = %.1f sqrt(A / g)", s ? "smooth" : "plain", 1.2 * k)
+            plot csv("delta_dam") using ($1 == s && abs($2 - 1.2 * k) < 0.1 && $8 < 0.5 ? $3 : NaN):4 every ::1 pointtype dots pointsize 0.2 linecolor rgb "#888888", \
+                "" using ($1 == s && abs($2 - 1.2 * k) < 0.1 && $8 > 0.5 ? $3 : NaN):4:($7 < 0 ? 0 : $7) every ::1 pointtype dots pointsize 0.45 palette
+        }
+    }
+    unset multiplot
+}
+
 if (there("heat_plate")) {
     set terminal pngcairo size 600,250 font "sans,10"
     set output "heat_plate.png"
