@@ -154,15 +154,15 @@ SPH_FN sph_real sph_grid_pair_radius(int criterion, sph_real R_i, sph_real R_j)
     }
 }
 /* The number of the cell of the place x along an axis, within [0, cells). The cells begin at low and have the
-   width 1 / inverse_width; the first and the last take what lies beyond. It never falls as x rises, so all particles between
-   x - radius and x + radius are in the cells between those of these two ends. */
+   width 1 / inverse_width; the first and the last take what lies beyond. It never falls as x rises, so all
+   particles between x - radius and x + radius are in the cells between those of these two ends. */
 SPH_FN SPHI_INT64 sph_grid_cell(sph_real x, sph_real low, sph_real inverse_width, SPHI_INT64 cells)
 {
     const sph_real c = (x - low) * inverse_width, last = (sph_real)(cells - 1);
     return c > SPH_R(0) ? (c < last ? (SPHI_INT64)c : cells - 1) : 0;
 }
-/* The same along a periodic axis, for x at the ends of a search range, which may lie outside of the box: cells
-   of the width 1 / inverse_width, the one that begins at low having the number 0. */
+/* The same along a periodic axis, for x at the ends of a search range, which may lie outside of the box:
+   cells of the width 1 / inverse_width, the one that begins at low having the number 0. */
 SPH_FN SPHI_INT64 sph_grid_cell_periodic(sph_real x, sph_real low, sph_real inverse_width)
 {
     const sph_real c = (x - low) * inverse_width;
@@ -2405,9 +2405,9 @@ SPH_FN sph_index sph_list_prune(sph_index n, sph_index n_total, const sph_index 
     return 0;
 }
 /* Puts each of the rows of n targets (start, index) into the order of the key of its sources, of which there
-   are n_total. With keys that belong to the particles (global numbers, of 64 bits) sums have the same roundings
-   on any number of machines. A null key stands for the number of the source here. Entries with equal keys come
-   in any order. Returns 0 or a negative sph_error. */
+   are n_total. With keys that belong to the particles (global numbers, of 64 bits) sums have the same
+   roundings on any number of machines. A null key stands for the number of the source here. Entries with
+   equal keys come in any order. Returns 0 or a negative sph_error. */
 SPH_FN sph_index sph_list_sort(sph_index n, sph_index n_total, const sph_index *start, sph_index *index,
                                const int64_t *key)
 {
