@@ -762,7 +762,7 @@ class Operators:
         """sph_elliptic_rows_tensor.
 
         The same as rows, with the factor 1. conditioning is the smallest pivot of K (scaled to a unit
-        diagonal) and T.
+        diagonal) and T / tr K.
 
         (What is the same: see elliptic_tensor.)
         """
@@ -2244,10 +2244,10 @@ class Operators:
     def list_sort(self, n: int, n_total: int, start: Indices, key: Scalars) -> Any:
         """sph_list_sort: rows in the order of the host's keys
 
-        Puts each of the rows of n targets into the order of the keys of its sources, of which there are
-        n_total. With keys that belong to the particles (global numbers, of 64 bits) sums have the same
-        roundings on any number of machines. Null: by the numbers of the sources here. Entries with equal keys
-        come in any order. Returns 0 or a negative sph_error.
+        Puts each of the rows of n targets (start, index) into the order of the key of its sources, of which
+        there are n_total. With keys that belong to the particles (global numbers, of 64 bits) sums have the
+        same roundings on any number of machines. A null key stands for the number of the source here. Entries
+        with equal keys come in any order. Returns 0 or a negative sph_error.
         """
         return self._call("list_sort", locals())
 
@@ -2670,7 +2670,8 @@ def gravity_zeta_value(h: float, rho: float, sum: float) -> float:
 def grid_pair_radius(criterion: int, R_i: float, R_j: float) -> float:
     """sph_grid_pair_radius: below which a pair is a neighbour
 
-    The distance below which a pair is a neighbour, by a criterion (an sph_criterion).
+    The distance below which a pair with the support radii R_i and R_j is a neighbour, by a criterion (an
+    sph_criterion).
     """
     return _number("grid_pair_radius", criterion, R_i, R_j)
 
