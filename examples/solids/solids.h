@@ -228,6 +228,34 @@ static inline body_totals body_sums(const body *b)
     }
     return t;
 }
+/* Kinetic energy, that of Saint Venant & Kirchhoff, and that of the hourglass control. */
+static inline double body_energy(const body *b)
+{
+    double sum = body_sums(b).kinetic;
+    int i, r, c, k;
+    sph_index p;
+    for (i = 0; i < b->n; i++) {
+        const double *const F = b->gradient + 4 * i;
+        double trace = 0, square = 0;
+        for (r = 0; r < 2; r++)
+            for (c = 0; c < 2; c++) {
+                double e = r == c ? -0.5 : 0;
+                for (k = 0; k < 2; k++) e += 0.5 * F[2 * k + r] * F[2 * k + c];
+                trace += r == c ? e : 0;
+                square += e * e;
+            }
+        sum += b->volume[i] * (0.5 * b->elastic.first * trace * trace + b->elastic.shear * square);
+        for (p = b->cloud.list.start[i]; p < b->cloud.list.start[i + 1]; p++) {
+            const sph_index j = b->cloud.list.index[p];
+            const double X = b->X[0][i] - b->X[0][j], Y = b->X[1][i] - b->X[1][j];
+            const double ex = F[0] * X + F[1] * Y - b->x[0][i] + b->x[0][j],
+                         ey = F[2] * X + F[3] * Y - b->x[1][i] + b->x[1][j];
+            sum -= 0.25 * b->hourglass * b->young * b->volume[i] * b->volume[j] *
+                   sph_kernel_f(BODY_KERNEL, 2, hypot(X, Y), b->h) * (ex * ex + ey * ey);
+        }
+    }
+    return sum;
+}
 /* Von Mises' measure of the Cauchy stress P F^T / J, in plane strain with the stress across left out. */
 static inline double body_mises(const body *b, int i)
 {

@@ -58,34 +58,6 @@ static double torque(int state, int plain, double *force)
     body_close(&b);
     return fabs(t.torque) / (0.5 * t.force);
 }
-/* kinetic energy, that of the law, and that of the hourglass control */
-static double energy(const body *b)
-{
-    double sum = body_sums(b).kinetic;
-    int i, r, c, k;
-    sph_index p;
-    for (i = 0; i < b->n; i++) {
-        const double *const F = b->gradient + 4 * i;
-        double trace = 0, square = 0;
-        for (r = 0; r < 2; r++)
-            for (c = 0; c < 2; c++) {
-                double e = r == c ? -0.5 : 0;
-                for (k = 0; k < 2; k++) e += 0.5 * F[2 * k + r] * F[2 * k + c];
-                trace += r == c ? e : 0;
-                square += e * e;
-            }
-        sum += b->volume[i] * (0.5 * b->elastic.first * trace * trace + b->elastic.shear * square);
-        for (p = b->cloud.list.start[i]; p < b->cloud.list.start[i + 1] && !b->push; p++) {
-            const sph_index j = b->cloud.list.index[p];
-            const double X = b->X[0][i] - b->X[0][j], Y = b->X[1][i] - b->X[1][j];
-            const double ex = F[0] * X + F[1] * Y - b->x[0][i] + b->x[0][j],
-                         ey = F[2] * X + F[3] * Y - b->x[1][i] + b->x[1][j];
-            sum -= 0.25 * b->hourglass * b->young * b->volume[i] * b->volume[j] *
-                   sph_kernel_f(BODY_KERNEL, 2, hypot(X, Y), b->h) * (ex * ex + ey * ey);
-        }
-    }
-    return sum;
-}
 /* f = alpha / 2 E V_i V_j W / |X|^2 (d_i + d_j) x_ij / |x_ij|, d_i = (F_i X_ij - x_ij) . x_ij / |x_ij|; the coefficient
    that others stands for. */
 static void push_ganzenmueller(body *b)
@@ -124,11 +96,11 @@ static void turn(int form, int full, double *angular, double *left)
     }
     body_forces(&b);
     before = body_sums(&b).angular;
-    start = energy(&b);
+    start = body_energy(&b);
     dt = 0.5 * body_time_step(&b);
     for (step = 0; step < (full ? 20000 : 2000); step++) body_step(&b, dt);
     *angular = body_sums(&b).angular / before;
-    *left = energy(&b) / start;
+    *left = body_energy(&b) / start;
     body_close(&b);
 }
 
