@@ -73,7 +73,18 @@ typedef struct cloud {
 #define SHIFT 14
 #define SHIFT_RATES 15
 #define TRANSPORT 16
-#define OPERATORS 17
+#define MORRIS 17
+#define ESPANOL 18
+#define RIEMANN 19
+#define CSS 20
+#define CSF 21
+#define WALL 22
+#define WALL_ROWS 23
+#define FIT 24
+#define PLAIN_GRADIENT 25
+#define WALL_GRADIENT 26
+#define FACTOR 27
+#define OPERATORS 28
 enum { OUTPUTS = 11 };
 typedef struct outputs {
     sph_real *g[OUTPUTS], *row;
@@ -279,6 +290,43 @@ static sph_index sweep_range(int which, sph_index first, sph_index last, const c
             (sph_transport_out){a, sph_vector_out_separate(o->g[3], o->g[4], o->g[5]), 0});
     }
 #endif
+#if BENCH_SWEEPS > FACTOR
+    case MORRIS:
+    case ESPANOL:
+    case RIEMANN: {
+        const sph_fluid fluid = fluid_of(V, f, SPH_VISCOSITY_NONE);
+        if (which == MORRIS) return sph_viscosity_mu_morris(KERNEL, 3, targets, fluid, V, a);
+        if (which == ESPANOL) return sph_viscosity_mu_espanol_revenga(KERNEL, 3, targets, fluid, (sph_shear_bulk){V, V}, a);
+        return sph_fluid_rates_riemann(KERNEL, 3, targets, fluid, (sph_riemann_options){0},
+                                       (sph_fluid_out){.acceleration = a, .rate = o->g[3], .heating = o->g[4]});
+    }
+    case CSS:
+    case CSF: {
+        const sph_tension t = {.rho = V, .normal = sph_vectors_separate(c->f, c->f, c->f), .sigma = SPH_R(1)};
+        return which == CSS ? sph_tension_css(KERNEL, 3, targets, t, a)
+                            : sph_tension_csf(KERNEL, 3, targets, t, (sph_tension_out){.acceleration = a, .curvature = o->g[3]});
+    }
+    case WALL:
+    case WALL_ROWS: {
+        const sph_vectors v = sph_vectors_separate(c->f, c->f, c->f);
+        const sph_wall wall = {.share = V, .rho = V, .p = f, .v = v, .velocity = v};
+        if (which == WALL) return sph_wall_adami(KERNEL, 3, targets, wall, (sph_wall_out){.p = o->g[3], .v = a});
+        return sph_wall_rows_adami(KERNEL, 3, targets, wall, (sph_rows_out){.row = o->row}, sph_scalar_out_array(o->g[0], 0));
+    }
+    case FIT:
+        return sph_interpolate_mls(KERNEL, 3, targets, (sph_sources){x, V}, f, (sph_interpolation_options){0},
+                                   (sph_interpolation_out){.value = o->g[3], .gx = o->g[0], .gy = o->g[1], .gz = o->g[2]});
+    case PLAIN_GRADIENT:
+        return sph_gradient_difference(KERNEL, 3, targets, f, a);
+    case WALL_GRADIENT: {
+        const sph_wall_terms wall = {.gamma = V, .gradient = sph_vectors_separate(c->f, c->f, c->f), .value = f};
+        return sph_wall_gradient(KERNEL, 3, targets, wall, f, a);
+    }
+    case FACTOR: {
+        const sph_fluid fluid = fluid_of(V, f, SPH_VISCOSITY_NONE);
+        return sph_pressure_factor_dfsph(KERNEL, 3, targets, fluid, sph_scalars_none(), sph_scalar_out_array(o->g[0], 0));
+    }
+#endif
     default:
         return SPH_ERROR_VALUE;
     }
@@ -354,7 +402,18 @@ static const struct {
                           {"free surface", 1, 5, 0},
                           {"shift", 1, 3, 0},
                           {"rates of shifting", 2, 4, 0},
-                          {"transport velocity", 2, 6, 0}};
+                          {"transport velocity", 2, 6, 0},
+                          {"Morris's viscosity", 2, 3, 0},
+                          {"Espanol & Revenga's viscosity", 2, 3, 0},
+                          {"Riemann solver", 2, 5, 0},
+                          {"tension by the stress", 2, 3, 0},
+                          {"tension by the curvature", 2, 4, 0},
+                          {"wall particles", 2, 4, 0},
+                          {"rows of wall particles", 1, 1, 1},
+                          {"linear fit", 2, 4, 0},
+                          {"plain gradient", 2, 3, 0},
+                          {"gradient with gamma", 2, 3, 0},
+                          {"factor of DFSPH", 1, 1, 0}};
 
 static void stop(const char *why, long code)
 {
@@ -512,7 +571,7 @@ static void cloud_free(cloud *c)
 /* ---------------------------------------------------------------- tasks */
 
 enum { SEARCH, PEER, SWEEP, REFERENCE, COPY };
-enum { TASKS = 64, CACHED = 2048 };
+enum { TASKS = 128, CACHED = 2048 };
 
 typedef struct task {
     int kind, which, threads, calls;

@@ -237,6 +237,23 @@ speed_tables() {
             printf "| %s | %.0f | %.2f | %s | %.1f | %.0f | %s | %s | %s |\n", c[3], a, a / m[sweep[k]], cell(a / m[sweep[k]], wf[c[1]]), bytes[sweep[k]] / m[sweep[k]],
                 100 * bytes[sweep[k]] / copy[c[1], c[2]] / a, cell(t[sweep[k], "main,1,random"], a), cell(t[sweep[k], "checked,1,sorted"], a), cell(t[sweep[k], "threads,1,sorted"], t[sweep[k], "threads,2,sorted"])
         }
+        print "\n## Beside the sweep that moves the same data\n"
+        print "Time, relative to that of a sweep that reads and writes about the same; sorted, one thread."
+        several = split("with Molteni\047s diffusion=density rate;with Antuono\047s diffusion=density rate;with Antuono\047s diffusion=fluid rates;" \
+            "Espanol & Revenga\047s viscosity=Morris\047s viscosity;Riemann solver=fluid rates;tension by the stress=acceleration by pressure;" \
+            "tension by the curvature=density rate;rows of wall particles=wall particles;linear fit=corrected gradient;" \
+            "gradient with gamma=plain gradient;factor of DFSPH=plain gradient", beside, ";")
+        p = ""
+        for (k = 1; k <= sweeps; k++) {
+            split(sweep[k], c, FS)
+            if (c[1] FS c[2] == p) continue
+            p = c[1] FS c[2]
+            printf "\n### %s, n = %s\n\n| operator | beside | time |\n|---|---|---|\n", c[1], c[2]
+            for (r = 1; r <= several; r++) {
+                split(beside[r], two, "=")
+                printf "| %s | %s | %s |\n", two[1], two[2], cell(t[p FS two[1], "main,1,sorted"], t[p FS two[2], "main,1,sorted"])
+            }
+        }
         exit wrong
     }' "$csv"
 }
