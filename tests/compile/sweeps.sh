@@ -50,6 +50,10 @@ END
             'riemann|sph_fluid_rates_riemann(SPH_WENDLAND_C2, D, x, fluid(x.volume, f), (sph_riemann_options){0}, (sph_fluid_out){.acceleration = sph_vector_out_separate(a, b, c), .rate = out.gx, .heating = out.gy})' \
             'css|sph_tension_css(SPH_WENDLAND_C2, D, x, (sph_tension){.rho = f, .normal = {f, f, f}, .sigma = 1}, sph_vector_out_separate(a, b, c))' \
             'csf|sph_tension_csf(SPH_WENDLAND_C2, D, x, (sph_tension){.rho = f, .normal = {f, f, f}, .sigma = 1}, (sph_tension_out){.acceleration = sph_vector_out_separate(a, b, c)})' \
+            'gas|sph_gas_rates(SPH_WENDLAND_C2, D, x, (sph_gas){.medium = {f, f, f}, .p = f, .u = f, .cs = f, .alpha = f, .v = {f, f, f}, .conductivity = SPH_CONDUCTIVITY_PRICE}, (sph_gas_out){.acceleration = sph_vector_out_separate(a, b, c)})' \
+            'shock|sph_shock_indicator(SPH_WENDLAND_C2, D, x, (sph_gas){.medium = {f, f, f}, .cs = f, .v = {f, f, f}}, f, (sph_shock_out){.ratio = a})' \
+            'velocity|sph_velocity_gradient_cspm(SPH_WENDLAND_C2, D, x, (sph_vectors){f, f, f}, (sph_velocity_gradient_out){.div = a})' \
+            'ohmic|sph_resistivity_ohmic(SPH_WENDLAND_C2, D, x, (sph_ohmic){.medium = {f, f, f}, .eta = f, .field = {f, f, f}}, (sph_ohmic_out){.rate_B = sph_vector_out_separate(a, b, c)})' \
             'wallgradient|sph_wall_gradient(SPH_WENDLAND_C2, D, x, (sph_wall_terms){.gamma = f, .gradient = {f, f, f}, .value = f}, f, sph_vector_out_separate(a, b, c))' \
             'walllaplacian|sph_wall_laplacian(SPH_WENDLAND_C2, D, x, (sph_wall_terms){.gamma = f, .gradient = {f, f, f}, .slope = {f, f, f}}, f, sph_scalar_out_array(a, 0))'; do
             name=sweep_${sweep%%|*}_$dim
@@ -88,7 +92,7 @@ sph_real sweep_control(sph_kernel k, const sph_real *r, int n)
 END
 
 for cc in gcc "gcc -DLISTS_ALONE -fopenmp-simd -DSPH_SIMD=1" clang; do
-    case $cc in *LISTS*) sweeps=48 ;; *) sweeps=57 ;; esac
+    case $cc in *LISTS*) sweeps=60 ;; *) sweeps=69 ;; esac
     usable "assembly of the sweeps by $cc" "$empty" '' "$cc -std=c99 -O2" || continue
     if [ "$($cc -dumpmachine | cut -d- -f1)" != x86_64 ]; then
         skip "assembly of the sweeps by $cc" "not for x86-64"
