@@ -116,6 +116,12 @@ module sph_c
     integer(c_int), parameter :: SPH_SURFACE_BAND = 1 ! look closer
     integer(c_int), parameter :: SPH_SURFACE_SPLASH = 2 ! lambda < 0.2: at the surface, or outside
 
+    ! sph_conductivity: Which speed v_u conducts heat, alpha_u v_u (u_i - u_j) / rho.
+    integer(c_int), parameter :: SPH_CONDUCTIVITY_NONE = 0
+    integer(c_int), parameter :: SPH_CONDUCTIVITY_PRICE = 1 ! sph_conductivity_speed: differences of pressure
+    ! |w|: nothing at rest, so that it may be used with gravity
+    integer(c_int), parameter :: SPH_CONDUCTIVITY_WADSLEY = 2
+
     ! sph_finding: What may be wrong. sph_finding_text explains each in words.
     integer(c_int), parameter :: SPH_FINDING_LIST_SHORT = 0 ! every row ends before the support does
     ! every row ends at h: h and the support are mixed up
@@ -585,6 +591,50 @@ module sph_c
         type(sph_scalars) :: m, rho, omega
     end type
 
+    ! The state of a gas, one number or vector for each particle, all sources.
+    type, bind(c) :: sph_gas
+        type(sph_medium) :: medium
+        ! pressure, thermal energy per mass, sound speed >= 0
+        type(sph_scalars) :: p, u, cs
+        ! coefficient of viscosity, 0 (none) to 1 or more. A pair takes the mean
+        type(sph_scalars) :: alpha
+        type(sph_vectors) :: v
+        ! of signal speed and conductivity; 2 and 1 are usual
+        real(sph_real) :: beta = 0.0_sph_real, alpha_u = 0.0_sph_real
+        ! which: an sph_conductivity. With SPH_CONDUCTIVITY_NONE alpha_u is not read
+        integer(c_int) :: conductivity = 0
+    end type
+
+    ! Where rates go. acceleration must be there; the other pointers may be null.
+    type, bind(c) :: sph_gas_out
+        type(sph_vector_out) :: acceleration
+        ! du/dt, div v in difference form, largest signal speed
+        type(c_ptr) :: rate_u = c_null_ptr, div_v = c_null_ptr, v_sig = c_null_ptr
+        ! of these three, in sph_real; 0 counts as 1
+        integer(c_size_t) :: stride = 0
+        type(c_ptr) :: status = c_null_ptr
+    end type
+
+    ! Where the gradient of the velocity goes, and what a switch needs of it (see sph_flow). Every pointer may
+    ! be null: x, y and z are the gradients of v_x, v_y and v_z, and not wanted where their first array is
+    ! null.
+    type, bind(c) :: sph_velocity_gradient_out
+        type(c_ptr) :: div = c_null_ptr, curl = c_null_ptr, shear = c_null_ptr, square = c_null_ptr
+        ! of these four, in sph_real; 0 counts as 1
+        integer(c_size_t) :: stride = 0
+        type(sph_vector_out) :: x, y, z
+        type(c_ptr) :: status = c_null_ptr
+    end type
+
+    ! Where the indicator of shocks goes. Each pointer may be null.
+    type, bind(c) :: sph_shock_out
+        ! R, and the signal speed of the switch
+        type(c_ptr) :: ratio = c_null_ptr, v_sig = c_null_ptr
+        ! of these two, in sph_real; 0 counts as 1
+        integer(c_size_t) :: stride = 0
+        type(c_ptr) :: status = c_null_ptr
+    end type
+
     ! The state of divergence cleaning, one number or vector for each particle, all sources.
     type, bind(c) :: sph_cleaning
         type(sph_medium) :: medium
@@ -604,6 +654,24 @@ module sph_c
         ! of these two
         integer(c_size_t) :: stride = 0
         ! may be null
+        type(c_ptr) :: status = c_null_ptr
+    end type
+
+    ! The state of a resistive medium, one number or vector for each particle, all sources.
+    type, bind(c) :: sph_ohmic
+        type(sph_medium) :: medium
+        ! resistivity >= 0 in length^2 / time, with mu_0 = 1: 1 / conductivity
+        type(sph_scalars) :: eta
+        ! B: three components if field.z has an array, else dim
+        type(sph_vectors) :: field
+    end type
+
+    ! Where its rates go. rate_u and status may be null.
+    type, bind(c) :: sph_ohmic_out
+        type(sph_vector_out) :: rate_B
+        type(c_ptr) :: rate_u = c_null_ptr
+        ! of rate_u, in sph_real; 0 counts as 1
+        integer(c_size_t) :: stride = 0
         type(c_ptr) :: status = c_null_ptr
     end type
 
@@ -1927,6 +1995,58 @@ module sph_c
             real(sph_real), value :: P_i, P_j, per_rho
             real(sph_real) :: answer
         end function
+        pure function sph_shock_pair(m_j, div_j, w_ij) bind(c, name='sph_shim_shock_pair') result(answer)
+            import
+            real(sph_real), value :: m_j, div_j, w_ij
+            real(sph_real) :: answer
+        end function
+        pure function sph_shock_value(sum, rho) bind(c, name='sph_shim_shock_value') result(answer)
+            import
+            real(sph_real), value :: sum, rho
+            real(sph_real) :: answer
+        end function
+        ! momentum, energy, div v, v_sig
+        function sph_gas_rates(kernel, dim, cloud, state, out) &
+            bind(c, name='sph_shim_gas_rates') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_gas), intent(in) :: state
+            type(sph_gas_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! div v, |curl v|, shear
+        function sph_velocity_gradient_difference(kernel, dim, cloud, medium, v, out) &
+            bind(c, name='sph_shim_velocity_gradient_difference') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_medium), intent(in) :: medium
+            type(sph_vectors), intent(in) :: v
+            type(sph_velocity_gradient_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! the same, exact for linear v
+        function sph_velocity_gradient_cspm(kernel, dim, cloud, v, out) &
+            bind(c, name='sph_shim_velocity_gradient_cspm') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_vectors), intent(in) :: v
+            type(sph_velocity_gradient_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! for switches of viscosity
+        function sph_shock_indicator(kernel, dim, cloud, state, div_v, out) &
+            bind(c, name='sph_shim_shock_indicator') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_gas), intent(in) :: state
+            type(sph_scalars), intent(in) :: div_v
+            type(sph_shock_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
         pure function sph_cleaning_sigma(dim) bind(c, name='sph_shim_cleaning_sigma') result(answer)
             import
             integer(c_int), value :: dim
@@ -1942,6 +2062,12 @@ module sph_c
             bind(c, name='sph_shim_resistivity_pair') result(answer)
             import
             real(sph_real), value :: weight, alpha_speed, per_rho
+            real(sph_real) :: answer
+        end function
+        pure function sph_time_step_resistivity(h, eta) &
+            bind(c, name='sph_shim_time_step_resistivity') result(answer)
+            import
+            real(sph_real), value :: h, eta
             real(sph_real) :: answer
         end function
         function sph_divergence_difference(kernel, dim, cloud, medium, field, out) &
@@ -1992,6 +2118,16 @@ module sph_c
             type(sph_cloud), intent(in) :: cloud
             type(sph_cleaning), intent(in) :: state
             type(sph_cleaning_out), intent(in) :: out
+            integer(sph_index) :: answer
+        end function
+        ! physical resistivity, with its heat
+        function sph_resistivity_ohmic(kernel, dim, cloud, state, out) &
+            bind(c, name='sph_shim_resistivity_ohmic') result(answer)
+            import
+            integer(c_int), value :: kernel, dim
+            type(sph_cloud), intent(in) :: cloud
+            type(sph_ohmic), intent(in) :: state
+            type(sph_ohmic_out), intent(in) :: out
             integer(sph_index) :: answer
         end function
         ! momentum, induction, energy, psi, div B, v_sig
@@ -2439,8 +2575,14 @@ contains
         type(sph_collision) :: sph_collision_here
         type(sph_collision_report) :: sph_collision_report_here
         type(sph_medium) :: sph_medium_here
+        type(sph_gas) :: sph_gas_here
+        type(sph_gas_out) :: sph_gas_out_here
+        type(sph_velocity_gradient_out) :: sph_velocity_gradient_out_here
+        type(sph_shock_out) :: sph_shock_out_here
         type(sph_cleaning) :: sph_cleaning_here
         type(sph_cleaning_out) :: sph_cleaning_out_here
+        type(sph_ohmic) :: sph_ohmic_here
+        type(sph_ohmic_out) :: sph_ohmic_out_here
         type(sph_mhd) :: sph_mhd_here
         type(sph_mhd_out) :: sph_mhd_out_here
         type(sph_rk) :: sph_rk_here
@@ -2551,10 +2693,22 @@ contains
             c_struct_size('sph_collision_report'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_medium_here) == &
             c_struct_size('sph_medium'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_gas_here) == &
+            c_struct_size('sph_gas'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_gas_out_here) == &
+            c_struct_size('sph_gas_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_velocity_gradient_out_here) == &
+            c_struct_size('sph_velocity_gradient_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_shock_out_here) == &
+            c_struct_size('sph_shock_out'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_cleaning_here) == &
             c_struct_size('sph_cleaning'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_cleaning_out_here) == &
             c_struct_size('sph_cleaning_out'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_ohmic_here) == &
+            c_struct_size('sph_ohmic'//c_null_char)
+        agrees = agrees .and. c_sizeof(sph_ohmic_out_here) == &
+            c_struct_size('sph_ohmic_out'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_mhd_here) == &
             c_struct_size('sph_mhd'//c_null_char)
         agrees = agrees .and. c_sizeof(sph_mhd_out_here) == &

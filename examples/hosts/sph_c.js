@@ -180,6 +180,23 @@ exports.structs = {
     sph_medium: [
         ["m", "sph_scalars", 1], ["rho", "sph_scalars", 1], ["omega", "sph_scalars", 1],
     ],
+    sph_gas: [
+        ["medium", "sph_medium", 1], ["p", "sph_scalars", 1], ["u", "sph_scalars", 1],
+        ["cs", "sph_scalars", 1], ["alpha", "sph_scalars", 1], ["v", "sph_vectors", 1],
+        ["beta", "sph_real", 1], ["alpha_u", "sph_real", 1], ["conductivity", "int", 1],
+    ],
+    sph_gas_out: [
+        ["acceleration", "sph_vector_out", 1], ["rate_u", "pointer", 1], ["div_v", "pointer", 1],
+        ["v_sig", "pointer", 1], ["stride", "size_t", 1], ["status", "pointer", 1],
+    ],
+    sph_velocity_gradient_out: [
+        ["div", "pointer", 1], ["curl", "pointer", 1], ["shear", "pointer", 1], ["square", "pointer", 1],
+        ["stride", "size_t", 1], ["x", "sph_vector_out", 1], ["y", "sph_vector_out", 1],
+        ["z", "sph_vector_out", 1], ["status", "pointer", 1],
+    ],
+    sph_shock_out: [
+        ["ratio", "pointer", 1], ["v_sig", "pointer", 1], ["stride", "size_t", 1], ["status", "pointer", 1],
+    ],
     sph_cleaning: [
         ["medium", "sph_medium", 1], ["field", "sph_vectors", 1], ["psi", "sph_scalars", 1],
         ["div_v", "sph_scalars", 1], ["ch", "sph_real", 1], ["sigma", "sph_real", 1],
@@ -187,6 +204,13 @@ exports.structs = {
     sph_cleaning_out: [
         ["rate_B", "sph_vector_out", 1], ["rate_psi", "pointer", 1], ["div_B", "pointer", 1],
         ["stride", "size_t", 1], ["status", "pointer", 1],
+    ],
+    sph_ohmic: [
+        ["medium", "sph_medium", 1], ["eta", "sph_scalars", 1], ["field", "sph_vectors", 1],
+    ],
+    sph_ohmic_out: [
+        ["rate_B", "sph_vector_out", 1], ["rate_u", "pointer", 1], ["stride", "size_t", 1],
+        ["status", "pointer", 1],
     ],
     sph_mhd: [
         ["medium", "sph_medium", 1], ["p", "sph_scalars", 1], ["u", "sph_scalars", 1],
@@ -311,6 +335,9 @@ exports.SPH_VISCOSITY_SIGNAL = 3;
 exports.SPH_SURFACE_INSIDE = 0;
 exports.SPH_SURFACE_BAND = 1;
 exports.SPH_SURFACE_SPLASH = 2;
+exports.SPH_CONDUCTIVITY_NONE = 0;
+exports.SPH_CONDUCTIVITY_PRICE = 1;
+exports.SPH_CONDUCTIVITY_WADSLEY = 2;
 exports.SPH_FINDING_LIST_SHORT = 0;
 exports.SPH_FINDING_LIST_SUPPORT = 1;
 exports.SPH_FINDING_LIST_HALF = 2;

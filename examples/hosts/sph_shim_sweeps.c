@@ -1220,6 +1220,65 @@ sph_real sph_shim_conductivity_speed(sph_real P_i, sph_real P_j, sph_real per_rh
 {
     return sph_conductivity_speed(P_i, P_j, per_rho);
 }
+sph_real sph_shim_shock_pair(sph_real m_j, sph_real div_j, sph_real w_ij)
+{
+    return sph_shock_pair(m_j, div_j, w_ij);
+}
+sph_real sph_shim_shock_value(sph_real sum, sph_real rho)
+{
+    return sph_shock_value(sum, rho);
+}
+
+#define SWEEP(K, D) \
+    sph_gas_rates(K, D, *cloud, GIVEN(sph_gas, state), GIVEN(sph_gas_out, out))
+sph_index sph_shim_gas_rates(int kernel, int dim, const sph_cloud *cloud, const sph_gas *state,
+                             const sph_gas_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_velocity_gradient_difference(K, D, *cloud, GIVEN(sph_medium, medium), GIVEN(sph_vectors, v), \
+                                     GIVEN(sph_velocity_gradient_out, out))
+sph_index sph_shim_velocity_gradient_difference(int kernel, int dim, const sph_cloud *cloud,
+                                                const sph_medium *medium, const sph_vectors *v,
+                                                const sph_velocity_gradient_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_velocity_gradient_cspm(K, D, *cloud, GIVEN(sph_vectors, v), GIVEN(sph_velocity_gradient_out, out))
+sph_index sph_shim_velocity_gradient_cspm(int kernel, int dim, const sph_cloud *cloud, const sph_vectors *v,
+                                          const sph_velocity_gradient_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_shock_indicator(K, D, *cloud, GIVEN(sph_gas, state), GIVEN(sph_scalars, div_v), \
+                        GIVEN(sph_shock_out, out))
+sph_index sph_shim_shock_indicator(int kernel, int dim, const sph_cloud *cloud, const sph_gas *state,
+                                   const sph_scalars *div_v, const sph_shock_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
 sph_real sph_shim_cleaning_sigma(int dim)
 {
     if (dim < 1 || dim > 3) return SPH_R(0);
@@ -1232,6 +1291,10 @@ sph_real sph_shim_resistivity_switch(sph_real h, sph_real change, sph_real stren
 sph_real sph_shim_resistivity_pair(sph_real weight, sph_real alpha_speed, sph_real per_rho)
 {
     return sph_resistivity_pair(weight, alpha_speed, per_rho);
+}
+sph_real sph_shim_time_step_resistivity(sph_real h, sph_real eta)
+{
+    return sph_time_step_resistivity(h, eta);
 }
 
 #define SWEEP(K, D) \
@@ -1291,6 +1354,18 @@ sph_index sph_shim_curl_difference(int kernel, int dim, const sph_cloud *cloud, 
     sph_cleaning_rates(K, D, *cloud, GIVEN(sph_cleaning, state), GIVEN(sph_cleaning_out, out))
 sph_index sph_shim_cleaning_rates(int kernel, int dim, const sph_cloud *cloud, const sph_cleaning *state,
                                   const sph_cleaning_out *out)
+{
+    sph_index answer = SPH_ERROR_KERNEL;
+    if (!cloud) return missing("cloud");
+    EVERY_KERNEL_AND_DIM
+    return answer;
+}
+#undef SWEEP
+
+#define SWEEP(K, D) \
+    sph_resistivity_ohmic(K, D, *cloud, GIVEN(sph_ohmic, state), GIVEN(sph_ohmic_out, out))
+sph_index sph_shim_resistivity_ohmic(int kernel, int dim, const sph_cloud *cloud, const sph_ohmic *state,
+                                     const sph_ohmic_out *out)
 {
     sph_index answer = SPH_ERROR_KERNEL;
     if (!cloud) return missing("cloud");
@@ -1742,8 +1817,14 @@ size_t sph_shim_struct_size(const char *name)
     if (!strcmp(name, "sph_collision")) return sizeof(sph_collision);
     if (!strcmp(name, "sph_collision_report")) return sizeof(sph_collision_report);
     if (!strcmp(name, "sph_medium")) return sizeof(sph_medium);
+    if (!strcmp(name, "sph_gas")) return sizeof(sph_gas);
+    if (!strcmp(name, "sph_gas_out")) return sizeof(sph_gas_out);
+    if (!strcmp(name, "sph_velocity_gradient_out")) return sizeof(sph_velocity_gradient_out);
+    if (!strcmp(name, "sph_shock_out")) return sizeof(sph_shock_out);
     if (!strcmp(name, "sph_cleaning")) return sizeof(sph_cleaning);
     if (!strcmp(name, "sph_cleaning_out")) return sizeof(sph_cleaning_out);
+    if (!strcmp(name, "sph_ohmic")) return sizeof(sph_ohmic);
+    if (!strcmp(name, "sph_ohmic_out")) return sizeof(sph_ohmic_out);
     if (!strcmp(name, "sph_mhd")) return sizeof(sph_mhd);
     if (!strcmp(name, "sph_mhd_out")) return sizeof(sph_mhd_out);
     if (!strcmp(name, "sph_rk")) return sizeof(sph_rk);

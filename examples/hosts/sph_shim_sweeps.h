@@ -54,9 +54,12 @@ SPH_SHIM_EXPORT sph_real sph_shim_time_step_density_diffusion(int kernel, int di
 SPH_SHIM_EXPORT sph_real sph_shim_shift_strength_skillen(sph_real factor, sph_real h, sph_real path);
 SPH_SHIM_EXPORT sph_real sph_shim_shift_strength_sun(sph_real h, sph_real path, sph_real length);
 SPH_SHIM_EXPORT sph_real sph_shim_conductivity_speed(sph_real P_i, sph_real P_j, sph_real per_rho);
+SPH_SHIM_EXPORT sph_real sph_shim_shock_pair(sph_real m_j, sph_real div_j, sph_real w_ij);
+SPH_SHIM_EXPORT sph_real sph_shim_shock_value(sph_real sum, sph_real rho);
 SPH_SHIM_EXPORT sph_real sph_shim_cleaning_sigma(int dim);
 SPH_SHIM_EXPORT sph_real sph_shim_resistivity_switch(sph_real h, sph_real change, sph_real strength);
 SPH_SHIM_EXPORT sph_real sph_shim_resistivity_pair(sph_real weight, sph_real alpha_speed, sph_real per_rho);
+SPH_SHIM_EXPORT sph_real sph_shim_time_step_resistivity(sph_real h, sph_real eta);
 SPH_SHIM_EXPORT sph_real sph_shim_gravity_pair(int kernel, sph_real r, sph_real h_i, sph_real h_j);
 SPH_SHIM_EXPORT sph_real sph_shim_gravity_zeta_value(sph_real h, sph_real rho, sph_real sum);
 SPH_SHIM_EXPORT sph_real sph_shim_grid_pair_radius(int criterion, sph_real R_i, sph_real R_j);
@@ -304,6 +307,18 @@ SPH_SHIM_EXPORT sph_index sph_shim_collision_change_weighted(int dim, const sph_
                                                              const sph_collision *collision,
                                                              const sph_vectors *v, const sph_index *count,
                                                              const sph_vector_out *change);
+SPH_SHIM_EXPORT sph_index sph_shim_gas_rates(int kernel, int dim, const sph_cloud *cloud,
+                                             const sph_gas *state, const sph_gas_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_velocity_gradient_difference(int kernel, int dim, const sph_cloud *cloud,
+                                                                const sph_medium *medium,
+                                                                const sph_vectors *v,
+                                                                const sph_velocity_gradient_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_velocity_gradient_cspm(int kernel, int dim, const sph_cloud *cloud,
+                                                          const sph_vectors *v,
+                                                          const sph_velocity_gradient_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_shock_indicator(int kernel, int dim, const sph_cloud *cloud,
+                                                   const sph_gas *state, const sph_scalars *div_v,
+                                                   const sph_shock_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_divergence_difference(int kernel, int dim, const sph_cloud *cloud,
                                                          const sph_medium *medium, const sph_vectors *field,
                                                          const sph_scalar_out *out);
@@ -318,6 +333,8 @@ SPH_SHIM_EXPORT sph_index sph_shim_curl_difference(int kernel, int dim, const sp
                                                    const sph_vector_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_cleaning_rates(int kernel, int dim, const sph_cloud *cloud,
                                                   const sph_cleaning *state, const sph_cleaning_out *out);
+SPH_SHIM_EXPORT sph_index sph_shim_resistivity_ohmic(int kernel, int dim, const sph_cloud *cloud,
+                                                     const sph_ohmic *state, const sph_ohmic_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_mhd_rates(int kernel, int dim, const sph_cloud *cloud,
                                              const sph_mhd *state, const sph_mhd_out *out);
 SPH_SHIM_EXPORT sph_index sph_shim_rk_correction(int kernel, int dim, const sph_cloud *cloud,

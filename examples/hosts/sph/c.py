@@ -81,6 +81,11 @@ SURFACE_INSIDE = 0  # lambda > 0.75
 SURFACE_BAND = 1  # look closer
 SURFACE_SPLASH = 2  # lambda < 0.2: at the surface, or outside
 
+# sph_conductivity
+CONDUCTIVITY_NONE = 0
+CONDUCTIVITY_PRICE = 1  # sph_conductivity_speed: differences of pressure
+CONDUCTIVITY_WADSLEY = 2  # |w|: nothing at rest, so that it may be used with gravity
+
 # sph_finding
 FINDING_LIST_SHORT = 0  # every row ends before the support does
 FINDING_LIST_SUPPORT = 1  # every row ends at h: h and the support are mixed up
@@ -555,6 +560,54 @@ class sph_medium(Structure):
     ]
 
 
+class sph_gas(Structure):
+    _fields_ = [
+        ("medium", sph_medium),
+        ("p", sph_scalars),
+        ("u", sph_scalars),
+        ("cs", sph_scalars),
+        ("alpha", sph_scalars),
+        ("v", sph_vectors),
+        ("beta", c_double),
+        ("alpha_u", c_double),
+        ("conductivity", c_int),
+    ]
+
+
+class sph_gas_out(Structure):
+    _fields_ = [
+        ("acceleration", sph_vector_out),
+        ("rate_u", c_void_p),
+        ("div_v", c_void_p),
+        ("v_sig", c_void_p),
+        ("stride", c_size_t),
+        ("status", c_void_p),
+    ]
+
+
+class sph_velocity_gradient_out(Structure):
+    _fields_ = [
+        ("div", c_void_p),
+        ("curl", c_void_p),
+        ("shear", c_void_p),
+        ("square", c_void_p),
+        ("stride", c_size_t),
+        ("x", sph_vector_out),
+        ("y", sph_vector_out),
+        ("z", sph_vector_out),
+        ("status", c_void_p),
+    ]
+
+
+class sph_shock_out(Structure):
+    _fields_ = [
+        ("ratio", c_void_p),
+        ("v_sig", c_void_p),
+        ("stride", c_size_t),
+        ("status", c_void_p),
+    ]
+
+
 class sph_cleaning(Structure):
     _fields_ = [
         ("medium", sph_medium),
@@ -571,6 +624,23 @@ class sph_cleaning_out(Structure):
         ("rate_B", sph_vector_out),
         ("rate_psi", c_void_p),
         ("div_B", c_void_p),
+        ("stride", c_size_t),
+        ("status", c_void_p),
+    ]
+
+
+class sph_ohmic(Structure):
+    _fields_ = [
+        ("medium", sph_medium),
+        ("eta", sph_scalars),
+        ("field", sph_vectors),
+    ]
+
+
+class sph_ohmic_out(Structure):
+    _fields_ = [
+        ("rate_B", sph_vector_out),
+        ("rate_u", c_void_p),
         ("stride", c_size_t),
         ("status", c_void_p),
     ]
@@ -779,8 +849,14 @@ STRUCTS = [
     sph_collision,
     sph_collision_report,
     sph_medium,
+    sph_gas,
+    sph_gas_out,
+    sph_velocity_gradient_out,
+    sph_shock_out,
     sph_cleaning,
     sph_cleaning_out,
+    sph_ohmic,
+    sph_ohmic_out,
     sph_mhd,
     sph_mhd_out,
     sph_rk,
@@ -1463,9 +1539,42 @@ FUNCTIONS = {
         ("change", sph_vector_out),
     ]),
     "conductivity_speed": (c_double, [("P_i", c_double), ("P_j", c_double), ("per_rho", c_double)]),
+    "shock_pair": (c_double, [("m_j", c_double), ("div_j", c_double), ("w_ij", c_double)]),
+    "shock_value": (c_double, [("sum", c_double), ("rho", c_double)]),
+    "gas_rates": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("state", sph_gas),
+        ("out", sph_gas_out),
+    ]),
+    "velocity_gradient_difference": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("medium", sph_medium),
+        ("v", sph_vectors),
+        ("out", sph_velocity_gradient_out),
+    ]),
+    "velocity_gradient_cspm": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("v", sph_vectors),
+        ("out", sph_velocity_gradient_out),
+    ]),
+    "shock_indicator": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("state", sph_gas),
+        ("div_v", sph_scalars),
+        ("out", sph_shock_out),
+    ]),
     "cleaning_sigma": (c_double, [("dim", c_int)]),
     "resistivity_switch": (c_double, [("h", c_double), ("change", c_double), ("strength", c_double)]),
     "resistivity_pair": (c_double, [("weight", c_double), ("alpha_speed", c_double), ("per_rho", c_double)]),
+    "time_step_resistivity": (c_double, [("h", c_double), ("eta", c_double)]),
     "divergence_difference": (c_int32, [
         ("kernel", c_int),
         ("dim", c_int),
@@ -1504,6 +1613,13 @@ FUNCTIONS = {
         ("cloud", sph_cloud),
         ("state", sph_cleaning),
         ("out", sph_cleaning_out),
+    ]),
+    "resistivity_ohmic": (c_int32, [
+        ("kernel", c_int),
+        ("dim", c_int),
+        ("cloud", sph_cloud),
+        ("state", sph_ohmic),
+        ("out", sph_ohmic_out),
     ]),
     "mhd_rates": (c_int32, [
         ("kernel", c_int),
@@ -1795,6 +1911,9 @@ __all__ = [
     "SURFACE_INSIDE",
     "SURFACE_BAND",
     "SURFACE_SPLASH",
+    "CONDUCTIVITY_NONE",
+    "CONDUCTIVITY_PRICE",
+    "CONDUCTIVITY_WADSLEY",
     "FINDING_LIST_SHORT",
     "FINDING_LIST_SUPPORT",
     "FINDING_LIST_HALF",

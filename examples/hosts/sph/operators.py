@@ -1756,6 +1756,102 @@ class Operators:
         """
         return self._call("collision_change_weighted", locals())
 
+    def gas_rates(
+        self,
+        m: Scalars = None,
+        rho: Scalars = None,
+        omega: Scalars = None,
+        p: Scalars = None,
+        u: Scalars = None,
+        cs: Scalars = None,
+        alpha: Scalars = None,
+        v: Vectors = None,
+        beta: float = 0.0,
+        alpha_u: float = 0.0,
+        conductivity: int = 0,
+    ) -> Any:
+        """sph_gas_rates: momentum, energy, div v, v_sig
+
+        Acceleration and du/dt of a gas in one pass, with div v and the largest signal speed: the sums of
+        sph_gas_pair. For the equations, their sources and the order of a step see the beginning of this
+        chapter. The density comes from sph_density_adaptive; its rate is -rho div v. sum m a = 0, sum m x
+        cross a = 0 and sum m (v . a + du/dt) = 0 to round-off, for any h and Omega. v_sig is the largest
+        signal speed of a target with its neighbours within the larger of the two supports, for time steps and
+        switches: dt = 0.3 h / v_sig is usual. It is not below the target's own sound speed. Gravity is not
+        contained (sph_gravity_direct and sph_gravity_correction). The same as sph_mhd_rates with B = 0 and
+        Price's conductivity, at a quarter of its time.
+
+        p: pressure, thermal energy per mass, sound speed >= 0
+        u: pressure, thermal energy per mass, sound speed >= 0
+        cs: pressure, thermal energy per mass, sound speed >= 0
+        alpha: coefficient of viscosity, 0 (none) to 1 or more. A pair takes the mean
+        beta: of signal speed and conductivity; 2 and 1 are usual
+        alpha_u: of signal speed and conductivity; 2 and 1 are usual
+        conductivity: which: an sph_conductivity. With SPH_CONDUCTIVITY_NONE alpha_u is not read
+        """
+        return self._call("gas_rates", locals())
+
+    def velocity_gradient_difference(
+        self,
+        v: Vectors,
+        m: Scalars = None,
+        rho: Scalars = None,
+        omega: Scalars = None,
+    ) -> Any:
+        """sph_velocity_gradient_difference: div v, |curl v|, shear
+
+        grad v in difference form, (1 / (Omega_i rho_i)) sum_j m_j (v_j - v_i)_a grad_i W_ij(h_i) for the
+        component a, and div v, |curl v|, S : S and tr((grad v)^2) from it. div is that of sph_gas_rates.
+        Exact for constant v; the error is O(h^2) in the interior where the particles are regular, and does
+        not fall in disorder. Price 2012.
+        """
+        return self._call("velocity_gradient_difference", locals())
+
+    def velocity_gradient_cspm(self, v: Vectors) -> Any:
+        """sph_velocity_gradient_cspm: the same, exact for linear v
+
+        The same, renormalised: the gradients of sph_gradient_cspm of each component, by one sum. Exact for
+        linear v at any particle. The cloud's volumes m / rho are read. A target needs dim neighbours inside
+        its support, in 2D not all on one line with it, in 3D not all in one plane: else its results are 0,
+        with SPH_TOO_FEW or SPH_SINGULAR. Cullen & Dehnen 2010 take this one. Returns the number of targets
+        that are not SPH_OK, or a negative sph_error.
+
+        (What is the same: see velocity_gradient_difference.)
+        """
+        return self._call("velocity_gradient_cspm", locals())
+
+    def shock_indicator(
+        self,
+        div_v: Scalars,
+        m: Scalars = None,
+        rho: Scalars = None,
+        omega: Scalars = None,
+        p: Scalars = None,
+        u: Scalars = None,
+        cs: Scalars = None,
+        alpha: Scalars = None,
+        v: Vectors = None,
+        beta: float = 0.0,
+        alpha_u: float = 0.0,
+        conductivity: int = 0,
+    ) -> Any:
+        """sph_shock_indicator: for switches of viscosity
+
+        What Cullen & Dehnen's switch needs of the neighbours: R_i = (1 / rho_i) sum_j sign(div v_j) m_j
+        W_ij(h_i), with the particle itself, and v_sig = max over j of (c_i + c_j) / 2 + max(-w, 0), which is
+        not below c_i. Of state, medium, cs and v are read; div_v is that of all sources. Cullen & Dehnen
+        2010.
+
+        p: pressure, thermal energy per mass, sound speed >= 0
+        u: pressure, thermal energy per mass, sound speed >= 0
+        cs: pressure, thermal energy per mass, sound speed >= 0
+        alpha: coefficient of viscosity, 0 (none) to 1 or more. A pair takes the mean
+        beta: of signal speed and conductivity; 2 and 1 are usual
+        alpha_u: of signal speed and conductivity; 2 and 1 are usual
+        conductivity: which: an sph_conductivity. With SPH_CONDUCTIVITY_NONE alpha_u is not read
+        """
+        return self._call("shock_indicator", locals())
+
     def divergence_difference(
         self,
         field: Vectors,
@@ -1841,6 +1937,26 @@ class Operators:
         sigma: speed and damping of the cleaning waves; see sph_cleaning_sigma
         """
         return self._call("cleaning_rates", locals())
+
+    def resistivity_ohmic(
+        self,
+        m: Scalars = None,
+        rho: Scalars = None,
+        omega: Scalars = None,
+        eta: Scalars = None,
+        field: Vectors = None,
+    ) -> Any:
+        """sph_resistivity_ohmic: physical resistivity, with its heat
+
+        dB/dt and du/dt by physical resistivity, (11): the sums of sph_resistivity_pair_ohmic and its heat, to
+        be added to those of sph_mhd_rates, whose resistivity is artificial. For constant eta it is eta lap B.
+        Heat is never negative; sum m B / rho, and sum m (u + B^2 / (2 rho)) with it, do not change, to
+        round-off, for any h and Omega. Explicit steps are limited by sph_time_step_resistivity.
+
+        eta: resistivity >= 0 in length^2 / time, with mu_0 = 1: 1 / conductivity
+        field: B: three components if field.z has an array, else dim
+        """
+        return self._call("resistivity_ohmic", locals())
 
     def mhd_rates(
         self,
@@ -2618,6 +2734,23 @@ def conductivity_speed(P_i: float, P_j: float, per_rho: float) -> float:
     return _number("conductivity_speed", P_i, P_j, per_rho)
 
 
+def shock_pair(m_j: float, div_j: float, w_ij: float) -> float:
+    """sph_shock_pair.
+
+    What j adds to the sum of R: sign(div v_j) m_j W_ij; sign(0) = 0.
+    """
+    return _number("shock_pair", m_j, div_j, w_ij)
+
+
+def shock_value(sum: float, rho: float) -> float:
+    """sph_shock_value.
+
+    R = sum / rho, in [-1, 1] if rho is the sum of m_j W_ij: -1 where all around is compressed, which a noisy
+    div v is not. Needs rho > 0.
+    """
+    return _number("shock_value", sum, rho)
+
+
 def cleaning_sigma(dim: int) -> float:
     """sph_cleaning_sigma.
 
@@ -2641,11 +2774,20 @@ def resistivity_switch(h: float, change: float, strength: float) -> float:
 def resistivity_pair(weight: float, alpha_speed: float, per_rho: float) -> float:
     """sph_resistivity_pair.
 
-    Artificial resistivity, (10): weight alpha_speed per_rho^2 <= 0, the coefficient b of B_ij in dB_i/dt =
-    rho_i sum_j b B_ij. Here weight = m_j G r, alpha_speed = alpha_B v_sig, and per_rho is 1 over the mean
-    density. (Its square is what (10) lacks.)
+    Artificial resistivity, (10), for shocks (sph_resistivity_pair_ohmic is the physical one): weight
+    alpha_speed per_rho^2 <= 0, the coefficient b of B_ij in dB_i/dt = rho_i sum_j b B_ij. Here weight = m_j G
+    r, alpha_speed = alpha_B v_sig, and per_rho is 1 over the mean density. (Its square is what (10) lacks.)
     """
     return _number("resistivity_pair", weight, alpha_speed, per_rho)
+
+
+def time_step_resistivity(h: float, eta: float) -> float:
+    """sph_time_step_resistivity.
+
+    The longest explicit step by resistivity, 0.125 h^2 / eta: that of sph_time_step_viscous_nu. Needs eta >=
+    0.
+    """
+    return _number("time_step_resistivity", h, eta)
 
 
 def gravity_pair(kernel: Union[str, int], r: float, h_i: float, h_j: float) -> float:
@@ -2724,9 +2866,12 @@ __all__ = [
     "shift_strength_skillen",
     "shift_strength_sun",
     "conductivity_speed",
+    "shock_pair",
+    "shock_value",
     "cleaning_sigma",
     "resistivity_switch",
     "resistivity_pair",
+    "time_step_resistivity",
     "gravity_pair",
     "gravity_zeta_value",
     "grid_pair_radius",
