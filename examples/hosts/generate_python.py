@@ -36,6 +36,12 @@ BY_HAND = {
     "sph_grid_permutation",
     "sph_grid_renumber",
     "sph_grid_workspace",
+    "sph_grid_permutation_own",
+    "sph_grid_renumber_own",
+    "sph_part_of",
+    "sph_select_near",
+    "sph_list_prune",
+    "sph_list_sort",
     "sph_cloud_examine",
     "sph_wall_gamma",  # its elements are no particles, and have a number of their own
 }
