@@ -8258,8 +8258,8 @@ SPH_FN sph_real sph_shock_factor_cullen_dehnen(sph_flow f, sph_real ratio)
     SPH_ASSERT(f.shear >= SPH_R(0));
     return sum > SPH_R(0) ? squeeze / sum : f.div > SPH_R(0) ? SPH_R(0) : SPH_R(1);
 }
-/* xi = d^2 / (d^2 + |curl v|^2) with d = max(-div v, 0), and 1 where both are 0: Phantom's, which needs no
-   sum. Price et al. 2018. */
+/* xi = d^2 / (d^2 + |curl v|^2) with d = max(-div v, 0), and 1 where both are 0, thus always in 1D: Phantom's,
+   which needs no sum. Price et al. 2018. */
 SPH_FN sph_real sph_shock_factor_phantom(sph_flow f)
 {
     const sph_real d = SPH_R(0.5) * (SPHI_ABS(f.div) - f.div), sum = d * d + f.curl * f.curl;
@@ -8859,7 +8859,7 @@ typedef struct sph_ohmic_pair {
 /* Physical (Ohmic) resistivity, (11): the coefficient b <= 0 of B_ij in dB_i/dt = rho_i sum_j b B_ij,
        b = 2 eta m_j G / (rho_i rho_j),
    eta being the harmonic mean of the two particles, in length^2 / time. It is Brookshaw's form of eta (grad
-   div B - curl curl B) = eta lap B, component by component: exact for constant B, and where eta is constant.
+   div B - curl curl B) = eta lap B, component by component, and exact for constant B.
    Where eta varies it is div(eta grad B), with a flux that is continuous where eta jumps; -curl(eta curl B)
    has terms with grad eta beside it. weight = m_j G. Of m, rho and omega of the sides, rho is read. The
    artificial one that catches shocks is sph_resistivity_pair. Needs rho > 0 and eta >= 0 on both sides. */
