@@ -8258,8 +8258,8 @@ SPH_FN sph_real sph_shock_factor_cullen_dehnen(sph_flow f, sph_real ratio)
     SPH_ASSERT(f.shear >= SPH_R(0));
     return sum > SPH_R(0) ? squeeze / sum : f.div > SPH_R(0) ? SPH_R(0) : SPH_R(1);
 }
-/* xi = d^2 / (d^2 + |curl v|^2) with d = max(-div v, 0), and 1 where both are 0, thus always in 1D: Phantom's,
-   which needs no sum. Price et al. 2018. */
+/* xi = d^2 / (d^2 + |curl v|^2) with d = max(-div v, 0), and 1 where both are 0, thus always in 1D:
+   Phantom's, which needs no sum. Price et al. 2018. */
 SPH_FN sph_real sph_shock_factor_phantom(sph_flow f)
 {
     const sph_real d = SPH_R(0.5) * (SPHI_ABS(f.div) - f.div), sum = d * d + f.curl * f.curl;
@@ -8636,15 +8636,15 @@ typedef struct sph_shock_out {
 SPH_FN sph_index sph_shock_indicator(sph_kernel k, int dim, sph_cloud cloud, sph_gas state, sph_scalars div_v,
                                      sph_shock_out out)
 {
-    const sph_real support = sph_kernel_support_ratio(k);
     const size_t stride = sphi_stride(out.stride);
-    sph_real v_sig[SPHI_TILE];
+    sph_real support, v_sig[SPHI_TILE];
     int error = sphi_check_medium(k, dim, cloud, state.medium);
     sph_index i, p, tile, end, failed = 0;
     if (!error) error = sphi_check_not_negative("cs", state.cs, cloud.points.n);
     if (!error) error = sphi_check_vectors("v", dim, state.v, cloud.points.n);
     if (!error) error = sphi_check_field("div_v", div_v, cloud.points.n);
     if (error) return sphi_answer_of(error);
+    support = sph_kernel_support_ratio(k);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i), v_i = sphi_vector_at(dim, state.v, i);
         const sph_real h_i = sphi_at(cloud.h, i), c_i = sphi_at(state.cs, i);

@@ -775,6 +775,72 @@ static sph_index call_elliptic_diagnose(const world *w)
     r.status = STATE;
     return sph_elliptic_diagnose(RANGE, options_of(w), r);
 }
+static sph_gas plain_gas_of(const world *w)
+{
+    sph_gas s;
+    s.medium = gas_of(w);
+    s.p = A(P);
+    s.u = A(U);
+    s.cs = A(C);
+    s.alpha = A(ALPHA);
+    s.v = vectors_of(w, VX);
+    s.beta = X(PARAMETER_A);
+    s.alpha_u = X(PARAMETER_B);
+    s.conductivity = SPH_CONDUCTIVITY_PRICE;
+    return s;
+}
+static sph_index call_gas_rates(const world *w)
+{
+    sph_gas_out o = {0};
+    o.acceleration = vector_out_of(w, O0);
+    o.rate_u = R(S0);
+    o.div_v = R(S1);
+    o.v_sig = R(S2);
+    o.stride = w->out_stride;
+    o.status = STATE;
+    return sph_gas_rates(RANGE, plain_gas_of(w), o);
+}
+static sph_velocity_gradient_out velocity_gradient_out_of(const world *w)
+{
+    sph_velocity_gradient_out o = {0};
+    o.div = R(S0);
+    o.curl = R(S1);
+    o.shear = R(S2);
+    o.square = R(S3);
+    o.stride = w->out_stride;
+    o.status = STATE;
+    return o;
+}
+static sph_index call_velocity_gradient_difference(const world *w)
+{
+    return sph_velocity_gradient_difference(RANGE, gas_of(w), vectors_of(w, VX), velocity_gradient_out_of(w));
+}
+static sph_index call_velocity_gradient_cspm(const world *w)
+{
+    return sph_velocity_gradient_cspm(RANGE, vectors_of(w, VX), velocity_gradient_out_of(w));
+}
+static sph_index call_shock_indicator(const world *w)
+{
+    sph_shock_out o = {0};
+    o.ratio = R(S0);
+    o.v_sig = R(S1);
+    o.stride = w->out_stride;
+    o.status = STATE;
+    return sph_shock_indicator(RANGE, plain_gas_of(w), A(F), o);
+}
+static sph_index call_resistivity_ohmic(const world *w)
+{
+    sph_ohmic s;
+    sph_ohmic_out o = {0};
+    s.medium = gas_of(w);
+    s.eta = A(C);
+    s.field = vectors_of(w, BX);
+    o.rate_B = vector_out_of(w, O0);
+    o.rate_u = R(S0);
+    o.stride = w->out_stride;
+    o.status = STATE;
+    return sph_resistivity_ohmic(RANGE, s, o);
+}
 static sph_index call_mhd_rates(const world *w)
 {
     sph_mhd s;
@@ -961,6 +1027,11 @@ static const function functions[] = { /* has, dims, reads, may read, writes, may
     FUNCTION(coincident_count, LISTED | COUNTS, ALL, LIST_OF, 0, 0, 0, N(WITHIN)),
     FUNCTION(coincident_separate, LISTED | COUNTS, ALL, LIST_OF, 0, XYZ(O0), 0, N(WITHIN) | N(STEP)),
     FUNCTION(conserved_sums, LISTED | OPAQUE | TOTALS, ALL, XYZ(PX) | BIT(M) | XYZ(VX), 0, BIT(S0), 0, 0),
+    FUNCTION(gas_rates, SMOOTHED | PARTS, ALL, GAS | BIT(P) | BIT(U) | BIT(C) | BIT(ALPHA) | XYZ(VX), 0, XYZ(O0), XYZ(S0) | BIT(STATUS), N(PARAMETER_A) | N(PARAMETER_B)),
+    FUNCTION(velocity_gradient_difference, SMOOTHED | PARTS, ALL, GAS | XYZ(VX), 0, 0, XYZ(S0) | BIT(S3) | BIT(STATUS), 0),
+    FUNCTION(velocity_gradient_cspm, SMOOTHED | PARTS, ALL, VOLUMES | XYZ(VX), 0, 0, XYZ(S0) | BIT(S3) | BIT(STATUS), 0),
+    FUNCTION(shock_indicator, SMOOTHED | PARTS, ALL, GAS | BIT(C) | XYZ(VX) | BIT(F), 0, 0, BIT(S0) | BIT(S1) | BIT(STATUS), 0),
+    FUNCTION(resistivity_ohmic, SMOOTHED | PARTS, ALL, GAS | BIT(C) | XYZ(BX), 0, XYZ(O0), BIT(S0) | BIT(STATUS), 0),
     FUNCTION(mhd_rates, SMOOTHED | PARTS, ALL, GAS | BIT(P) | BIT(U) | BIT(C) | BIT(ALPHA) | BIT(ALPHA_B) | XYZ(VX) | XYZ(BX), BIT(F), XYZ(O0) | XYZ(O3), XYZ(S0) | BIT(S3) | BIT(S4) | BIT(STATUS),
              N(CH) | N(SIGMA) | N(PARAMETER_A) | N(PARAMETER_B) | N(PARAMETER_C)),
     FUNCTION(cleaning_rates, SMOOTHED | PARTS, ALL, GAS | XYZ(BX) | BIT(F), BIT(U), XYZ(O0) | BIT(S0), BIT(S1) | BIT(STATUS), N(CH) | N(SIGMA)),
@@ -1451,6 +1522,11 @@ static const char *argument_of(const function *f, int a)
                  {"sph_rows", BIT(F), "u"},
                  {"sph_cleaning", BIT(F), "psi"},
                  {"sph_cleaning", BIT(U), "div_v"},
+                 {"sph_gas", BIT(C), "cs"},
+                 {"sph_gas", BIT(U), "u"},
+                 {"sph_shock", BIT(C), "cs"},
+                 {"sph_shock", BIT(F), "div_v"},
+                 {"sph_resistivity", BIT(C), "eta"},
                  {"sph_mhd", BIT(F), "psi"},
                  {"sph_mhd", BIT(C), "cs"},
                  {"sph_mhd", BIT(U), "u"},

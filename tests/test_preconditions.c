@@ -58,6 +58,10 @@ static void assertion(void)
 #define NUMBERS_sph_riemann_star 3
 #define NUMBERS_sph_pair_weights 2
 #define NUMBERS_sph_mhd_sums 17
+#define NUMBERS_sph_gas_sums 6
+#define NUMBERS_sph_gas_change 5
+#define NUMBERS_sph_flow 4
+#define NUMBERS_sph_velocity_gradient 9
 #define NUMBERS_sph_mhd_change 10
 #define NUMBERS_sph_mat 9
 #define NUMBERS_sph_rk_moments 29
@@ -227,6 +231,30 @@ static sph_mhd_side magnetised(sph_real rho, sph_real omega)
     s.medium = medium(rho, omega);
     s.p = s.u = s.cs = SPH_R(1);
     s.field = vec(one, one, one);
+    return s;
+}
+static sph_gas_side plain(sph_real rho, sph_real omega)
+{
+    sph_gas_side s = {0};
+    s.medium.m = SPH_R(1);
+    s.medium.rho = rho;
+    s.medium.omega = omega;
+    return s;
+}
+static sph_flow flowing(sph_real curl, sph_real shear)
+{
+    sph_flow f = {0};
+    f.curl = curl;
+    f.shear = shear;
+    return f;
+}
+static sph_shock shocked(sph_real factor, sph_real h, sph_real cs, sph_real v_sig)
+{
+    sph_shock s = {0};
+    s.factor = factor;
+    s.h = h;
+    s.cs = cs;
+    s.v_sig = v_sig;
     return s;
 }
 static sph_mhd_terms mhd_terms(int parts)
@@ -1108,6 +1136,9 @@ static void magnetised_gas(void)
 {
     const sph_vec nothing = vec(zero, zero, zero), field = vec(one, SPH_R(2), SPH_R(2));
     const sph_mhd_sums no_sums = {0};
+    const sph_gas_sums no_gas_sums = {0};
+    const sph_velocity_gradient no_gradient = {nothing, nothing, nothing};
+    const sph_gas_terms gas_terms = {SPH_R(2), SPH_R(1), SPH_CONDUCTIVITY_PRICE};
     sph_pair_weights w = {SPH_R(1), SPH_R(1)};
     sph_real x;
     FUNCTION(sph_mhd_traction)
@@ -1181,6 +1212,76 @@ static void magnetised_gas(void)
     ALLOWED(sph_vec, sph_induction_pair(zero, one, nothing))
     FUNCTION(sph_resistivity_pair)
     ALLOWED(sph_real, sph_resistivity_pair(zero, one, one))
+    FUNCTION(sph_resistivity_pair_ohmic)
+    {
+        sph_ohmic_pair eta = {0};
+        ALLOWED(sph_real, sph_resistivity_pair_ohmic(medium(small_number, one), medium(one, one), eta, zero))
+        FORBIDDEN_LENGTH(x, sph_resistivity_pair_ohmic(medium(x, one), medium(one, one), eta, one))
+        FORBIDDEN_LENGTH(x, sph_resistivity_pair_ohmic(medium(one, one), medium(x, one), eta, one))
+        eta.j = -one;
+        FORBIDDEN(sph_resistivity_pair_ohmic(medium(one, one), medium(one, one), eta, one))
+    }
+    FUNCTION(sph_resistivity_heat)
+    ALLOWED(sph_real, sph_resistivity_heat(zero, nothing))
+    FUNCTION(sph_time_step_resistivity)
+    ALLOWED(sph_real, sph_time_step_resistivity(small_number, zero))
+    FORBIDDEN_LENGTH(x, sph_time_step_resistivity(x, one))
+    FORBIDDEN_BELOW_0(x, sph_time_step_resistivity(one, x))
+
+#define GAS(i, j, r) sph_gas_pair(2, gas_terms, i, j, pair_kernel(r), nothing)
+    FUNCTION(sph_gas_pair)
+    ALLOWED(sph_gas_sums, GAS(plain(one, one), plain(small_number, one), zero))
+    ALLOWED(sph_gas_sums, GAS(plain(one, small_number), plain(one, one), large))
+    FORBIDDEN_LENGTH(x, GAS(plain(x, one), plain(one, one), one))
+    FORBIDDEN_LENGTH(x, GAS(plain(one, x), plain(one, one), one))
+    FORBIDDEN_LENGTH(x, GAS(plain(one, one), plain(x, one), one))
+    FORBIDDEN_LENGTH(x, GAS(plain(one, one), plain(one, x), one))
+    FORBIDDEN_BELOW_0(x, GAS(plain(one, one), plain(one, one), x))
+    FUNCTION(sph_gas_work)
+    ALLOWED(sph_real, sph_gas_work(medium(small_number, one), zero, zero))
+    FORBIDDEN_LENGTH(x, sph_gas_work(medium(x, one), one, one))
+    FUNCTION(sph_gas_value)
+    ALLOWED(sph_gas_change, sph_gas_value(plain(one, one), no_gas_sums))
+    FORBIDDEN_LENGTH(x, sph_gas_value(plain(x, one), no_gas_sums))
+    FORBIDDEN_LENGTH(x, sph_gas_value(plain(one, x), no_gas_sums))
+    FUNCTION(sph_flow_of)
+    ALLOWED(sph_flow, sph_flow_of(3, no_gradient))
+    FORBIDDEN(sph_flow_of(0, no_gradient))
+    FUNCTION(sph_velocity_gradient_pair)
+    ALLOWED(sph_velocity_gradient, sph_velocity_gradient_pair(zero, nothing, nothing))
+    FUNCTION(sph_viscosity_factor_balsara)
+    ALLOWED(sph_real, sph_viscosity_factor_balsara(flowing(zero, zero), zero, small_number))
+    FORBIDDEN_BELOW_0(x, sph_viscosity_factor_balsara(flowing(x, zero), one, one))
+    FORBIDDEN_BELOW_0(x, sph_viscosity_factor_balsara(flowing(one, zero), x, one))
+    FORBIDDEN_LENGTH(x, sph_viscosity_factor_balsara(flowing(one, zero), one, x))
+    FUNCTION(sph_shock_pair)
+    ALLOWED(sph_real, sph_shock_pair(zero, zero, zero))
+    FUNCTION(sph_shock_value)
+    ALLOWED(sph_real, sph_shock_value(zero, small_number))
+    FORBIDDEN_LENGTH(x, sph_shock_value(one, x))
+    FUNCTION(sph_shock_factor_cullen_dehnen)
+    ALLOWED(sph_real, sph_shock_factor_cullen_dehnen(flowing(zero, zero), one))
+    FORBIDDEN_BELOW_0(x, sph_shock_factor_cullen_dehnen(flowing(zero, x), zero))
+    FUNCTION(sph_shock_factor_phantom)
+    ALLOWED(sph_real, sph_shock_factor_phantom(flowing(zero, zero)))
+    FORBIDDEN_BELOW_0(x, sph_shock_factor_phantom(flowing(x, zero)))
+#define TARGET(which) \
+    ALLOWED(sph_real, which(bounds(one, one), shocked(zero, small_number, zero, zero))) \
+    FORBIDDEN(which(bounds(one, zero), shocked(one, one, one, one))) \
+    FORBIDDEN_BELOW_0(x, which(bounds(zero, one), shocked(x, one, one, one))) \
+    FORBIDDEN_LENGTH(x, which(bounds(zero, one), shocked(one, x, one, one))) \
+    FORBIDDEN_BELOW_0(x, which(bounds(zero, one), shocked(one, one, x, one))) \
+    FORBIDDEN_BELOW_0(x, which(bounds(zero, one), shocked(one, one, one, x)))
+    FUNCTION(sph_viscosity_target_cullen_dehnen)
+    TARGET(sph_viscosity_target_cullen_dehnen)
+    FUNCTION(sph_viscosity_target_phantom)
+    TARGET(sph_viscosity_target_phantom)
+    FUNCTION(sph_viscosity_switch_after)
+    ALLOWED(sph_real, sph_viscosity_switch_after(bounds(zero, one), shocked(one, small_number, zero, zero), zero, zero))
+    FORBIDDEN_LENGTH(x, sph_viscosity_switch_after(bounds(zero, one), shocked(one, x, one, one), zero, one))
+    FORBIDDEN_BELOW_0(x, sph_viscosity_switch_after(bounds(zero, one), shocked(one, one, one, x), zero, one))
+    FORBIDDEN_BELOW_0(x, sph_viscosity_switch_after(bounds(zero, one), shocked(one, one, one, one), zero, x))
+
 #define MHD(i, j, parts, r) sph_mhd_pair(2, mhd_terms(parts), i, j, pair_kernel(r), nothing)
     FUNCTION(sph_mhd_pair)
     ALLOWED(sph_mhd_sums, MHD(magnetised(one, one), magnetised(small_number, one), 2, zero))

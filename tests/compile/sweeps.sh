@@ -66,6 +66,10 @@ END
             'solid|sph_solid_acceleration(SPH_WENDLAND_C2, D, x, solid(f, x.points), sph_vector_out_separate(a, b, c))' \
             'css|sph_tension_css(SPH_WENDLAND_C2, D, x, (sph_tension){.rho = f, .normal = {f, f, f}, .sigma = 1}, sph_vector_out_separate(a, b, c))' \
             'csf|sph_tension_csf(SPH_WENDLAND_C2, D, x, (sph_tension){.rho = f, .normal = {f, f, f}, .sigma = 1}, (sph_tension_out){.acceleration = sph_vector_out_separate(a, b, c)})' \
+            'gas|sph_gas_rates(SPH_WENDLAND_C2, D, x, (sph_gas){.medium = {f, f, f}, .p = f, .u = f, .cs = f, .alpha = f, .v = {f, f, f}, .conductivity = SPH_CONDUCTIVITY_PRICE}, (sph_gas_out){.acceleration = sph_vector_out_separate(a, b, c)})' \
+            'shock|sph_shock_indicator(SPH_WENDLAND_C2, D, x, (sph_gas){.medium = {f, f, f}, .cs = f, .v = {f, f, f}}, f, (sph_shock_out){.ratio = a})' \
+            'velocity|sph_velocity_gradient_cspm(SPH_WENDLAND_C2, D, x, (sph_vectors){f, f, f}, (sph_velocity_gradient_out){.div = a})' \
+            'ohmic|sph_resistivity_ohmic(SPH_WENDLAND_C2, D, x, (sph_ohmic){.medium = {f, f, f}, .eta = f, .field = {f, f, f}}, (sph_ohmic_out){.rate_B = sph_vector_out_separate(a, b, c)})' \
             'wallgradient|sph_wall_gradient(SPH_WENDLAND_C2, D, x, (sph_wall_terms){.gamma = f, .gradient = {f, f, f}, .value = f}, f, sph_vector_out_separate(a, b, c))' \
             'walllaplacian|sph_wall_laplacian(SPH_WENDLAND_C2, D, x, (sph_wall_terms){.gamma = f, .gradient = {f, f, f}, .slope = {f, f, f}}, f, sph_scalar_out_array(a, 0))' \
             'wallrows|sph_wall_laplacian_rows(SPH_WENDLAND_C2, D, x, (sph_wall_terms){.gamma = f, .gradient = {f, f, f}, .slope = {f, f, f}}, (sph_rows_out){.row = a}, sph_scalar_out_array(b, 0))' \
