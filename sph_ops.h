@@ -8451,8 +8451,8 @@ SPH_FN sph_index sphi_gas_some(int uniform, sph_kernel k, int dim, sph_cloud clo
    sum m (v . a + du/dt) = 0 to round-off, for any h and Omega. v_sig is the largest signal speed of a target
    with its neighbours within the larger of the two supports, for time steps and switches: dt = 0.3 h / v_sig
    is usual. It is not below the target's own sound speed. Gravity is not contained (sph_gravity_direct and
-   sph_gravity_correction). The same as sph_mhd_rates with B = 0 and Price's conductivity, at a quarter of its
-   time. */
+   sph_gravity_correction). The same as sph_mhd_rates with B = 0 and Price's conductivity, in half
+   of its time. */
 SPH_FN sph_index sph_gas_rates(sph_kernel k, int dim, sph_cloud cloud, sph_gas state, sph_gas_out out)
 {
     int error = sphi_check_medium(k, dim, cloud, state.medium);
@@ -8685,7 +8685,7 @@ SPH_FN sph_index sph_shock_indicator(sph_kernel k, int dim, sph_cloud cloud, sph
  * the energy has an error of first order in dt (tests/test_cleaning.c: 1.6e-3 instead of 6e-6).
  *
  * Units with mu_0 = 1: divide a field B of other units by sqrt(mu_0). g_i, g_j and G are those of the chapter
- * on gas. Without a field sph_mhd_rates is sph_gas_rates, at several times its cost.
+ * on gas. Without a field sph_mhd_rates is sph_gas_rates, at twice its cost.
  *
  * Sources: Tricco & Price 2012, 7th SPHERIC workshop (equation numbers without a name are those of this
  * paper); Tricco & Price 2012, JCP 231, 7214. Price 2012, JCP 231, 759, for the whole of SPMHD.
