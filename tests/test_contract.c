@@ -1522,6 +1522,7 @@ static const char *argument_of(const function *f, int a)
                  {"sph_rows", BIT(F), "u"},
                  {"sph_cleaning", BIT(F), "psi"},
                  {"sph_cleaning", BIT(U), "div_v"},
+                 {"sph_gas_rates_", BIT(C), "c"},
                  {"sph_gas", BIT(C), "cs"},
                  {"sph_gas", BIT(U), "u"},
                  {"sph_shock", BIT(C), "cs"},
