@@ -31,7 +31,7 @@ HEADERS = sph.h sph_ops.h sph_kernels.h
 # The groups of drivers: the papers, all in examples/papers, and subjects, each in a folder of its name. A driver's
 # name starts with its group's, and GROUP.gp beside it draws the group's figures.
 PAPERS = icspm elliptic clustering cleaning
-SUBJECTS = fluids solids
+SUBJECTS = fluids solids gas
 GROUPS = $(PAPERS) $(SUBJECTS)
 FOLDERS = $(addprefix examples/,papers $(SUBJECTS))
 COMMON = $(wildcard $(addsuffix /*.h,examples/common $(FOLDERS)))

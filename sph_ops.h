@@ -7993,7 +7993,7 @@ SPH_FN sph_index sph_collision_change_weighted(int dim, sph_cloud cloud, sph_col
  *         alpha_loc = most h^2 A / (v_sig^2 + h^2 A),   A = xi max(-d(div v)/dt, 0),
  *     and decays behind it: sph_velocity_gradient_cspm, sph_shock_indicator, then functions of values.
  *     Phantom: the same with alpha_loc = min(10 h^2 A / c^2, most) and a xi without sums.
- * In Sod's tube Phantom's form reaches 1 at the shock; that of the paper .33, and it rings behind the shock.
+ * In Sod's tube Phantom's form reaches 1 at the shock; that of the paper .8, late, and it rings behind it.
  * d(div v)/dt is the difference of two steps, or without memory div a - tr((grad v)^2), whose second term is
  * `square` of sph_velocity_gradient_cspm, and div a its `div` with accelerations in the place of v.
  *
@@ -8451,8 +8451,8 @@ SPH_FN sph_index sphi_gas_some(int uniform, sph_kernel k, int dim, sph_cloud clo
    sum m (v . a + du/dt) = 0 to round-off, for any h and Omega. v_sig is the largest signal speed of a target
    with its neighbours within the larger of the two supports, for time steps and switches: dt = 0.3 h / v_sig
    is usual. It is not below the target's own sound speed. Gravity is not contained (sph_gravity_direct and
-   sph_gravity_correction). The same as sph_mhd_rates with B = 0 and Price's conductivity, at a quarter of its
-   time. */
+   sph_gravity_correction). The same as sph_mhd_rates with B = 0 and Price's conductivity, in half
+   of its time. */
 SPH_FN sph_index sph_gas_rates(sph_kernel k, int dim, sph_cloud cloud, sph_gas state, sph_gas_out out)
 {
     int error = sphi_check_medium(k, dim, cloud, state.medium);
@@ -8685,7 +8685,7 @@ SPH_FN sph_index sph_shock_indicator(sph_kernel k, int dim, sph_cloud cloud, sph
  * the energy has an error of first order in dt (tests/test_cleaning.c: 1.6e-3 instead of 6e-6).
  *
  * Units with mu_0 = 1: divide a field B of other units by sqrt(mu_0). g_i, g_j and G are those of the chapter
- * on gas. Without a field sph_mhd_rates is sph_gas_rates, at several times its cost.
+ * on gas. Without a field sph_mhd_rates is sph_gas_rates, at twice its cost.
  *
  * Sources: Tricco & Price 2012, 7th SPHERIC workshop (equation numbers without a name are those of this
  * paper); Tricco & Price 2012, JCP 231, 7214. Price 2012, JCP 231, 759, for the whole of SPMHD.
@@ -9198,20 +9198,11 @@ typedef struct sph_ohmic_out {
     size_t stride; /* of rate_u, in sph_real; 0 counts as 1 */
     SPH_GLOBAL unsigned char *status;
 } sph_ohmic_out;
-/* dB/dt and du/dt by physical resistivity, (11): the sums of sph_resistivity_pair_ohmic and its heat, to be
-   added to those of sph_mhd_rates, whose resistivity is artificial. For constant eta it is eta lap B. Heat is
-   never negative; sum m B / rho, and sum m (u + B^2 / (2 rho)) with it, do not change, to round-off, for any
-   h and Omega. Explicit steps are limited by sph_time_step_resistivity. */
-SPH_FN sph_index sph_resistivity_ohmic(sph_kernel k, int dim, sph_cloud cloud, sph_ohmic state,
-                                       sph_ohmic_out out)
+SPH_FN sph_index sphi_ohmic_range(int parts, sph_kernel k, int dim, sph_cloud cloud, const sph_ohmic *s,
+                                  const sph_ohmic_out *out)
 {
-    const int parts = sphi_components(dim, state.field);
-    int error = sphi_check_medium(k, dim, cloud, state.medium);
+    const sph_ohmic state = *s;
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_not_negative("eta", state.eta, cloud.points.n);
-    if (!error) error = sphi_check_vectors("field", parts, state.field, cloud.points.n);
-    if (!error) error = sphi_check_out("rate_B", parts, out.rate_B);
-    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i), B_i = sphi_vector_at(parts, state.field, i);
         const sph_real h_i = sphi_at(cloud.h, i);
@@ -9239,12 +9230,28 @@ SPH_FN sph_index sph_resistivity_ohmic(sph_kernel k, int dim, sph_cloud cloud, s
         sum.x = own.rho * bx;
         sum.y = own.rho * by;
         sum.z = own.rho * bz;
-        lost = sphi_store_vector(parts, out.rate_B, i, sum);
-        lost |= sphi_put(out.rate_u, sphi_stride(out.stride), i, heat);
-        sphi_tell(out.status, i, lost);
+        lost = sphi_store_vector(parts, out->rate_B, i, sum);
+        lost |= sphi_put(out->rate_u, sphi_stride(out->stride), i, heat);
+        sphi_tell(out->status, i, lost);
         failed += lost;
     }
     return failed;
+}
+/* dB/dt and du/dt by physical resistivity, (11): the sums of sph_resistivity_pair_ohmic and its heat, to be
+   added to those of sph_mhd_rates, whose resistivity is artificial. For constant eta it is eta lap B. Heat is
+   never negative; sum m B / rho, and sum m (u + B^2 / (2 rho)) with it, do not change, to round-off, for any
+   h and Omega. Explicit steps are limited by sph_time_step_resistivity. */
+SPH_FN sph_index sph_resistivity_ohmic(sph_kernel k, int dim, sph_cloud cloud, sph_ohmic state,
+                                       sph_ohmic_out out)
+{
+    const int parts = sphi_components(dim, state.field);
+    int error = sphi_check_medium(k, dim, cloud, state.medium);
+    if (!error) error = sphi_check_not_negative("eta", state.eta, cloud.points.n);
+    if (!error) error = sphi_check_vectors("field", parts, state.field, cloud.points.n);
+    if (!error) error = sphi_check_out("rate_B", parts, out.rate_B);
+    if (error) return sphi_answer_of(error);
+    return parts == dim ? sphi_ohmic_range(dim, k, dim, cloud, &state, &out)
+                        : sphi_ohmic_range(3, k, dim, cloud, &state, &out);
 }
 
 /* The state of a magnetised gas, one number or vector for each particle, all sources. */

@@ -110,7 +110,7 @@ sph_real sweep_control(sph_kernel k, const sph_real *r, int n)
 END
 
 for cc in gcc "gcc -DLISTS_ALONE -fopenmp-simd -DSPH_SIMD=1" clang; do
-    case $cc in *LISTS*) sweeps=60 ;; *) sweeps=69 ;; esac
+    case $cc in *LISTS*) sweeps=72 ;; *) sweeps=81 ;; esac
     usable "assembly of the sweeps by $cc" "$empty" '' "$cc -std=c99 -O2" || continue
     if [ "$($cc -dumpmachine | cut -d- -f1)" != x86_64 ]; then
         skip "assembly of the sweeps by $cc" "not for x86-64"

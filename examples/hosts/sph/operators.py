@@ -1779,7 +1779,7 @@ class Operators:
         signal speed of a target with its neighbours within the larger of the two supports, for time steps and
         switches: dt = 0.3 h / v_sig is usual. It is not below the target's own sound speed. Gravity is not
         contained (sph_gravity_direct and sph_gravity_correction). The same as sph_mhd_rates with B = 0 and
-        Price's conductivity, at a quarter of its time.
+        Price's conductivity, in half of its time.
 
         p: pressure, thermal energy per mass, sound speed >= 0
         u: pressure, thermal energy per mass, sound speed >= 0
