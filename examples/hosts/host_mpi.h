@@ -180,7 +180,6 @@ static inline void cloud_begin(cloud *c, MPI_Comm comm, int parts, int moved, in
     Zoltan_Set_Param(c->zoltan, "OBJ_WEIGHT_DIM", "1");
     Zoltan_Set_Param(c->zoltan, "IMBALANCE_TOL", "1.02");
     Zoltan_Set_Param(c->zoltan, "RETURN_LISTS", "PARTS");
-    if (c->parts < c->ranks) Zoltan_Set_Param(c->zoltan, "NUM_LOCAL_PARTS", c->rank < c->parts ? "1" : "0");
     Zoltan_Set_Num_Obj_Fn(c->zoltan, cloud_ask_count, c);
     Zoltan_Set_Obj_List_Fn(c->zoltan, cloud_ask_list, c);
     Zoltan_Set_Num_Geom_Fn(c->zoltan, cloud_ask_dim, c);
@@ -248,9 +247,14 @@ static inline void cloud_balance(cloud *c)
     int *import_rank = NULL, *import_part = NULL, *rank = NULL, *part = NULL;
     ZOLTAN_ID_PTR import_global = NULL, import_local = NULL, global = NULL, local = NULL;
     int *const owner = cloud_memory(c, NULL, (size_t)c->n, sizeof *owner);
-    cloud_zoltan(c, Zoltan_LB_Partition(c->zoltan, &changed, &globals, &locals, &imports, &import_global, &import_local, &import_rank,
-                                        &import_part, &exports, &global, &local, &rank, &part), "Zoltan_LB_Partition");
+    long long all = c->n;
+    MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_LONG_LONG, MPI_SUM, c->comm);
+    if (all < c->parts) c->parts = (int)all; /* Zoltan gives each part something, or fails */
+    if (c->parts < c->ranks) Zoltan_Set_Param(c->zoltan, "NUM_LOCAL_PARTS", c->rank < c->parts ? "1" : "0");
     for (i = 0; i < c->n; i++) owner[i] = c->rank;
+    if (all == 0) exports = 0;
+    else cloud_zoltan(c, Zoltan_LB_Partition(c->zoltan, &changed, &globals, &locals, &imports, &import_global, &import_local, &import_rank,
+                                             &import_part, &exports, &global, &local, &rank, &part), "Zoltan_LB_Partition");
     for (i = 0; i < exports; i++) owner[local[i * locals]] = rank[i];
     cloud_move(c, owner);
     Zoltan_LB_Free_Part(&import_global, &import_local, &import_rank, &import_part);
