@@ -264,10 +264,10 @@ static inline void cloud_balance(cloud *c)
 /* The cuts stay; particles that have crossed one go to their new owner. */
 static inline void cloud_migrate(cloud *c)
 {
-    int *const owner = cloud_memory(c, NULL, (size_t)c->n, sizeof *owner), i;
+    int *const owner = cloud_memory(c, NULL, (size_t)c->n, sizeof *owner), i, part;
     for (i = 0; i < c->n; i++) {
         double x[3] = {c->f[0][i], c->f[1][i], c->f[2][i]};
-        cloud_zoltan(c, Zoltan_LB_Point_Assign(c->zoltan, x, &owner[i]), "Zoltan_LB_Point_Assign");
+        cloud_zoltan(c, Zoltan_LB_Point_PP_Assign(c->zoltan, x, &owner[i], &part), "Zoltan_LB_Point_PP_Assign");
     }
     cloud_move(c, owner);
     free(owner);
@@ -377,7 +377,9 @@ static inline void cloud_order(cloud *c, sph_grid *grid)
     free(order), free(sorted), free(numbers);
 }
 /* Lists of own particles among all. The positions of the halo must be there, and radii that are its own; so
-   must its numbers with CLOUD_SORTED, which gives sums the same roundings on any number of ranks. CLOUD_ORDERED
+   must its numbers with CLOUD_SORTED, which gives sums the same roundings on any number of ranks. (For that the
+   rows must be the same, too: sph.h adds several pairs abreast, so that even a pair of which W is 0 changes how
+   the others are rounded.) CLOUD_ORDERED
    sorts own particles, too. A halo that was chosen for less is refused: rows would lack neighbours. */
 static inline void cloud_lists(cloud *c, sph_scalars radius, int criterion, int flags)
 {

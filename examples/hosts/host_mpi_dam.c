@@ -18,7 +18,8 @@
  *                   A file is written as NAME.h5.part by all ranks and then renamed: whoever ends the run in the
  *                   middle leaves the one before as it was
  *   -restart FILE   goes on from there, on any number of ranks, with the same -resolution
- *   -sorted         rows in the order of global numbers: the same bits on any number of ranks
+ *   -sorted         rows in the order of global numbers: the same bits on any number of ranks, and the same as
+ *                   without a stop, if files were written at the same steps
  *   -progress N     a line each N steps
  *   -parts N        the first N ranks own all particles
  *   -compare FILE   prints how far all particles are from those of a file, which each rank reads whole
@@ -369,7 +370,7 @@ static const char *read_options(int argc, char **argv, options *o)
 int main(int argc, char **argv)
 {
     options o = {.resolution = 12, .steps = 500, .progress = 100, .stop_at = -1, .halo = 1};
-    int steps = 0, rebuilt[2] = {0, 0};
+    int steps = 0, first, rebuilt[2] = {0, 0};
     const char *wrong;
     double begin;
     int64_t all;
@@ -392,15 +393,16 @@ int main(int argc, char **argv)
     if (o.restart) read_file(&c, c.comm, o.restart, o.resolution, all, &steps);
     find_neighbours(&c, &o, 1);
     find_neighbours(&c, &o, 1); /* now that the lists tell the work */
-    c.values = c.exchanges = c.left = 0;
     begin = MPI_Wtime();
+    first = steps; /* there is a file of it */
     for (; steps < o.steps; steps++) {
         int again;
         char name[1040];
         if (steps % o.progress == 0) say(&c, steps, MPI_Wtime() - begin, rebuilt);
-        if (o.write && o.every && steps > 0 && steps % o.every == 0) {
+        if (o.write && o.every && steps > 0 && steps % o.every == 0 && steps != first) {
             snprintf(name, sizeof name, o.keep ? "%s_%09d" : "%s", o.write, steps);
             write_file(&c, &o, name, steps);
+            find_neighbours(&c, &o, 0); /* as a restart does: rows with other pairs beyond h's support round otherwise */
         }
         again = step(&c, &o);
         rebuilt[0] += again > 0;
