@@ -62,6 +62,7 @@ help:
 	@echo "make test             the tests; the last line is 'N passed, N failed'"
 	@echo "make test-sanitize    the tests under the address and undefined-behaviour sanitizers"
 	@echo "make check-hosts      C++, Fortran, Python, WebAssembly, OpenCL, CUDA: the hosts whose tools are installed"
+	@echo "make check-mpi        hosts on several ranks: Poisson's equation with PETSc, a dam break with Zoltan and parallel HDF5"
 	@echo "make check-matrix     the headers with every compiler that is installed: standards, levels, precisions, warnings as errors"
 	@echo "make check-embedded   the self-check on microcontrollers and other processors, in emulators; code size and memory"
 	@echo "make fuzz             FUZZ_SECONDS (60) of libFuzzer for each target of tests/fuzz, after a replay of its corpus under sanitizers"
@@ -178,6 +179,8 @@ docs:
 check-hosts:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/hosts/hosts.sh
 
+check-mpi:
+	@CC="$(CC)" BUILD="$(BUILD)" sh tests/hosts/mpi.sh
 check-matrix:
 	@BUILD="$(BUILD)" JOBS="$(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS)))" sh tests/compile/matrix.sh full
 check-embedded:
@@ -231,4 +234,4 @@ dist:
 clean: # what a link leads to as well
 	rm -rf $(BUILD)/* $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures gallery test test-sanitize fuzz check-matrix check-hosts check-embedded version install uninstall dist check-packages docs coverage lint mutation bench bench-flags bench-compile bench-gpu clean
+.PHONY: help reproduce reproduce-full figures gallery test test-sanitize fuzz check-matrix check-hosts check-mpi check-embedded version install uninstall dist check-packages docs coverage lint mutation bench bench-flags bench-compile bench-gpu clean
