@@ -163,8 +163,9 @@ def dummy(argument):
     if not argument.pointer:
         return f"{kind}, value", argument.name
     intent = "in" if argument.const else "inout"
-    # numbers of 64 bits are sizes that come back; what else has an address is an array or a struct
-    shape = "(*)" if argument.type in KINDS and argument.type != "int64_t" else ""
+    # numbers of 64 bits that may be written are sizes that come back; what else has an address is an array or
+    # a struct
+    shape = "(*)" if argument.type in KINDS and (argument.const or argument.type != "int64_t") else ""
     return f"{kind}, intent({intent})", argument.name + shape
 
 

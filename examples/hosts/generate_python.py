@@ -37,6 +37,11 @@ BY_HAND = {
     "sph_grid_renumber",
     "sph_grid_workspace",
     "sph_grid_permutation_own",
+    "sph_grid_pair_radius",  # the arithmetic of a grid is for those who make lists on a device
+    "sph_grid_cell",
+    "sph_grid_cell_periodic",
+    "sph_grid_image",
+    "sph_grid_wrap",
     "sph_grid_renumber_own",
     "sph_part_of",
     "sph_select_near",

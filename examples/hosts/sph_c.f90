@@ -2491,7 +2491,7 @@ module sph_c
             integer(sph_index), value :: n, n_total
             integer(sph_index), intent(in) :: start(*)
             integer(sph_index), intent(inout) :: index(*)
-            integer(c_int64_t), intent(in) :: key
+            integer(c_int64_t), intent(in) :: key(*)
             integer(sph_index) :: answer
         end function
         ! out[slot] = in[order[slot]], for each array

@@ -21,7 +21,7 @@ ROOM = 20000  # for one output: more than the lists have entries
 C_OPENING = """\
 #include "examples/hosts/sph_shim.h"
 #include <string.h>
-enum { ROOM = %d, SLOTS = 16 };
+enum { ROOM = %d, SLOTS = 24 };
 static sph_cloud cloud;
 static sph_index all_n;
 static const sph_real *all_in;
@@ -57,7 +57,7 @@ F_OPENING = """\
 program calls
     use sph
     implicit none
-    integer, parameter :: side = 6, n = side**3, room = %d, slots = 16
+    integer, parameter :: side = 6, n = side**3, room = %d, slots = 24
     real(sph_real), target :: x(3, n), h(n), volume(n), all_in(room + 1000), all_out(room * slots)
     integer(sph_state), target :: all_state(room)
     integer(sph_index), target :: all_number(room * 2)

@@ -311,6 +311,8 @@ contains
         integer(sph_index), pointer :: permutation(:)
         real(sph_real), target :: reach, ordered(n)
         type(sph_points) :: moved
+        type(sph_part) :: part
+        integer(c_int64_t) :: key(n)
         call make(SPH_GATHER)
         associate (points => cloud%view%points)
             reach = 3 * h
@@ -337,6 +339,19 @@ contains
             call expect('an order', not_ok == 0 .and. all(abs(ordered - f(permutation + 1)) < tiny_error))
             not_ok = sph_grid_renumber(grid)
             call expect('a grid in that order', not_ok == 0 .and. all(permutation == [(i, i=0, n - 1)]))
+            not_ok = sph_grid_permutation_own(grid, int(n, sph_index), inverse)
+            call expect('own particles in that order', not_ok == 0 .and. all(inverse == permutation))
+            not_ok = sph_grid_renumber_own(grid, int(n, sph_index))
+            call expect('and their numbers', not_ok == 0 .and. all(permutation == [(i, i=0, n - 1)]))
+            not_ok = sph_part_of(2, points, sph_scalars(reach), part)
+            call expect('a part', not_ok == 0 .and. part%reach_low%x < part%low%x)
+            not_ok = sph_select_near(2, points, sph_scalars(reach), SPH_GATHER, part, inverse, counted)
+            call expect('is near itself', not_ok == 0 .and. counted == n)
+            key = [(n - i, i=1, n)]
+            not_ok = sph_list_sort(int(n, sph_index), int(n, sph_index), start, index, key)
+            call expect('rows by falling numbers', not_ok == 0 .and. index(1) > index(2))
+            not_ok = sph_list_prune(int(n, sph_index), int(n, sph_index), start, index, inverse, counted)
+            call expect('of which all stay', not_ok == 0 .and. counted == n)
             moved = points
             call expect('nothing has moved', sph_rebuild_due(2, points, moved, 0.1_sph_real * h) == 0)
             moved%x = c_loc(f)

@@ -2740,23 +2740,6 @@ def gravity_zeta_value(h: float, rho: float, sum: float) -> float:
     return _number("gravity_zeta_value", h, rho, sum)
 
 
-def grid_pair_radius(criterion: int, R_i: float, R_j: float) -> float:
-    """sph_grid_pair_radius: below which a pair is a neighbour
-
-    The distance below which a pair with the support radii R_i and R_j is a neighbour, by a criterion (an
-    sph_criterion).
-    """
-    return _number("grid_pair_radius", criterion, R_i, R_j)
-
-
-def grid_wrap(x: float, low: float, length: float) -> float:
-    """sph_grid_wrap: x moved into a box
-
-    Moves x into [low, low + length). It does not change if it is there already.
-    """
-    return _number("grid_wrap", x, low, length)
-
-
 __all__ = [
     "kernel_support_ratio",
     "kernel_h_over_dx",
@@ -2805,6 +2788,4 @@ __all__ = [
     "time_step_resistivity",
     "gravity_pair",
     "gravity_zeta_value",
-    "grid_pair_radius",
-    "grid_wrap",
 ]
