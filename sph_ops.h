@@ -8236,7 +8236,7 @@ SPH_FN sph_real sph_viscosity_switch_rate(sph_switch s, sph_real v_sig, sph_real
     return (s.least - s.alpha) * SPH_R(0.1) * v_sig / h +
            SPH_R(0.5) * (SPHI_ABS(div_v) - div_v) * (s.most - s.alpha);
 }
-/* What j adds to the sum of R: sign(div v_j) m_j W_ij; sign(0) = 0. */
+/* What j adds to the sum of R: sign(div_j) m_j W_ij, div_j being div v there; sign(0) = 0. */
 SPH_FN sph_real sph_shock_pair(sph_real m_j, sph_real div_j, sph_real w_ij)
 {
     return div_j / (SPHI_ABS(div_j) + SPHI_TINY) * m_j * w_ij;

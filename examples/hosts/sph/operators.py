@@ -2668,7 +2668,7 @@ def conductivity_speed(P_i: float, P_j: float, per_rho: float) -> float:
 def shock_pair(m_j: float, div_j: float, w_ij: float) -> float:
     """sph_shock_pair.
 
-    What j adds to the sum of R: sign(div v_j) m_j W_ij; sign(0) = 0.
+    What j adds to the sum of R: sign(div_j) m_j W_ij, div_j being div v there; sign(0) = 0.
     """
     return _number("shock_pair", m_j, div_j, w_ij)
 
