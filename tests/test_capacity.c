@@ -418,8 +418,8 @@ static void test_unused_radii(void)
     start = (sph_index *)cloud_memory((size_t)s.n + 1, sizeof *start);
     R = sph_scalars_array(s.R);
     CHECK(sph_grid_build(2, sample_points(&s), R, work, size, &g) == 0);
-    CHECK(sph_grid_count(2, &g, (sph_query){sample_points(&s), SPH_GATHER, R, 0}, start, &pairs[0]) == 0);
-    CHECK(sph_grid_count(2, &g, (sph_query){sample_points(&s), SPH_SCATTER, none, 0}, start, &pairs[1]) == 0);
+    CHECK(sph_grid_count(2, &g, sph_query_of(sample_points(&s), SPH_GATHER, R, 0), start, &pairs[0]) == 0);
+    CHECK(sph_grid_count(2, &g, sph_query_of(sample_points(&s), SPH_SCATTER, none, 0), start, &pairs[1]) == 0);
     CHECK(pairs[0] > 0 && pairs[0] == pairs[1]); /* j gathers i where i scatters to j */
     free(work);
     free(start);

@@ -222,8 +222,8 @@ static void lists_free(lists *l)
 /* a null index: counts */
 static sph_index call(const problem *p, const grid *g, int criterion, int flags, sph_index *start, sph_index *index, int64_t capacity, int64_t *pairs)
 {
-    if (!index) return sph_grid_count(p->dim, &g->g, (sph_query){p->targets, criterion, p->target_radius, flags}, start, pairs);
-    return sph_grid_lists(p->dim, &g->g, (sph_query){p->targets, criterion, p->target_radius, flags}, start, index, capacity, pairs);
+    if (!index) return sph_grid_count(p->dim, &g->g, sph_query_of(p->targets, criterion, p->target_radius, flags), start, pairs);
+    return sph_grid_lists(p->dim, &g->g, sph_query_of(p->targets, criterion, p->target_radius, flags), start, index, capacity, pairs);
 }
 
 static void check_rows(const problem *p, int criterion, int flags, const lists *l)

@@ -160,12 +160,12 @@ static uint64_t hash_of(const rows *r, const int64_t *id)
 static void densities(int dim, cluster *c, sph_index targets, rows *r, int periodic)
 {
     sph_list list;
-    sph_cloud cloud;
+    sph_cloud whole;
     list.start = r->start;
     list.index = r->index;
-    cloud = sph_cloud_of(cluster_points(c, dim, periodic), list, sph_scalars_array(c->h), sph_scalars_none());
+    whole = sph_cloud_of(cluster_points(c, dim, periodic), list, sph_scalars_array(c->h), sph_scalars_none());
     CHECK(sph_list_sort(targets, c->n, r->start, r->index, c->id) == 0);
-    CHECK(sph_density_summation(SPH_WENDLAND_C2, dim, sph_cloud_range(cloud, 0, targets), sph_scalars_array(c->m), (sph_scalar_out){.p = c->rho}) >= 0);
+    CHECK(sph_density_summation(SPH_WENDLAND_C2, dim, sph_cloud_range(whole, 0, targets), sph_scalars_array(c->m), (sph_scalar_out){.p = c->rho}) >= 0);
 }
 
 /* The cloud whole, and in parts with copies of what sph_select_near names: the same pairs, the same bits. */

@@ -1137,7 +1137,7 @@ static void magnetised_gas(void)
     const sph_vec nothing = vec(zero, zero, zero), field = vec(one, SPH_R(2), SPH_R(2));
     const sph_mhd_sums no_sums = {0};
     const sph_gas_sums no_gas_sums = {0};
-    const sph_velocity_gradient no_gradient = {nothing, nothing, nothing};
+    const sph_velocity_gradient no_slope = {nothing, nothing, nothing};
     const sph_gas_terms gas_terms = {SPH_R(2), SPH_R(1), SPH_CONDUCTIVITY_PRICE};
     sph_pair_weights w = {SPH_R(1), SPH_R(1)};
     sph_real x;
@@ -1245,8 +1245,8 @@ static void magnetised_gas(void)
     FORBIDDEN_LENGTH(x, sph_gas_value(plain(x, one), no_gas_sums))
     FORBIDDEN_LENGTH(x, sph_gas_value(plain(one, x), no_gas_sums))
     FUNCTION(sph_flow_of)
-    ALLOWED(sph_flow, sph_flow_of(3, no_gradient))
-    FORBIDDEN(sph_flow_of(0, no_gradient))
+    ALLOWED(sph_flow, sph_flow_of(3, no_slope))
+    FORBIDDEN(sph_flow_of(0, no_slope))
     FUNCTION(sph_velocity_gradient_pair)
     ALLOWED(sph_velocity_gradient, sph_velocity_gradient_pair(zero, nothing, nothing))
     FUNCTION(sph_viscosity_factor_balsara)

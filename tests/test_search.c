@@ -449,7 +449,7 @@ static void test_nothing(void)
             for (flags = 0; flags <= SPH_LIST_FOREIGN; flags += SPH_LIST_FOREIGN) {
                 start[0] = start[1] = -7;
                 pairs = -1;
-                CHECK(sph_grid_lists(dim, &grid, (sph_query){none, criterion, no, flags}, start, 0, 0, &pairs) ==
+                CHECK(sph_grid_lists(dim, &grid, sph_query_of(none, criterion, no, flags), start, 0, 0, &pairs) ==
                       0);
                 CHECK(pairs == 0 && start[0] == 0 && start[1] == -7);
                 start[0] = -7;

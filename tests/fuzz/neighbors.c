@@ -96,7 +96,7 @@ static void threads(int count)
 static sph_index lists(const problem *p, const sph_grid *g, sph_index *start, sph_index *index, int64_t room,
                        int64_t *pairs)
 {
-    return sph_grid_lists(p->dim, g, (sph_query){p->targets, p->criterion, p->target_radius, p->flags}, start, index, room, pairs);
+    return sph_grid_lists(p->dim, g, sph_query_of(p->targets, p->criterion, p->target_radius, p->flags), start, index, room, pairs);
 }
 
 /* with just this room and so many threads */
@@ -125,7 +125,7 @@ static void check_lists(const problem *p, const sph_grid *g, int count, int64_t 
     int64_t pairs = -1, again = -1;
     sph_index answer;
     threads(1);
-    answer = sph_grid_count(p->dim, g, (sph_query){p->targets, p->criterion, p->target_radius, p->flags}, start, &pairs);
+    answer = sph_grid_count(p->dim, g, sph_query_of(p->targets, p->criterion, p->target_radius, p->flags), start, &pairs);
     if (answer < 0) FUZZ_REQUIRE(pairs == 0);
     else {
         FUZZ_REQUIRE(answer == 0 && pairs >= 0 && pairs <= (int64_t)p->targets.n * p->sources.n);
