@@ -9,7 +9,8 @@
  *     gas_close(&g);
  *
  * A step is kick, drift, kick with v and u predicted for the rates: v' = v + dt a, u' = u + dt du/dt. With v and u
- * of the half step the energy would be wrong by 1e-3 instead of 1e-5. Cubic spline, eta = 1.2, beta = 2.
+ * of the half step the energy would be wrong by 1e-3 instead of 1e-5. Cubic spline, eta = 1.2 unless a driver says
+ * otherwise, beta = 2.
  */
 #ifndef GAS_H
 #define GAS_H
@@ -25,7 +26,12 @@
 #include <math.h>
 #include <string.h>
 
-typedef enum gas_switch { GAS_CONSTANT, GAS_MORRIS, GAS_CULLEN, GAS_PHANTOM } gas_switch;
+#ifndef GAS_KERNEL
+#define GAS_KERNEL SPH_CUBIC_SPLINE
+#define GAS_ETA 1.2
+#endif
+
+typedef enum gas_switch { GAS_CONSTANT, GAS_BALSARA, GAS_MORRIS, GAS_CULLEN, GAS_PHANTOM } gas_switch;
 enum { X, Y, Z, VX, VY, VZ, PX, PY, PZ, U, PU, AX, AY, AZ, RATE_U, ALPHA, H, RHO, OMEGA, M, P, CS, V_SIG, DIV, DIV_BEFORE, CURL, SHEAR, RATIO, SPEED, VOLUME, REACH, ARRAYS };
 
 typedef struct gas {
@@ -86,8 +92,8 @@ static inline sph_gas gas_state(const gas *g)
 static inline long gas_density_part(void *data, long first, long last)
 {
     const gas *const g = (const gas *)data;
-    const sph_kernel k = SPH_CUBIC_SPLINE;
-    const sph_density_options options = {gas_field(g, REACH), 1.2, 1e-4};
+    const sph_kernel k = GAS_KERNEL;
+    const sph_density_options options = {gas_field(g, REACH), GAS_ETA, 1e-4};
     const sph_density_out out = {.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status};
     return WITH_DIM_1_2_3(sph_density_adaptive, k, g->dim, gas_cloud(g, first, last), gas_field(g, M), options, out);
 }
@@ -95,7 +101,7 @@ static inline void gas_density(gas *g, sph_index last)
 {
     sph_index i, failed = 1;
     while (failed > 0) { /* an h outgrew its list */
-        for (i = 0; i < g->n; i++) g->a[REACH][i] = 1.04 * sph_kernel_support_ratio(SPH_CUBIC_SPLINE) * g->a[H][i];
+        for (i = 0; i < g->n; i++) g->a[REACH][i] = 1.04 * sph_kernel_support_ratio(GAS_KERNEL) * g->a[H][i];
         search_all(&g->near, g->dim, gas_points(g), gas_field(g, REACH), SPH_LARGER);
         failed = (sph_index)threads_each(last, gas_density_part, g);
         expect(failed);
@@ -110,21 +116,21 @@ static inline void gas_density(gas *g, sph_index last)
 static inline long gas_rates_part(void *data, long first, long last)
 {
     const gas *const g = (const gas *)data;
-    const sph_kernel k = SPH_CUBIC_SPLINE;
+    const sph_kernel k = GAS_KERNEL;
     const sph_gas_out out = {.acceleration = vectors_into(g->a + AX, 3), .rate_u = g->a[RATE_U], .v_sig = g->a[V_SIG]};
     return WITH_DIM_1_2_3(sph_gas_rates, k, g->dim, gas_cloud(g, first, last), gas_state(g), out);
 }
 static inline long gas_gradient_part(void *data, long first, long last)
 {
     const gas *const g = (const gas *)data;
-    const sph_kernel k = SPH_CUBIC_SPLINE;
+    const sph_kernel k = GAS_KERNEL;
     const sph_velocity_gradient_out out = {.div = g->a[DIV], .curl = g->a[CURL], .shear = g->a[SHEAR]};
     return WITH_DIM_1_2_3(sph_velocity_gradient_cspm, k, g->dim, gas_cloud(g, first, last), vectors_of(g->a + PX, 3), out);
 }
 static inline long gas_shock_part(void *data, long first, long last)
 {
     const gas *const g = (const gas *)data;
-    const sph_kernel k = SPH_CUBIC_SPLINE;
+    const sph_kernel k = GAS_KERNEL;
     const sph_shock_out out = {.ratio = g->a[RATIO], .v_sig = g->a[SPEED]};
     return WITH_DIM_1_2_3(sph_shock_indicator, k, g->dim, gas_cloud(g, first, last), gas_state(g), gas_field(g, DIV), out);
 }
@@ -133,6 +139,13 @@ static inline void gas_switches(gas *g, double dt)
 {
     sph_index i;
     expect_all((sph_index)threads_each(g->free, gas_gradient_part, g));
+    if (g->how == GAS_BALSARA) { /* a function of the flow: it needs no time */
+        for (i = 0; i < g->free; i++) {
+            const sph_flow f = {g->a[DIV][i], g->a[CURL][i], g->a[SHEAR][i], 0};
+            g->a[ALPHA][i] = g->alpha[1] * sph_viscosity_factor_balsara(f, g->a[CS][i], g->a[H][i]);
+        }
+        return;
+    }
     expect_all((sph_index)threads_each(g->free, gas_shock_part, g));
     for (i = 0; i < g->free && dt > 0; i++) {
         const sph_switch s = {g->a[ALPHA][i], g->alpha[0], g->alpha[1]};
@@ -149,15 +162,20 @@ static inline void gas_switches(gas *g, double dt)
     }
     memcpy(g->a[DIV_BEFORE], g->a[DIV], (size_t)g->n * sizeof(double));
 }
-/* rates of the predicted v and u */
-static inline void gas_rates(gas *g, double dt)
+/* pressure and sound speed of the predicted u */
+static inline void gas_pressure(gas *g)
 {
     sph_index i;
-    gas_density(g, g->free);
     for (i = 0; i < g->n; i++) {
         g->a[P][i] = (g->gamma - 1) * g->a[RHO][i] * g->a[PU][i];
         g->a[CS][i] = sqrt(g->gamma * (g->gamma - 1) * fmax(g->a[PU][i], 0));
     }
+}
+/* rates of the predicted v and u */
+static inline void gas_rates(gas *g, double dt)
+{
+    gas_density(g, g->free);
+    gas_pressure(g);
     if (g->how != GAS_CONSTANT) gas_switches(g, dt);
     expect_all((sph_index)threads_each(g->free, gas_rates_part, g));
 }
@@ -201,6 +219,16 @@ static inline double gas_energy(const gas *g)
     for (i = 0; i < g->free; i++)
         e += g->a[M][i] * (g->a[U][i] + 0.5 * (g->a[VX][i] * g->a[VX][i] + g->a[VY][i] * g->a[VY][i] + g->a[VZ][i] * g->a[VZ][i]));
     return e;
+}
+
+/* ---- Gresho's vortex (Gresho & Chan 1990, IJNMF 11, 621), rho = 1: pressure balances rotation ---- */
+
+static inline double gresho_speed(double r) { return r < 0.2 ? 5 * r : r < 0.4 ? 2 - 5 * r : 0; }
+static inline double gresho_pressure(double r)
+{
+    if (r < 0.2) return 5 + 12.5 * r * r;
+    if (r < 0.4) return 9 + 12.5 * r * r - 20 * r + 4 * log(r / 0.2);
+    return 3 + 4 * log(2.0);
 }
 
 #endif

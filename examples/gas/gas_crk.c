@@ -10,27 +10,22 @@
  * cubic spline, artificial viscosity alpha v_sig with alpha = 0.1, to t = 1. Plain SPH is sph_mhd_rates without a
  * field: P / rho^2, symmetric. The error is the mean of |v - exact| along the circles.
  */
-#include "../common/host.h"
-
 #include "../common/figure.h"
 #include "../common/options.h"
-#include "../common/report.h"
+#include "gas.h"
 
-#include <math.h>
-
-#define GAS_KERNEL SPH_CUBIC_SPLINE
 enum { PLAIN, CRK, IAD, FORMS };
 
-typedef struct gas {
+typedef struct cloud {
     int n, form;
     double h, *x[2], *v[2], *a[2], *u, *rate, *m, *rho, *p, *c, *volume, *one, *zero, *alpha;
     double *scale, *slope[2], *scale_gradient[2], *slope_gradient, *inverse;
     search near;
-    sph_cloud cloud;
-} gas;
+    sph_cloud of;
+} cloud;
 static double *room(int n) { return (double *)need_zeros((size_t)n, sizeof(double)); }
 
-static void rates(gas *g)
+static void rates(cloud *g)
 {
     const double support = sph_kernel_support(GAS_KERNEL, g->h), gamma = 5.0 / 3;
     const sph_points points = sph_points_periodic(sph_points_separate(g->n, g->x[0], g->x[1], NULL), 1, 1, 0);
@@ -38,14 +33,14 @@ static void rates(gas *g)
     const sph_vectors v = vectors_of(g->v, 2);
     int i;
     search_all(&g->near, 2, points, sph_scalars_same(&support), SPH_GATHER);
-    g->cloud = sph_cloud_checked(2, sph_cloud_of(points, g->near.found.list, h, sph_scalars_none()));
-    expect_all(sph_density_summation(GAS_KERNEL, 2, g->cloud, sph_scalars_array(g->m), sph_scalar_out_array(g->rho, NULL)));
+    g->of = sph_cloud_checked(2, sph_cloud_of(points, g->near.found.list, h, sph_scalars_none()));
+    expect_all(sph_density_summation(GAS_KERNEL, 2, g->of, sph_scalars_array(g->m), sph_scalar_out_array(g->rho, NULL)));
     for (i = 0; i < g->n; i++) {
         g->p[i] = (gamma - 1) * g->rho[i] * g->u[i];
         g->c[i] = sqrt(gamma * g->p[i] / g->rho[i]);
         g->volume[i] = g->m[i] / g->rho[i];
     }
-    g->cloud.volume = sph_scalars_array(g->volume);
+    g->of.volume = sph_scalars_array(g->volume);
     if (g->form == PLAIN) {
         const sph_scalars none = sph_scalars_array(g->zero);
         const sph_mhd s = {.medium = {sph_scalars_array(g->m), sph_scalars_array(g->rho), sph_scalars_array(g->one)},
@@ -56,7 +51,7 @@ static void rates(gas *g)
         sph_mhd_out out = {.acceleration = vectors_into(g->a, 2), .rate_u = g->rate};
         for (i = 0; i < 2; i++) field[i] = (double *)need(field[i], (size_t)g->n, sizeof(double));
         out.rate_B = vectors_into(field, 2);
-        expect_all(sph_mhd_rates(GAS_KERNEL, 2, g->cloud, s, out));
+        expect_all(sph_mhd_rates(GAS_KERNEL, 2, g->of, s, out));
     } else {
         const sph_fluid f = {.m = sph_scalars_array(g->m), .rho = sph_scalars_array(g->rho), .p = sph_scalars_array(g->p),
                              .c = sph_scalars_array(g->c), .v = v, .viscosity = SPH_VISCOSITY_SIGNAL, .alpha = 0.1, .beta = 2};
@@ -67,28 +62,21 @@ static void rates(gas *g)
                                    .slope_gradient = sph_matrix_out_packed(2, g->slope_gradient)};
             const sph_rk rk = {sph_scalars_array(g->scale), vectors_of(g->slope, 2), vectors_of(g->scale_gradient, 2),
                                sph_matrices_packed(2, g->slope_gradient)};
-            expect_all(sph_rk_correction(GAS_KERNEL, 2, g->cloud, to));
-            expect_all(sph_gas_rates_crk(GAS_KERNEL, 2, g->cloud, f, rk, out));
+            expect_all(sph_rk_correction(GAS_KERNEL, 2, g->of, to));
+            expect_all(sph_gas_rates_crk(GAS_KERNEL, 2, g->of, f, rk, out));
         } else {
             const sph_correction_out to = {.inverse = sph_matrix_out_packed(2, g->inverse)};
-            expect_all(sph_gradient_correction_iad(GAS_KERNEL, 2, g->cloud, to));
-            expect_all(sph_gas_rates_iad(GAS_KERNEL, 2, g->cloud, f, sph_matrices_packed(2, g->inverse), out));
+            expect_all(sph_gradient_correction_iad(GAS_KERNEL, 2, g->of, to));
+            expect_all(sph_gas_rates_iad(GAS_KERNEL, 2, g->of, f, sph_matrices_packed(2, g->inverse), out));
         }
     }
-}
-static double around(double r) { return r < 0.2 ? 5 * r : r < 0.4 ? 2 - 5 * r : 0; }
-static double pressure(double r)
-{
-    if (r < 0.2) return 5 + 12.5 * r * r;
-    if (r < 0.4) return 9 + 12.5 * r * r - 20 * r + 4 * log(r / 0.2);
-    return 3 + 4 * log(2.0);
 }
 typedef struct vortex_result {
     double error, energy, momentum;
 } vortex_result;
 static vortex_result vortex(int form, int side, double end)
 {
-    gas g;
+    cloud g;
     vortex_result r = {0, 0, 0};
     double t = 0, before = 0, after = 0, push[2] = {0, 0}, dt;
     const double dx = 1.0 / side;
@@ -109,13 +97,13 @@ static vortex_result vortex(int form, int side, double end)
         const double x = (i % side + 0.5) * dx - 0.5, y = (i / side + 0.5) * dx - 0.5, q = hypot(x, y);
         g.x[0][i] = x + 0.5;
         g.x[1][i] = y + 0.5;
-        g.v[0][i] = -around(q) * y / q;
-        g.v[1][i] = around(q) * x / q;
-        g.u[i] = 1.5 * pressure(q);
+        g.v[0][i] = -gresho_speed(q) * y / q;
+        g.v[1][i] = gresho_speed(q) * x / q;
+        g.u[i] = 1.5 * gresho_pressure(q);
         g.m[i] = dx * dx;
         g.one[i] = 1;
         g.alpha[i] = 0.1;
-        before += g.m[i] * (g.u[i] + 0.5 * around(q) * around(q));
+        before += g.m[i] * (g.u[i] + 0.5 * gresho_speed(q) * gresho_speed(q));
     }
     dt = end / ceil(end / (0.2 * g.h / 4.5));
     while (t < end - 0.5 * dt) { /* midpoint rule */
@@ -132,7 +120,7 @@ static vortex_result vortex(int form, int side, double end)
     }
     for (i = 0; i < g.n; i++) {
         const double x = g.x[0][i] - floor(g.x[0][i]) - 0.5, y = g.x[1][i] - floor(g.x[1][i]) - 0.5, q = hypot(x, y);
-        r.error += fabs((g.v[1][i] * x - g.v[0][i] * y) / q - around(q)) / g.n;
+        r.error += fabs((g.v[1][i] * x - g.v[0][i] * y) / q - gresho_speed(q)) / g.n;
         after += g.m[i] * (g.u[i] + 0.5 * (g.v[0][i] * g.v[0][i] + g.v[1][i] * g.v[1][i]));
         push[0] += g.m[i] * g.v[0][i];
         push[1] += g.m[i] * g.v[1][i];
