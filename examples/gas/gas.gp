@@ -21,3 +21,18 @@ if (there("gas_sod_none")) {
     }
     unset multiplot
 }
+
+if (there("gas_waves")) {
+    reset
+    set datafile separator ","
+    set output "gas_waves.png"
+    set terminal pngcairo size 700,500 font "sans,12"
+    set title "Error of the speed of linear waves"
+    set logscale xy
+    set grid linecolor rgb "#dddddd"
+    set xlabel "particles a wavelength"
+    set xrange [12:160]
+    set key bottom left
+    plot for [w in "sound Alfven fast slow"] "gas_waves.csv" using (strcol(1) eq w ? $2 : 1/0):3 every ::1 with linespoints pointtype 7 title w, \
+        10 / x**2 with lines dashtype 2 linecolor rgb "black" title "N^{-2}"
+}

@@ -3,7 +3,7 @@
  * gas_waves.c - linear waves of a gas (sound) and of a magnetised gas (Alfven, slow, fast): the error of the speed.
  *
  *     cc -O2 -o gas_waves examples/gas/gas_waves.c -lm
- *     gas_waves -out DIR [-full]       (-h for help)
+ *     gas_waves -out DIR -figures DIR [-full]       (-h for help)
  *
  * A plane wave of length 1 oblique to a lattice of 2 N x N particles, in the box sqrt(5) x sqrt(5) / 2 that repeats:
  * the wave runs along (1, 2) / sqrt(5), as in Gardiner & Stone 2008, JCP 227, 4123. rho = 1, P = 1 / gamma, gamma =
@@ -12,6 +12,7 @@
  * wave's own velocity gives the speed. N = 16, 32; -full: 64. Judged is the order, which is 2 for the Alfven wave; an
  * independent trial, whose set-up is not known, stands beside.
  */
+#include "../common/figure.h"
 #include "../common/options.h"
 #define GAS_KERNEL SPH_QUINTIC_SPLINE /* by the cubic spline the speed of sound is wrong by 1.7 %, at any N */
 #define GAS_ETA 1.2
@@ -169,14 +170,19 @@ int main(int argc, char **argv)
                                  {"Alfven", 1, 1, 1, {3.7e-2, 9.5e-3, 3.1e-3}},
                                  {"fast", 1, 0, 2, {2.0e-2, 3.3e-3, 1.4e-4}},
                                  {"slow", 1, 0, 0.5, {6.1e-2, 1.5e-2, 3.4e-3}}};
-    const char *out = ".";
+    const char *out = ".", *figures = ".";
     int full = 0, k;
+    FILE *data;
     const option_spec specs[] = {{"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
+                                 {"figures", "folder of the figures' data", OPTION_TEXT, &figures, 0, 0},
                                  {"full", "128 x 64 particles in addition", OPTION_FLAG, &full, 0, 0},
                                  THREADS_OPTION};
     static report r;
-    options_parse(argc, argv, "Linear waves of a gas and of a magnetised gas: the error of the speed.", specs, 3);
+    options_parse(argc, argv, "Linear waves of a gas and of a magnetised gas: the error of the speed.", specs, 4);
     report_open(&r, "gas_waves", out);
+    figure_folder(figures, "gas_waves");
+    data = figure_open(figures, "gas_waves");
+    fprintf(data, "wave,N,error\n");
     for (k = 0; k < 4; k++) {
         double before = 0;
         int level;
@@ -186,6 +192,7 @@ int main(int argc, char **argv)
             double amplitude;
             const double error = run(&waves[k], 16 << level, &amplitude);
             snprintf(setting, sizeof setting, "N = %d", 16 << level);
+            fprintf(data, "%s,%d,%.9g\n", waves[k].name, 16 << level, error);
             if (waves[k].magnetised)
                 report_not_reproduced(report_beside(&r, REPORT_REGRESSION), waves[k].name, setting, "error of the speed", waves[k].error[level], error,
                                       "the set-up of the trial is not known");
@@ -198,5 +205,6 @@ int main(int argc, char **argv)
             before = error;
         }
     }
+    figure_close(data);
     return report_close(&r) ? 1 : 0;
 }
