@@ -190,7 +190,8 @@ int main(int argc, char **argv)
                 report_not_reproduced(report_beside(&r, REPORT_REGRESSION), waves[k].name, setting, "error of the speed", waves[k].error[level], error,
                                       "the set-up of the trial is not known");
             else report_absolute(report_beside(&r, REPORT_THEORY), waves[k].name, setting, "error of the speed", 0, error, 0.005);
-            report_info(&r, waves[k].name, setting, "amplitude / that of the start", amplitude);
+            if (level) report_absolute(report_beside(&r, REPORT_THEORY), waves[k].name, setting, "amplitude / that of the start", 1, amplitude, 0.03);
+            else report_info(&r, waves[k].name, setting, "amplitude / that of the start", amplitude);
             /* of sound the error changes its sign between 16 and 32: it has no order */
             if (level > 0 && (!waves[k].magnetised || (level == 2 && !waves[k].exact_order))) report_info(&r, waves[k].name, setting, "order", log2(before / error));
             else if (level)
