@@ -524,8 +524,8 @@ static const operation operations[] = {
     {"tension_csf", tension_csf, ALL, 5, {{VECTOR, 0, -1, 0}, {SCALAR, 3, -1, 0}}},
     {"wall_gradient", wall_gradient, ALL, 1, {{VECTOR, 0, -1, 0}}},
     {"wall_laplacian", wall_laplacian, ALL, 1, {{SCALAR, 0, -2, 0}}},
-    /* the closed forms are differences of powers up to q^14 */
-    {"wall_gamma", wall_gamma, ALL, 10, {{VECTOR, 0, -1, 0}, {SCALAR, 3, 0, 0}}},
+    /* the closed forms are differences of powers up to q^14: in float 280 roundings were seen */
+    {"wall_gamma", wall_gamma, ALL, 20, {{VECTOR, 0, -1, 0}, {SCALAR, 3, 0, 0}}},
     {"pressure_factor_dfsph", pressure_factor, ALL, 1, {{SCALAR, 0, 2, 2}}},
     {"viscous_mu_morris", viscous_morris, ALL, 1, {{VECTOR, 0, -2, -1}}},
     {"viscous_mu_monaghan_cleary", viscous_cleary, ALL, 1, {{VECTOR, 0, -2, -1}}},

@@ -22,6 +22,22 @@ if (there("gas_sod_none")) {
     unset multiplot
 }
 
+if (there("gas_gresho_constant_32")) {
+    set output "gas_gresho.png"
+    set terminal pngcairo size 1500,900 font "sans,12"
+    set multiplot layout 2,3 title "Gresho's vortex at t = 1, 32 x 32 particles: v along the circles"
+    set xrange [0:0.5]
+    set yrange [-0.2:1.1]
+    unset key
+    array vortex[6] = ["constant", "none", "balsara", "morris", "cullen", "phantom"]
+    array vortex_title[6] = ["alpha = 1", "no viscosity", "Balsara", "Morris \\& Monaghan", "Cullen \\& Dehnen", "Phantom"]
+    do for [k = 1:6] {
+        set title vortex_title[k]
+        plot "gas_gresho_".vortex[k]."_32.csv" using 1:2 every ::1 with points pointtype 7 pointsize 0.4, (x < 0.2 ? 5 * x : x < 0.4 ? 2 - 5 * x : 0) with lines linecolor rgb "black"
+    }
+    unset multiplot
+}
+
 if (there("gas_waves")) {
     reset
     set datafile separator ","
