@@ -122,6 +122,7 @@ typedef struct liquid {
     int form;    /* of physical viscosity, a viscous_form: Morris's */
     int surface; /* 1: there is a free surface, which shifting must know of */
     int started;
+    void (*rated)(flow *); /* changes the rates of density; null: nothing does */
     /* of each particle: gradient of rho or of another field; shift, or its velocity, or the velocity that
        moves a particle; least eigenvalue and normal; accelerations of a transport velocity, or of a shift; and what is
        needed for a moment, one number more than particles */
@@ -425,6 +426,7 @@ static inline void liquid_step(flow *f)
     flow_neighbours(f);
     if (shift == LIQUID_SUN_2019) liquid_shift_velocity(f);
     liquid_rate(f);
+    if (l->rated) l->rated(f);
     liquid_density(f, l->method->late ? 0.5 * f->dt : f->dt);
     if (!flow_healthy(f)) return;
     liquid_forces(f);

@@ -125,10 +125,11 @@ static sph_vec closed(int i, double sx, double sy, double at_wall)
     const sph_vec sum = {sx, sy, 0}, nabla = {wall.nabla[0][i], wall.nabla[1][i], 0};
     return sph_wall_gradient_value(2, sum, at_wall, wall.gamma[i], nabla);
 }
-/* the rates of density, of walls that are at rest */
+/* the rates of density at new places, of walls that are at rest */
 static void closed_rates(flow *f)
 {
     int i;
+    find_gamma(f);
     for (i = 0; i < f->n_fluid; i++) /* -rho div v; the difference v_w - v_i stands in the place of f_w */
         f->rate[i] = closed(i, f->rate[i], 0, f->rho[i] * f->vx[i]).x + closed(i, 0, 0, f->rho[i] * f->vy[i]).y;
 }
@@ -139,6 +140,7 @@ static void closed_forces(flow *f)
                                   .slope = vectors_of(wall.slope, 2)};
     sph_cloud targets = flow_fluid(f);
     int i, axis;
+    if (!liquid_of(f)->started) find_gamma(f); /* there have been no rates yet */
     for (i = 0; i < f->n_fluid; i++) {
         const double p_w = f->p[i] - (wall.plates ? 0 : f->rho[i] * f->gravity_y * depth(f, i)); /* at rest */
         const sph_vec a = closed(i, -f->rho[i] * f->ax[i], -f->rho[i] * f->ay[i], f->p[i] + p_w);
@@ -158,30 +160,6 @@ static void closed_forces(flow *f)
         for (i = 0; i < f->n_fluid; i++) (axis ? f->ay : f->ax)[i] += wall.mu / f->rho[i] * wall.laplacian[i];
     }
 }
-/* the step of fluids.h, with rates of density that know of the wall */
-static void closed_step(flow *f)
-{
-    liquid *const l = liquid_of(f);
-    if (!l->started) {
-        flow_neighbours(f);
-        find_gamma(f);
-        liquid_forces(f);
-        l->started = 1;
-    }
-    liquid_kick(f, 0.5 * f->dt);
-    if (!flow_healthy(f)) return;
-    liquid_drift(f);
-    flow_neighbours(f);
-    find_gamma(f);
-    liquid_rate(f);
-    closed_rates(f);
-    liquid_density(f, f->dt);
-    if (!flow_healthy(f)) return;
-    liquid_forces(f);
-    liquid_kick(f, 0.5 * f->dt);
-    f->steps++;
-}
-
 /* ---------------------------------------------------------------- cases */
 
 static void wall_begin(liquid *l, wall_kind kind, int plates, double mu, double force, const fluids_options *o)
@@ -217,7 +195,7 @@ static void wall_begin(liquid *l, wall_kind kind, int plates, double mu, double 
     if (kind == WALL_MDBC || kind == WALL_MLS) f->ghosts = mirrored;
     if (kind == WALL_GAMMA) {
         f->force = closed_forces;
-        f->step = closed_step;
+        l->rated = closed_rates;
     }
 }
 static double wall_end(liquid *l)

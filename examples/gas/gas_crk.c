@@ -7,8 +7,8 @@
  *
  * A vortex in the unit square that repeats, in which pressure balances rotation (Gresho & Chan 1990, IJNMF 11,
  * 621): v = 5 r, 2 - 5 r, 0, rho = 1, gamma = 5/3, p = 5 in the middle. 40 x 40 particles from a lattice, h = 1.4 dx,
- * cubic spline, artificial viscosity alpha v_sig with alpha = 0.1, to t = 1. Plain SPH is sph_mhd_rates without a
- * field: P / rho^2, symmetric. The error is the mean of |v - exact| along the circles.
+ * cubic spline, artificial viscosity alpha v_sig with alpha = 0.1, to t = 1. Plain SPH is sph_gas_rates: P /
+ * rho^2, symmetric. The error is the mean of |v - exact| along the circles.
  */
 #include "../common/figure.h"
 #include "../common/options.h"
@@ -18,7 +18,7 @@ enum { PLAIN, CRK, IAD, FORMS };
 
 typedef struct cloud {
     int n, form;
-    double h, *x[2], *v[2], *a[2], *u, *rate, *m, *rho, *p, *c, *volume, *one, *zero, *alpha;
+    double h, *x[2], *v[2], *a[2], *u, *rate, *m, *rho, *p, *c, *volume, *one, *alpha;
     double *scale, *slope[2], *scale_gradient[2], *slope_gradient, *inverse;
     search near;
     sph_cloud of;
@@ -42,16 +42,11 @@ static void rates(cloud *g)
     }
     g->of.volume = sph_scalars_array(g->volume);
     if (g->form == PLAIN) {
-        const sph_scalars none = sph_scalars_array(g->zero);
-        const sph_mhd s = {.medium = {sph_scalars_array(g->m), sph_scalars_array(g->rho), sph_scalars_array(g->one)},
-                           .p = sph_scalars_array(g->p), .u = sph_scalars_array(g->u), .cs = sph_scalars_array(g->c),
-                           .alpha = sph_scalars_array(g->alpha), .alpha_B = none, .v = v,
-                           .field = {none, none, sph_scalars_none()}, .psi = sph_scalars_none(), .beta = 2};
-        static double *field[2];
-        sph_mhd_out out = {.acceleration = vectors_into(g->a, 2), .rate_u = g->rate};
-        for (i = 0; i < 2; i++) field[i] = (double *)need(field[i], (size_t)g->n, sizeof(double));
-        out.rate_B = vectors_into(field, 2);
-        expect_all(sph_mhd_rates(GAS_KERNEL, 2, g->of, s, out));
+        const sph_gas s = {.medium = {sph_scalars_array(g->m), sph_scalars_array(g->rho), sph_scalars_array(g->one)},
+                           .p = sph_scalars_array(g->p), .cs = sph_scalars_array(g->c),
+                           .alpha = sph_scalars_array(g->alpha), .v = v, .beta = 2};
+        const sph_gas_out out = {.acceleration = vectors_into(g->a, 2), .rate_u = g->rate};
+        expect_all(sph_gas_rates(GAS_KERNEL, 2, g->of, s, out));
     } else {
         const sph_fluid f = {.m = sph_scalars_array(g->m), .rho = sph_scalars_array(g->rho), .p = sph_scalars_array(g->p),
                              .c = sph_scalars_array(g->c), .v = v, .viscosity = SPH_VISCOSITY_SIGNAL, .alpha = 0.1, .beta = 2};
@@ -90,7 +85,7 @@ static vortex_result vortex(int form, int side, double end)
         g.x[k] = room(g.n), g.v[k] = room(g.n), g.a[k] = room(g.n), g.slope[k] = room(g.n), g.scale_gradient[k] = room(g.n);
     }
     g.u = room(g.n), g.rate = room(g.n), g.m = room(g.n), g.rho = room(g.n), g.p = room(g.n), g.c = room(g.n);
-    g.volume = room(g.n), g.one = room(g.n), g.zero = room(g.n), g.alpha = room(g.n), g.scale = room(g.n);
+    g.volume = room(g.n), g.one = room(g.n), g.alpha = room(g.n), g.scale = room(g.n);
     g.slope_gradient = room(4 * g.n), g.inverse = room(4 * g.n);
     for (k = 0; k < 5; k++) kept[k] = room(g.n);
     for (i = 0; i < g.n; i++) {
@@ -129,7 +124,7 @@ static vortex_result vortex(int form, int side, double end)
     r.momentum = hypot(push[0], push[1]);
     for (k = 0; k < 2; k++) free(g.x[k]), free(g.v[k]), free(g.a[k]), free(g.slope[k]), free(g.scale_gradient[k]);
     for (k = 0; k < 5; k++) free(kept[k]);
-    free(g.u), free(g.rate), free(g.m), free(g.rho), free(g.p), free(g.c), free(g.volume), free(g.one), free(g.zero);
+    free(g.u), free(g.rate), free(g.m), free(g.rho), free(g.p), free(g.c), free(g.volume), free(g.one);
     free(g.alpha), free(g.scale), free(g.slope_gradient), free(g.inverse);
     search_close(&g.near);
     return r;
@@ -140,13 +135,12 @@ int main(int argc, char **argv)
     static const char *const forms[FORMS] = {"plain", "CRK", "IAD"};
     const char *out = ".", *figures = ".";
     double error[FORMS];
-    int full = 0, quiet = 0, form;
+    int full = 0, form;
     const option_spec specs[] = {{"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
                                  {"figures", "folder of the figures' data", OPTION_TEXT, &figures, 0, 0},
-                                 {"full", "80 x 80 particles", OPTION_FLAG, &full, 0, 0},
-                                 {"quiet", "nothing is said on the terminal anyhow", OPTION_FLAG, &quiet, 0, 0}};
+                                 {"full", "80 x 80 particles", OPTION_FLAG, &full, 0, 0}};
     static report r;
-    options_parse(argc, argv, "Gresho's vortex by plain SPH, CRKSPH and IAD.", specs, 4);
+    options_parse(argc, argv, "Gresho's vortex by plain SPH, CRKSPH and IAD.", specs, 3);
     report_open(&r, "gas_crk", out);
     figure_folder(figures, "gas_crk");
     report_section(&r, "Gresho's vortex, t = 1");
