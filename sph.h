@@ -325,11 +325,11 @@ SPH_FN void *sphi_aligned(void *memory)
     return (char *)memory + (SPHI_ALIGN - (uintptr_t)memory % SPHI_ALIGN) % SPHI_ALIGN;
 }
 
-SPH_FN sph_vec sphi_wrap_point(int dim, const sph_grid *g, sph_vec p)
+SPH_FN sph_vec sphi_wrap_point(int dim, sph_vec p, sph_vec low, sph_vec box)
 {
-    p.x = sph_grid_wrap(p.x, g->low.x, g->box.x);
-    if (dim > 1) p.y = sph_grid_wrap(p.y, g->low.y, g->box.y);
-    if (dim > 2) p.z = sph_grid_wrap(p.z, g->low.z, g->box.z);
+    p.x = sph_grid_wrap(p.x, low.x, box.x);
+    if (dim > 1) p.y = sph_grid_wrap(p.y, low.y, box.y);
+    if (dim > 2) p.z = sph_grid_wrap(p.z, low.z, box.z);
     return p;
 }
 
@@ -447,7 +447,7 @@ SPH_FN int sphi_parts(void)
    the box, even where the compiler may round as it likes (-ffast-math). */
 SPHI_LARGE sph_vec sphi_source(int dim, const sph_grid *g, sph_points s, sph_index i)
 {
-    return sphi_wrap_point(dim, g, sphi_point(dim, s, i));
+    return sphi_wrap_point(dim, sphi_point(dim, s, i), g->low, g->box);
 }
 
 /* The corners of the box around all sources. */
@@ -484,6 +484,7 @@ SPHI_LARGE int sphi_arcs(int dim, sph_points s, sph_vec *low, sph_vec *high)
 {
     enum { BINS = 256 };
     const sph_real box[3] = {s.box.x, s.box.y, s.box.z};
+    const SPH_GLOBAL sph_real *const axis[3] = {s.x, s.y, s.z};
     sph_real lows[3] = {low->x, low->y, low->z}, highs[3] = {high->x, high->y, high->z};
     int c, shorter = 0;
     for (c = 0; c < dim; c++) {
@@ -495,8 +496,7 @@ SPHI_LARGE int sphi_arcs(int dim, sph_points s, sph_vec *low, sph_vec *high)
         sph_index i;
         if (!(box[c] > SPH_R(0))) continue;
         for (i = 0; i < s.n; i++) {
-            const sph_vec p = sphi_point(dim, s, i);
-            const sph_real x = sph_grid_wrap(c == 0 ? p.x : c == 1 ? p.y : p.z, SPH_R(0), box[c]);
+            const sph_real x = sph_grid_wrap(axis[c][(size_t)i * s.stride], SPH_R(0), box[c]);
             held[sph_grid_cell(x, SPH_R(0), SPH_R(BINS) / box[c], BINS)] = 1;
         }
         for (b = 0; b < 2 * BINS; b++) { /* twice around */
@@ -511,8 +511,7 @@ SPHI_LARGE int sphi_arcs(int dim, sph_points s, sph_vec *low, sph_vec *high)
         first = edge + box[c];
         last = edge;
         for (i = 0; i < s.n; i++) {
-            const sph_vec p = sphi_point(dim, s, i);
-            const sph_real x = sph_grid_wrap(c == 0 ? p.x : c == 1 ? p.y : p.z, edge, box[c]);
+            const sph_real x = sph_grid_wrap(axis[c][(size_t)i * s.stride], edge, box[c]);
             if (x < first) first = x;
             if (x > last) last = x;
         }
@@ -1783,7 +1782,8 @@ SPH_FN sph_index sphi_target(int dim, int kind, const sphi_job *job, sph_index k
     const sph_grid *const g = job->g;
     const sph_index i = job->by_slots ? g->member[k] - job->number : k, source = i + job->number;
     if (i < 0 || i >= job->targets.n) return -1;
-    s->p = job->by_slots ? sphi_slot(dim, g, k) : sphi_wrap_point(dim, g, sphi_point(dim, job->targets, i));
+    s->p = job->by_slots ? sphi_slot(dim, g, k)
+                         : sphi_wrap_point(dim, sphi_point(dim, job->targets, i), g->low, g->box);
     s->own = job->criterion == SPH_SCATTER ? SPH_R(0) : sphi_at(job->radius, i);
     if (job->plain) s->own = sph_grid_pair_radius(job->criterion, s->own, g->largest);
     s->radius = kind > SPHI_RADII ? s->own : sph_grid_pair_radius(s->criterion, s->own, g->largest);
@@ -2318,10 +2318,8 @@ SPH_FN sph_index sph_part_of(int dim, sph_points points, sph_scalars radius, sph
     if (sphi_boxed(dim, points.box)) sphi_arcs(dim, points, &low, &high);
     for (i = 0; i < points.n; i++) {
         const sph_real reach = sphi_at(radius, i);
-        sph_vec p = sphi_point(dim, points, i), l, h;
-        p.x = sph_grid_wrap(p.x, low.x, points.box.x);
-        p.y = dim > 1 ? sph_grid_wrap(p.y, low.y, points.box.y) : SPH_R(0);
-        p.z = dim > 2 ? sph_grid_wrap(p.z, low.z, points.box.z) : SPH_R(0);
+        const sph_vec p = sphi_wrap_point(dim, sphi_point(dim, points, i), low, points.box);
+        sph_vec l, h;
         sphi_enclose(p, &part->low, &part->high);
         l.x = p.x - reach;
         l.y = p.y - reach;
@@ -2341,6 +2339,12 @@ SPH_FN int sphi_between(sph_real x, sph_real reach, sph_real low, sph_real high,
         reach + SPH_R(32) * SPH_EPSILON * (length + reach + SPHI_ABS(x) + SPHI_ABS(low) + SPHI_ABS(high));
     if (length > SPH_R(0)) x = sph_grid_wrap(x, low - more, length); /* the first image that is not below */
     return low <= high && x >= low - more && x <= high + more;
+}
+SPH_FN int sphi_in_reach(int dim, sph_vec p, sph_real reach, sph_vec low, sph_vec high, sph_vec box)
+{
+    return sphi_between(p.x, reach, low.x, high.x, box.x) &&
+           (dim < 2 || sphi_between(p.y, reach, low.y, high.y, box.y)) &&
+           (dim < 3 || sphi_between(p.z, reach, low.z, high.z, box.z));
 }
 /* Of these points those that may be neighbours of a target of the part: chosen[0 ... *count - 1] are their
    numbers, in ascending order; it has room for points.n. By SPH_GATHER they lie within the reach of the part,
@@ -2367,17 +2371,11 @@ SPH_FN sph_index sph_select_near(int dim, sph_points points, sph_scalars radius,
     if (error) return error;
     for (i = 0; i < points.n; i++) {
         const sph_vec p = sphi_point(dim, points, i);
-        const sph_real reach = criterion == (int)SPH_GATHER ? SPH_R(0) : sphi_at(radius, i);
-        int needed = 0;
-        if (criterion != (int)SPH_SCATTER)
-            needed = sphi_between(p.x, SPH_R(0), part.reach_low.x, part.reach_high.x, box.x) &&
-                     (dim < 2 || sphi_between(p.y, SPH_R(0), part.reach_low.y, part.reach_high.y, box.y)) &&
-                     (dim < 3 || sphi_between(p.z, SPH_R(0), part.reach_low.z, part.reach_high.z, box.z));
-        if (!needed && criterion != (int)SPH_GATHER)
-            needed = sphi_between(p.x, reach, part.low.x, part.high.x, box.x) &&
-                     (dim < 2 || sphi_between(p.y, reach, part.low.y, part.high.y, box.y)) &&
-                     (dim < 3 || sphi_between(p.z, reach, part.low.z, part.high.z, box.z));
-        if (needed) chosen[(*count)++] = i;
+        if ((criterion != (int)SPH_SCATTER &&
+             sphi_in_reach(dim, p, SPH_R(0), part.reach_low, part.reach_high, box)) ||
+            (criterion != (int)SPH_GATHER &&
+             sphi_in_reach(dim, p, sphi_at(radius, i), part.low, part.high, box)))
+            chosen[(*count)++] = i;
     }
     return 0;
 }

@@ -198,21 +198,29 @@ static inline void cloud_set(cloud *c, field_fn *f)
     }
 }
 
-/* The lists. The radius is a little longer than the support: entries beyond it do no harm, and operators must not mind. */
-static inline void cloud_neighbors(cloud *c, double radius)
+/* The lists by a criterion, for these radii. Returns the first answer that is not 0. */
+static inline sph_index cloud_search(cloud *c, int criterion, sph_scalars radius)
 {
     const size_t size = sph_grid_workspace(c->dim, c->n);
+    const sph_query query = sph_query_of(cloud_points(c), criterion, radius, 0);
     void *const work = cloud_memory(size, 1);
-    const sph_real reach = SPH_R(radius);
-    const sph_scalars R = sph_scalars_same(&reach);
     sph_grid g;
+    sph_index answer = sph_grid_build(c->dim, cloud_points(c), radius, work, size, &g);
     free(c->index);
     c->index = 0;
-    if (sph_grid_build(c->dim, cloud_points(c), R, work, size, &g) != 0) abort();
-    if (sph_grid_count(c->dim, &g, sph_query_of(cloud_points(c), SPH_GATHER, R, 0), c->start, &c->pairs) != 0) abort();
-    c->index = (sph_index *)cloud_memory((size_t)c->pairs, sizeof *c->index);
-    if (sph_grid_lists(c->dim, &g, sph_query_of(cloud_points(c), SPH_GATHER, R, 0), c->start, c->index, c->pairs, &c->pairs) != 0) abort();
+    if (answer == 0) answer = sph_grid_count(c->dim, &g, query, c->start, &c->pairs);
+    if (answer == 0) {
+        c->index = (sph_index *)cloud_memory((size_t)c->pairs, sizeof *c->index);
+        answer = sph_grid_lists(c->dim, &g, query, c->start, c->index, c->pairs, &c->pairs);
+    }
     free(work);
+    return answer;
+}
+/* The radius is a little longer than the support: entries beyond it do no harm, and operators must not mind. */
+static inline void cloud_neighbors(cloud *c, double radius)
+{
+    const sph_real reach = SPH_R(radius);
+    if (cloud_search(c, SPH_GATHER, sph_scalars_same(&reach)) != 0) abort();
 }
 
 static inline double cloud_symmetric(pcg32 *g) { return 2.0 * pcg32_uniform(g) - 1.0; }

@@ -59,20 +59,11 @@ static void rates(const state *s, sph_gas g)
 
 static void lists(state *s)
 {
-    const size_t size = sph_grid_workspace(s->c.dim, s->c.n);
-    void *const work = cloud_memory(size, 1);
     sph_real *const R = (sph_real *)cloud_memory((size_t)s->c.n, sizeof *R);
-    const sph_scalars radius = sph_scalars_array(R);
-    sph_grid g;
     sph_index i;
     for (i = 0; i < s->c.n; i++) R[i] = SPH_R(2) * s->a[H][i];
-    free(s->c.index);
-    CHECK(sph_grid_build(s->c.dim, cloud_points(&s->c), radius, work, size, &g) == 0);
-    CHECK(sph_grid_count(s->c.dim, &g, sph_query_of(cloud_points(&s->c), SPH_LARGER, radius, 0), s->c.start, &s->c.pairs) == 0);
-    s->c.index = (sph_index *)cloud_memory((size_t)s->c.pairs, sizeof *s->c.index);
-    CHECK(sph_grid_lists(s->c.dim, &g, sph_query_of(cloud_points(&s->c), SPH_LARGER, radius, 0), s->c.start, s->c.index, s->c.pairs, &s->c.pairs) == 0);
+    CHECK(cloud_search(&s->c, SPH_LARGER, sph_scalars_array(R)) == 0);
     free(R);
-    free(work);
 }
 /* random in everything but what must be positive; h and Omega of each particle's own, or one h */
 static state random_state(int dim, int own)
