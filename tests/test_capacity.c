@@ -179,7 +179,8 @@ static void failure(const sample *s, int criterion, int flags, int count, int64_
 
 static void check_rooms(const sample *s, const sph_grid *g, int criterion, int flags)
 {
-    static const int counts[] = {1, 2, 3, 7};
+    static const int counts[] = {1, 2, 3, 7}, percents[] = {99, 100, 145, 90, 95, 105, 110, 115, 120, 130, 140};
+    enum { ALONE = 3, ROOMS = sizeof percents / sizeof *percents }; /* one thread has no shares that could overflow */
     const size_t n = (size_t)s->n, most = n * n;
     sph_index *const wanted_start = (sph_index *)cloud_memory(n + 1, sizeof *wanted_start);
     sph_index *const wanted = (sph_index *)cloud_memory(most, sizeof *wanted);
@@ -188,9 +189,10 @@ static void check_rooms(const sample *s, const sph_grid *g, int criterion, int f
     const size_t room = (size_t)(pairs + pairs / 2) + WIDE + 2 * GUARD;
     sph_index *const index = (sph_index *)cloud_memory(room, sizeof *index), *const first = (sph_index *)cloud_memory(room, sizeof *first);
     const sph_scalars R = sph_scalars_array(s->R);
-    int t, percent;
-    for (percent = 90; percent <= 145; percent += percent == 95 ? 4 : percent == 99 ? 1 : 5)
-        for (t = 0; t < (SPH_OPENMP ? 4 : 1); t++) {
+    int t, k;
+    for (t = 0; t < (SPH_OPENMP ? 4 : 1); t++)
+        for (k = 0; k < (t == 0 ? ALONE : ROOMS); k++) {
+            const int percent = percents[k];
             const int64_t extra = percent > 140 ? WIDE : 0;
             const int64_t capacity = percent == 99 ? pairs - 1 : pairs * percent / 100 + extra;
             const size_t end = (size_t)capacity + GUARD;

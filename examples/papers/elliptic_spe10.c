@@ -19,7 +19,7 @@
 #include "../common/progress.h"
 #include "../common/report.h"
 
-enum { HISTORY = 400, RESTART = 50 };
+enum { HISTORY = 400, FULL_HISTORY = 1000, RESTART = 50 }; /* iterations: FULL_HISTORY is 2 GB in 3D */
 
 typedef struct problem {
     int dim, cells;
@@ -369,9 +369,9 @@ static void run(report *r, problem *p, const char *figures, int full)
                 if (name[begin] == ' ') name[begin] = '_';
             map(figures, name, p, p->dim == 2 ? 0 : p->field.n[2] / 2);
             histories(r, figures, p, &tpfa, &msph,
-                      p->dim == 2 ? HISTORY
-                      : full      ? HISTORY / 2
-                                  : HISTORY / 8);
+                      full          ? FULL_HISTORY
+                      : p->dim == 2 ? HISTORY
+                                    : HISTORY / 8);
             schwaiger(r, p, &tpfa.scaled, &msph.scaled);
         }
         matrices_free(&msph);

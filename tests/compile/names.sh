@@ -81,10 +81,8 @@ done
 
 for a in sph_kernels.h sph_ops.h sph.h; do
     for b in sph_kernels.h sph_ops.h sph.h; do
-        for c in sph_kernels.h sph_ops.h sph.h; do
-            printf '#include "%s"\n#include "%s"\n#include "%s"\n#include <math.h>\nint main(void) { return 0; }\n' $a $b $c > "$scratch/order.c"
-            check "$a, $b, $c, in this order" $CC -std=c99 -Wall -Wextra -Wpedantic -Werror -I. -fsyntax-only "$scratch/order.c"
-        done
+        printf '#include "%s"\n#include "%s"\n#include "%s"\n#include <math.h>\nint main(void) { return 0; }\n' $a $b $a > "$scratch/order.c"
+        check "$a, $b, $a, in this order" $CC -std=c99 -Wall -Wextra -Wpedantic -Werror -I. -fsyntax-only "$scratch/order.c"
     done
 done
 
