@@ -34,6 +34,58 @@ set tics format ""
 set tics scale 0
 set border linecolor rgb "#888888"
 
+if (there("first_cloud")) {
+    set terminal pngcairo size 600,440 font "sans,10"
+    set output "first_cloud.png"
+    array cloud[6] = ["right", "lists as long as h", "the support as h", "masses as volumes", "box forgotten", "old lists"]
+    set xrange [0:1]
+    set yrange [0:1]
+    set size ratio -1
+    set cbrange [0.4:1.2]
+    set format cb "%g"
+    set colorbox user origin 0.93,0.3 size 0.015,0.4
+    set multiplot layout 2,3 margins 0.02,0.9,0.03,0.86 spacing 0.03,0.08 title "sum of V W: 1 in a right cloud"
+    do for [k = 0:5] {
+        set title cloud[k + 1]
+        plot csv("first_cloud") using ($1 == k ? $2 : NaN):3:5 every ::1 pointtype dots pointsize 0.4 palette
+    }
+    unset multiplot
+    unset title
+    set colorbox default
+
+    # one particle, its support, and its neighbours
+    set terminal pngcairo size 600,330 font "sans,10"
+    set output "first_cloud_needs.png"
+    set xrange [*:*]
+    set yrange [*:*]
+    set style textbox opaque noborder
+    stats csv("first_cloud") using ($1 == 0 ? ($0 == 435 ? $2 : NaN) : NaN) every ::1 nooutput
+    px = STATS_mean
+    stats csv("first_cloud") using ($1 == 0 ? ($0 == 435 ? $3 : NaN) : NaN) every ::1 nooutput
+    py = STATS_mean
+    stats csv("first_cloud") using ($1 == 0 ? $4 : NaN) every ::1 nooutput
+    h = STATS_mean
+    set xrange [px-0.16:px+0.2]
+    set yrange [py-0.11:py+0.105]
+    near(a, b) = (a - px)**2 + (b - py)**2 < 4 * h**2
+    set object 1 circle at px,py size 2*h fillcolor rgb "#dcebf7" fillstyle solid border linecolor rgb "#0072b2" behind
+    set object 2 circle at px,py size h fillstyle empty border linecolor rgb "#0072b2" dashtype 2
+    set arrow 1 from px,py to px+h,py linecolor rgb "#0072b2" linewidth 2
+    set arrow 2 from px,py to px-2*h*cos(0.7),py+2*h*sin(0.7) linecolor rgb "#0072b2" linewidth 2
+    set label 1 "h" at px+0.6*h,py-0.006 center textcolor rgb "#0072b2" boxed
+    set label 2 "support" at px-1.2*h*cos(0.7),py+1.2*h*sin(0.7) center textcolor rgb "#0072b2" boxed
+    set label 3 "a particle: x, V, f" at px+0.004,py+0.009 boxed
+    set label 4 "its list: all inside the support" at px,py-2*h-0.008 center textcolor rgb "#009e73" boxed
+    set label 5 "V: the area\nthat it stands for" at px+2.3*h,py+0.9*h center
+    set object 3 rectangle center px+2.3*h,py+1.6*h size 1./30,1./30 fillcolor rgb "#f0e0c0" fillstyle solid border linecolor rgb "#d55e00"
+    plot csv("first_cloud") using ($1 == 0 ? $2 : NaN):3 every ::1 pointtype dots pointsize 0.7 linecolor rgb "#777777", \
+        csv("first_cloud") using ($1 == 0 && near($2, $3) ? $2 : NaN):3 every ::1 pointtype dots pointsize 1.1 linecolor rgb "#009e73", \
+        "+" using (px):(py) every ::0::0 pointtype dots pointsize 1.5 linecolor rgb "#d55e00"
+    unset object
+    unset arrow
+    unset label
+}
+
 if (there("density_cloud")) {
     set terminal pngcairo size 600,440 font "sans,10"
     set output "density_cloud.png"
