@@ -193,7 +193,6 @@ int main(int argc, char **argv)
     cloud_exchange(&c, 4, sent);
     cloud_exchange_numbers(&c, c.number);
     cloud_lists(&c, sph_scalars_same(&radius), SPH_GATHER, CLOUD_ORDERED);
-    for (i = c.n; i < c.n_total; i++) c.f[EDGE][i] = 0; /* only targets have it, but it must be a number */
     copies = c.n_total - c.n;
     pairs = c.pairs;
     { /* the part that knows of SPH */
