@@ -56,6 +56,7 @@ TEST_SCRIPTS = tests/index.sh tests/signatures.sh tests/hosts/generated.sh tests
 help:
 	@echo "make reproduce        run the drivers of papers and subjects, published beside measured values, and print a scoreboard;"
 	@echo "                      several at a time, on all processors (-j N: N at a time; -j1: one, with threads)"
+	@echo "                      (PETSC=2: the 3D systems of elliptic_spe10 also by PETSc on two ranks, where that is installed)"
 	@echo "make reproduce-GROUP  those of a paper ($(PAPERS)) or of a subject ($(SUBJECTS))"
 	@echo "make reproduce-full   with more realisations and finer clouds, some at the published size: a day, in any number of"
 	@echo "                      pieces (Ctrl-C, and again); compared with the tables of $(KEPT)"
@@ -115,7 +116,7 @@ endef
 
 THREADS = $(PROCESSORS)
 driver-%:
-	@echo; echo "======== $*"; $(BUILD)/examples/$* -out "$(RESULTS)" -figures "$(FIGURES)" $(if $(filter $*,$(THREADED)),-threads $(THREADS)) $(OPTIONS) $(if $(filter -full,$(OPTIONS)),$(if $(filter $*,$(RESTARTED)),-continue))
+	@echo; echo "======== $*"; $(LAUNCH) $(BUILD)/examples/$* -out "$(RESULTS)" -figures "$(FIGURES)" $(if $(filter $*,$(THREADED)),-threads $(THREADS)) $(OPTIONS) $(if $(filter -full,$(OPTIONS)),$(if $(filter $*,$(RESTARTED)),-continue))
 run-quick-%:
 	$(call run,$*,)
 run-full-%:
@@ -139,6 +140,15 @@ vpath %.c $(FOLDERS)
 $(BUILD)/examples/%: %.c $(BUILD)/common/host_search.o $(COMMON) $(HEADERS)
 	@mkdir -p $(@D)
 	$(CC) $(WARN) $(CFLAGS) $(SIMD) $(PTHREADS) -DHOST_LINKED=1 -o $@ $< $(BUILD)/common/host_search.o $(LDLIBS)
+
+# make reproduce PETSC=N: this one solves by PETSc, too, on N ranks (the program is made anew if it has been made without)
+ifdef PETSC
+PETSC_PACKAGES = PETSc $(shell pkg-config --exists mpi && echo mpi)
+$(BUILD)/examples/elliptic_spe10: private CFLAGS += -DHAVE_PETSC=1 $(patsubst -I%,-isystem %,$(shell pkg-config --cflags $(PETSC_PACKAGES)))
+$(BUILD)/examples/elliptic_spe10: private LDLIBS += $(shell pkg-config --libs $(PETSC_PACKAGES))
+$(BUILD)/examples/elliptic_spe10: $(shell f="$(BUILD)/examples/elliptic_spe10"; [ ! -e "$$f" ] || nm "$$f" 2> /dev/null | grep -q PetscInitialize || rm -f "$$f")
+driver-elliptic_spe10: LAUNCH = mpirun -n $(PETSC)
+endif
 
 # the pictures that are checked in have gone through pngquant, to 64 colours
 GALLERY = $(patsubst examples/%.c,%,$(wildcard examples/*.c))

@@ -36,6 +36,8 @@
  *
  *   Sources are the particles 0 ... n - 1, targets some of them. Ghost, boundary and halo particles are
  *   sources that are not targets. Probes (points where a field is wanted) are targets with the volume 0.
+ *   What a comment calls that of the targets is neither read nor checked behind the last target, and need
+ *   not exist there. Positions, h and volume are those of all.
  *   Nothing is a valid number: without targets every sweep answers 0 and looks at no array.
  *
  *   Lists must hold every source with r < support (more do no harm), and not the particle itself. h is that
@@ -1049,8 +1051,9 @@ SPH_FN int sphi_check_field(SPHI_TEXT *name, sph_scalars f, sph_index n)
 {
     return f.p ? sphi_check_finite(name, f, n, SPH_ERROR_VALUE) : sphi_refuse(name, -1, SPH_ERROR_NULL);
 }
-/* For sweeps with a kernel: the same, the kernel, h, and what weighs the neighbours (volumes or masses). */
-SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_cloud cloud, SPHI_TEXT *name, sph_scalars weights)
+/* For sweeps with a kernel: the same, the kernel, h, and the weights of n particles. */
+SPH_FN int sphi_check_weights(sph_kernel k, int dim, sph_cloud cloud, SPHI_TEXT *name, sph_scalars weights,
+                              sph_index n)
 {
     const int scanned = cloud.checked == 1;
     sph_real largest = scanned ? cloud.largest_h : SPH_R(0); /* 0: there was no h when it was scanned */
@@ -1060,8 +1063,13 @@ SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_cloud cloud, SPHI_TEXT *n
     if (!error && !weights.p) error = sphi_refuse(name, -1, SPH_ERROR_NULL);
     if (!error && !(largest > SPH_R(0))) error = sphi_check_h("h", cloud.h, cloud.points.n, &largest);
     if (!error && !(scanned && weights.p == cloud.volume.p && weights.stride == cloud.volume.stride))
-        error = sphi_check_finite(name, weights, cloud.points.n, SPH_ERROR_VALUE);
+        error = sphi_check_finite(name, weights, n, SPH_ERROR_VALUE);
     return error ? error : sphi_check_scan(dim, cloud, sph_kernel_support_ratio(k) * largest);
+}
+/* The weights are those of the neighbours: volumes or masses. */
+SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_cloud cloud, SPHI_TEXT *name, sph_scalars weights)
+{
+    return sphi_check_weights(k, dim, cloud, name, weights, cloud.points.n);
 }
 /* Where a vector goes: its first dim arrays must be there. To be called after the checks of the sweep. */
 SPH_FN int sphi_check_out(SPHI_TEXT *name, int dim, sph_vector_out out)
@@ -1524,7 +1532,7 @@ SPH_FN int sphi_density_longer(sph_kernel k, int dim, sph_index i, sph_points x,
 }
 
 typedef struct sph_density_options {
-    sph_scalars list_radius; /* the list of target i holds every source with r < list_radius_i; no default */
+    sph_scalars list_radius; /* of the targets: list i holds all sources with r < list_radius_i; no default */
     sph_real eta;            /* h = eta (m / rho)^(1/dim); 0: sph_kernel_h_over_dx(k) */
     sph_real tolerance;      /* relative, of h, below 1; 0: 1e-3. At least 64 unit round-offs are used */
 } sph_density_options;
@@ -1578,7 +1586,7 @@ SPH_FN sph_index sph_density_adaptive(sph_kernel k, int dim, sph_cloud cloud, sp
     int error = sphi_check_frame(dim, cloud);
     if (error >= 0 && sphi_check_kernel(k)) return SPH_ERROR_KERNEL;
     if (!error && !radius.p) error = sphi_refuse("list_radius", -1, SPH_ERROR_NULL);
-    if (!error) error = sphi_check_h("list_radius", radius, cloud.points.n, &longest_radius);
+    if (!error) error = sphi_check_h("list_radius", radius, cloud.last, &longest_radius);
     if (!error) error = sphi_check_field("m", m, cloud.points.n);
     if (!error) error = sphi_check_scan(dim, cloud, longest_radius);
     if (!error && (!out.h || !out.rho)) error = sphi_refuse("out.h, out.rho", -1, SPH_ERROR_NULL);
@@ -3724,7 +3732,8 @@ typedef struct sph_elliptic_options {
     /* Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed. */
     sph_real conditioning_min;
     sph_scalars potential; /* read for SPH_MOBILITY_UPWIND only */
-    sph_scalars source;    /* is added to the result, if it is there; rows do not contain it */
+    /* Of the targets: it is added to the result, if it is there. Rows do not contain it. */
+    sph_scalars source;
 } sph_elliptic_options;
 
 /* Gamma* counts as definite if its smallest eigenvalue is at least this fraction of that of Gamma; for
@@ -3747,7 +3756,8 @@ typedef struct sphi_elliptic {
     int uniform, weight_only;
 } sphi_elliptic;
 
-SPH_FN int sphi_elliptic_check(sph_kernel k, int dim, const sphi_elliptic *a)
+/* n: of how many particles the mobility is read */
+SPH_FN int sphi_elliptic_check(sph_kernel k, int dim, const sphi_elliptic *a, sph_index n)
 {
     const sph_elliptic_options o = a->options;
     int error = sphi_check_sweep(k, dim, a->cloud, "volume", a->cloud.volume);
@@ -3757,7 +3767,7 @@ SPH_FN int sphi_elliptic_check(sph_kernel k, int dim, const sphi_elliptic *a)
         error = sphi_refuse("options.mean", -1, SPH_ERROR_VALUE);
     if (!error && !sphi_finite(o.conditioning_min))
         error = sphi_refuse("options.conditioning_min", -1, SPH_ERROR_VALUE);
-    if (!error) error = sphi_check_not_negative("m", a->m, a->cloud.points.n);
+    if (!error) error = sphi_check_not_negative("m", a->m, n);
     if (!error && o.mean == (int)SPH_MOBILITY_UPWIND)
         error = sphi_check_field("options.potential", o.potential, a->cloud.points.n);
     return error;
@@ -4060,10 +4070,9 @@ SPH_FN sph_index sphi_elliptic_sweep(int scheme, sph_kernel k, int dim, sph_clou
 {
     const sphi_elliptic one = sphi_elliptic_scheme(scheme, cloud, m, options, 1),
                         own = sphi_elliptic_scheme(scheme, cloud, m, options, 0);
-    int error = sphi_elliptic_check(k, dim, &own);
+    int error = sphi_elliptic_check(k, dim, &own, cloud.points.n);
     if (!error) error = sphi_check_field("u", u, cloud.points.n);
-    if (!error && options.source.p)
-        error = sphi_check_field("options.source", options.source, cloud.points.n);
+    if (!error && options.source.p) error = sphi_check_field("options.source", options.source, cloud.last);
     if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
     return cloud.h.stride ? sphi_elliptic_apply(scheme, k, dim, &own, u, out)
@@ -4074,7 +4083,7 @@ SPH_FN sph_index sphi_elliptic_rows(int scheme, sph_kernel k, int dim, sph_cloud
 {
     const sphi_elliptic one = sphi_elliptic_scheme(scheme, cloud, m, options, 1),
                         own = sphi_elliptic_scheme(scheme, cloud, m, options, 0);
-    int error = sphi_elliptic_check(k, dim, &own);
+    int error = sphi_elliptic_check(k, dim, &own, cloud.points.n);
     if (!error && !out.row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
     return cloud.h.stride ? sphi_elliptic_row(scheme, k, dim, &own, out)
@@ -4547,7 +4556,7 @@ SPH_FN sph_index sph_elliptic_rows_tensor(sph_kernel k, int dim, sph_cloud cloud
 /* -------- elliptic operator: boundary conditions */
 
 /* What holds at a boundary particle: alpha u + beta m n . grad u is given. alpha = beta = 0 means that the
-   particle is not on a boundary. */
+   particle is not on a boundary. All of the targets; so is the m of the sweep. */
 typedef struct sph_boundary {
     sph_vectors normal;      /* n, which points out of the domain */
     sph_scalars alpha, beta; /* of u, and of m n . grad u */
@@ -4571,10 +4580,10 @@ SPH_FN sph_index sph_elliptic_rows_boundary(sph_kernel k, int dim, sph_cloud clo
     const sph_scalars alpha = boundary.alpha, beta = boundary.beta;
     const sphi_elliptic a = sphi_elliptic_of(cloud, m, options, cloud.h.stride == 0);
     sph_index i, p, failed = 0;
-    int error = sphi_elliptic_check(k, dim, &a);
-    if (!error) error = sphi_check_field("alpha", alpha, cloud.points.n);
-    if (!error) error = sphi_check_field("beta", beta, cloud.points.n);
-    if (!error) error = sphi_check_vectors("normal", dim, normal, cloud.points.n);
+    int error = sphi_elliptic_check(k, dim, &a, cloud.last);
+    if (!error) error = sphi_check_field("alpha", alpha, cloud.last);
+    if (!error) error = sphi_check_field("beta", beta, cloud.last);
+    if (!error) error = sphi_check_vectors("normal", dim, normal, cloud.last);
     if (!error && (!out.row || !out.diagonal))
         error = sphi_refuse("out.row, out.diagonal", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
@@ -5265,11 +5274,11 @@ SPH_FN sph_real sph_time_step_viscous_nu(sph_real h, sph_real nu)
 
 /* rho_i = m_i sum_j W_ij(h_i) with the particle itself: the number density times the particle's own mass,
    so that a light particle beside heavy ones keeps its density. V_i = m_i / rho_i is then 1 / sum_j W_ij.
-   Hu & Adams 2006, JCP 213, 844, (15). The m of the targets is used, and that of all particles is checked.
+   Hu & Adams 2006, JCP 213, 844, (15). Only the m of the targets is read.
    Returns the number of targets whose density overflowed (it is 0 then), or a negative sph_error. */
 SPH_FN sph_index sph_density_number(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_scalar_out out)
 {
-    int error = sphi_check_sweep(k, dim, cloud, "m", m);
+    int error = sphi_check_weights(k, dim, cloud, "m", m, cloud.last);
     sph_index i, p, failed = 0;
     if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
@@ -5597,7 +5606,7 @@ SPH_FN sph_index sph_velocity_xsph(sph_kernel k, int dim, sph_cloud cloud, sph_f
     return failed;
 }
 
-/* The fluid and the wall. One number for each particle, all sources. */
+/* The fluid and the wall. One number for each particle, all sources; velocity and normal: of the targets. */
 typedef struct sph_wall {
     /* share: 1 for fluid particles, 0 for all others. rho and p: density and pressure of the fluid. */
     sph_scalars share, rho, p;
@@ -5634,8 +5643,8 @@ SPH_FN sph_index sph_wall_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall
     if (!error) error = sphi_check_field("rho", rho, cloud.points.n);
     if (!error) error = sphi_check_field("p", p, cloud.points.n);
     if (!error) error = sphi_check_vectors("v", dim, v, cloud.points.n);
-    if (!error) error = sphi_check_vectors("velocity", dim, wall_velocity, cloud.points.n);
-    if (!error && free_slip) error = sphi_check_vectors("normal", dim, normal, cloud.points.n);
+    if (!error) error = sphi_check_vectors("velocity", dim, wall_velocity, cloud.last);
+    if (!error && free_slip) error = sphi_check_vectors("normal", dim, normal, cloud.last);
     if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
     if (!error) error = sphi_check_out("out.v", dim, out.v);
     if (!error && !sphi_finite(sph_dot(dim, wall.gravity, wall.gravity)))
@@ -5687,12 +5696,12 @@ SPH_FN sph_index sph_wall_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall
     return failed;
 }
 
-/* Scans what the rows of walls read: share, rho and gravity. */
-SPH_FN int sphi_check_wall_rows(int dim, sph_cloud cloud, sph_wall wall, SPH_GLOBAL sph_real *row,
-                                sph_scalar_out source)
+/* Scans what the rows of walls read: share and gravity, and rho of n particles. */
+SPH_FN int sphi_check_wall_rows(int dim, sph_cloud cloud, sph_wall wall, sph_index n,
+                                SPH_GLOBAL sph_real *row, sph_scalar_out source)
 {
     int error = sphi_check_field("share", wall.share, cloud.points.n);
-    if (!error) error = sphi_check_field("rho", wall.rho, cloud.points.n);
+    if (!error) error = sphi_check_field("rho", wall.rho, n);
     if (!error && !row) error = sphi_refuse("row", -1, SPH_ERROR_NULL);
     if (!error && !source.p) error = sphi_refuse("source", -1, SPH_ERROR_NULL);
     if (!error && !sphi_finite(sph_dot(dim, wall.gravity, wall.gravity)))
@@ -5725,7 +5734,7 @@ SPH_FN sph_index sph_wall_rows_adami(sph_kernel k, int dim, sph_cloud cloud, sph
     SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
     int error = sphi_check_sweep(k, dim, cloud, "share", wall.share);
     sph_index i, q, failed = 0;
-    if (!error) error = sphi_check_wall_rows(dim, cloud, wall, row, source);
+    if (!error) error = sphi_check_wall_rows(dim, cloud, wall, cloud.points.n, row, source);
     if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
@@ -5775,14 +5784,15 @@ SPH_FN sph_index sph_wall_rows_adami(sph_kernel k, int dim, sph_cloud cloud, sph
    -sum_p row[p] again. rows.factor, conditioning and status stay as they are. Exact for fluid at rest, if the
    rows are exact for linear fields; the signs of the rows, and so their monotony, are kept. Any other
    condition dp/dn is passed as gravity with rho = 1. Of wall, share, rho and gravity are read. A row whose
-   result is not finite becomes 0. Returns the number of such rows, or a negative sph_error. */
+   result is not finite becomes 0. rho is of the targets. Returns the number of such rows, or a negative
+   sph_error. */
 SPH_FN sph_index sph_wall_rows_eliminate(int dim, sph_cloud cloud, sph_wall wall, sph_rows_out rows,
                                          sph_scalar_out source)
 {
     SPH_GLOBAL sph_real *const row = rows.row;
     int error = sphi_check_list(dim, cloud, SPH_R(0));
     sph_index i, q, failed = 0;
-    if (!error) error = sphi_check_wall_rows(dim, cloud, wall, row, source);
+    if (!error) error = sphi_check_wall_rows(dim, cloud, wall, cloud.last, row, source);
     if (!error) error = sphi_check_rows(cloud, row, sph_scalars_none());
     if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
@@ -6183,18 +6193,18 @@ SPH_FN sph_index sph_free_surface(sph_kernel k, int dim, sph_cloud cloud, sph_su
     }
     return failed;
 }
-/* flag[i] = 1 for the targets at the surface, else 0, from the eigenvalue lambda and the normals of
-   sph_free_surface. Only the band of sph_surface_of is scanned, until a neighbour covers the target
-   (sph_surface_covers). In the band, a target without a normal is at the surface. h is that of the target;
-   lists must hold every source with r < 2 h. Returns the number of targets at the surface, or a negative
-   sph_error. */
+/* flag[i] = 1 for the targets at the surface, else 0, from the eigenvalue lambda and the normal of the
+   targets by sph_free_surface. Only the band of sph_surface_of is scanned, until a neighbour covers the
+   target (sph_surface_covers). In the band, a target without a normal is at the surface. h is that of the
+   target; lists must hold every source with r < 2 h. Returns the number of targets at the surface, or a
+   negative sph_error. */
 SPH_FN sph_index sph_free_surface_cone(int dim, sph_cloud cloud, sph_scalars eigenvalue, sph_vectors normal,
                                        SPH_GLOBAL unsigned char *flag)
 {
     /* any kernel that ends at 2 h checks what this sweep needs */
-    int error = sphi_check_sweep(SPH_WENDLAND_C2, dim, cloud, "eigenvalue", eigenvalue);
+    int error = sphi_check_weights(SPH_WENDLAND_C2, dim, cloud, "eigenvalue", eigenvalue, cloud.last);
     sph_index i, p, found = 0;
-    if (!error) error = sphi_check_vectors("normal", dim, normal, cloud.points.n);
+    if (!error) error = sphi_check_vectors("normal", dim, normal, cloud.last);
     if (!error && !flag) error = sphi_refuse("flag", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
@@ -6330,7 +6340,7 @@ SPH_FN sph_transport_change sph_transport_pair_adami(int dim, sph_transport_side
 
 /* -------- shifting: sweeps */
 
-/* How particles are shifted. Zeros are the defaults where nothing else is said. */
+/* How particles are shifted. Zeros are the defaults where nothing else is said. Arrays are of the targets. */
 typedef struct sph_shift {
     sph_scalars strength;   /* an area, of each particle or of all. There is no default */
     sph_real tensile;       /* R; 0: no such term */
@@ -6385,14 +6395,14 @@ SPH_FN sph_index sph_shift_displacement(sph_kernel k, int dim, sph_cloud cloud, 
 {
     const int tensile = shift.tensile != SPH_R(0);
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
-    if (!error) error = sphi_check_field("strength", shift.strength, cloud.points.n);
+    if (!error) error = sphi_check_field("strength", shift.strength, cloud.last);
     if (!error && (!sphi_finite(shift.tensile) || !sphi_finite(shift.longest)))
         error = sphi_refuse("shift.tensile, longest", -1, SPH_ERROR_VALUE);
     if (!error && tensile && (!(shift.spacing > SPH_R(0)) || !(shift.spacing < sph_kernel_support_ratio(k))))
         error = sphi_refuse("shift.spacing", -1, SPH_ERROR_VALUE);
     if (!error && shift.eigenvalue.p) {
-        error = sphi_check_field("eigenvalue", shift.eigenvalue, cloud.points.n);
-        if (!error) error = sphi_check_vectors("normal", dim, shift.normal, cloud.points.n);
+        error = sphi_check_field("eigenvalue", shift.eigenvalue, cloud.last);
+        if (!error) error = sphi_check_vectors("normal", dim, shift.normal, cloud.last);
     }
     if (!error) error = sphi_check_out("out", dim, out);
     if (error) return sphi_answer_of(error);
@@ -6617,16 +6627,16 @@ SPH_FN sph_index sphi_dfsph_range(int walls, sph_kernel k, int dim, sph_cloud cl
     }
     return failed;
 }
-/* The factor alpha of DFSPH, see above. Of fluid, the members m and rho are read. moves: 1 for particles that
-   pressure moves, 0 for walls; null: all move. The targets are particles that move. A pair uses
-   (h_i + h_j) / 2 (lists by SPH_MEAN). A target that no neighbour can push has the factor 0 and
+/* The factor alpha of DFSPH, see above. Of fluid, m is read, and rho of the targets. moves: 1 for
+   particles that pressure moves, 0 for walls; null: all move. The targets are particles that move. A pair
+   uses (h_i + h_j) / 2 (lists by SPH_MEAN). A target that no neighbour can push has the factor 0 and
    SPH_TOO_FEW. Returns the number of targets that are not SPH_OK, or a negative sph_error. */
 SPH_FN sph_index sph_pressure_factor_dfsph(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                            sph_scalars moves, sph_scalar_out out)
 {
     int error = sphi_check_sweep(k, dim, cloud, "m", fluid.m);
     if (!error) error = sphi_check_positive("m", fluid.m, cloud.points.n);
-    if (!error) error = sphi_check_positive("rho", fluid.rho, cloud.points.n);
+    if (!error) error = sphi_check_positive("rho", fluid.rho, cloud.last);
     if (!error && moves.p) error = sphi_check_field("moves", moves, cloud.points.n);
     if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
@@ -6938,7 +6948,7 @@ SPH_FN sph_vec sph_tension_pair_akinci(sph_fluid_side i, sph_fluid_side j, sph_v
 
 /* -------- surface tension: sweeps */
 
-/* Density and normal of each particle, all sources. */
+/* Density of the targets, and normal of all sources. */
 typedef struct sph_tension {
     sph_scalars rho;
     sph_vectors normal; /* grad c, in 1 / length, and not of unit length */
@@ -6957,7 +6967,7 @@ typedef struct sph_tension_out {
 SPH_FN int sphi_check_tension(sph_kernel k, int dim, sph_cloud cloud, sph_tension tension)
 {
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
-    if (!error) error = sphi_check_positive("rho", tension.rho, cloud.points.n);
+    if (!error) error = sphi_check_positive("rho", tension.rho, cloud.last);
     if (!error) error = sphi_check_vectors("normal", dim, tension.normal, cloud.points.n);
     if (!error && (!sphi_finite(tension.sigma) || !sphi_finite(tension.least)))
         error = sphi_refuse("tension.sigma, least", -1, SPH_ERROR_VALUE);
@@ -7452,7 +7462,7 @@ typedef struct sph_wall_gamma_out {
     size_t stride;
     SPH_GLOBAL unsigned char *status;
 } sph_wall_gamma_out;
-/* What an operator reads of the wall: gamma and its gradient of each target; f_w (`value`, for
+/* What an operator reads of the wall, all of the targets: gamma and its gradient; f_w (`value`, for
    sph_wall_gradient) or g_w (`slope`, for sph_wall_laplacian). */
 typedef struct sph_wall_terms {
     sph_scalars gamma;
@@ -7587,8 +7597,8 @@ SPH_FN sph_index sph_wall_gamma(sph_kernel k, int dim, sph_cloud cloud, sph_wall
 SPH_FN int sphi_check_wall(sph_kernel k, int dim, sph_cloud cloud, sph_wall_terms wall)
 {
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
-    if (!error) error = sphi_check_positive("wall.gamma", wall.gamma, cloud.points.n);
-    return error ? error : sphi_check_vectors("wall.gradient", dim, wall.gradient, cloud.points.n);
+    if (!error) error = sphi_check_positive("wall.gamma", wall.gamma, cloud.last);
+    return error ? error : sphi_check_vectors("wall.gradient", dim, wall.gradient, cloud.last);
 }
 /* grad f_i = (sum_j V_j f_j grad_i W_ij - f_w grad gamma_i) / gamma_i, the particles of the fluid being all
    sources, with wall.value the f_w of each target. Ferrand et al. 2013. W has the h of the target. For its
@@ -7600,7 +7610,7 @@ SPH_FN sph_index sph_wall_gradient(sph_kernel k, int dim, sph_cloud cloud, sph_w
     int error = sphi_check_wall(k, dim, cloud, wall);
     sph_index i, p, failed = 0;
     if (!error) error = sphi_check_field("f", f, cloud.points.n);
-    if (!error) error = sphi_check_field("wall.value", wall.value, cloud.points.n);
+    if (!error) error = sphi_check_field("wall.value", wall.value, cloud.last);
     if (!error) error = sphi_check_out("out", dim, out);
     if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
@@ -7641,7 +7651,7 @@ SPH_FN sph_index sph_wall_gradient_rows(sph_kernel k, int dim, sph_cloud cloud, 
     const sph_vec none = {SPH_R(0), SPH_R(0), SPH_R(0)};
     int error = sphi_check_wall(k, dim, cloud, wall);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_field("wall.value", wall.value, cloud.points.n);
+    if (!error) error = sphi_check_field("wall.value", wall.value, cloud.last);
     if (!error) error = sphi_check_out("out", dim, sph_vector_out_separate(wx, wy, wz));
     if (!error) error = sphi_check_out("source", dim, source);
     if (error) return sphi_answer_of(error);
@@ -7679,7 +7689,7 @@ SPH_FN sph_index sph_wall_laplacian(sph_kernel k, int dim, sph_cloud cloud, sph_
     int error = sphi_check_wall(k, dim, cloud, wall);
     sph_index i, failed = 0;
     if (!error) error = sphi_check_field("f", f, cloud.points.n);
-    if (!error) error = sphi_check_vectors("wall.slope", dim, wall.slope, cloud.points.n);
+    if (!error) error = sphi_check_vectors("wall.slope", dim, wall.slope, cloud.last);
     if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++)
@@ -7703,7 +7713,7 @@ SPH_FN sph_index sph_wall_laplacian_rows(sph_kernel k, int dim, sph_cloud cloud,
     const sph_vec none = {SPH_R(0), SPH_R(0), SPH_R(0)};
     int error = sphi_check_wall(k, dim, cloud, wall);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_vectors("wall.slope", dim, wall.slope, cloud.points.n);
+    if (!error) error = sphi_check_vectors("wall.slope", dim, wall.slope, cloud.last);
     if (!error && !row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
     if (!error && !source.p) error = sphi_refuse("source", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
@@ -8311,15 +8321,17 @@ SPH_FN sph_real sph_viscosity_switch_after(sph_switch s, sph_shock shock, sph_re
    sph_density_adaptive; with a constant h take any density, and sph_scalars_same(&one) for Omega. Sweeps
    return the number of targets of which a result overflowed (it is 0 then), or a negative sph_error. */
 
-/* Mass, density and Omega of all sources. */
+/* Mass, density and Omega of all sources. Difference forms and sph_shock_indicator read the last two of the
+   targets. */
 typedef struct sph_medium {
     sph_scalars m, rho, omega;
 } sph_medium;
-SPH_FN int sphi_check_medium(sph_kernel k, int dim, sph_cloud cloud, sph_medium g)
+/* n: of how many particles rho and Omega are read; difference forms read those of the targets only. */
+SPH_FN int sphi_check_medium(sph_kernel k, int dim, sph_cloud cloud, sph_medium g, sph_index n)
 {
     int error = sphi_check_sweep(k, dim, cloud, "m", g.m);
-    if (!error) error = sphi_check_positive("rho", g.rho, cloud.points.n);
-    return error ? error : sphi_check_positive("omega", g.omega, cloud.points.n);
+    if (!error) error = sphi_check_positive("rho", g.rho, n);
+    return error ? error : sphi_check_positive("omega", g.omega, n);
 }
 SPH_FN sph_medium_side sphi_medium_side(const sph_medium *g, sph_index i)
 {
@@ -8455,7 +8467,7 @@ SPH_FN sph_index sphi_gas_some(int uniform, sph_kernel k, int dim, sph_cloud clo
    of its time. */
 SPH_FN sph_index sph_gas_rates(sph_kernel k, int dim, sph_cloud cloud, sph_gas state, sph_gas_out out)
 {
-    int error = sphi_check_medium(k, dim, cloud, state.medium);
+    int error = sphi_check_medium(k, dim, cloud, state.medium, cloud.points.n);
     if (!error && (state.conductivity < 0 || state.conductivity > (int)SPH_CONDUCTIVITY_WADSLEY))
         error = sphi_refuse("state.conductivity", -1, SPH_ERROR_VALUE);
     if (!error) error = sphi_check_field("p", state.p, cloud.points.n);
@@ -8576,7 +8588,7 @@ SPH_FN sph_vec sphi_medium_differences(sph_medium_side i, sph_vec sum)
 SPH_FN sph_index sph_velocity_gradient_difference(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
                                                   sph_vectors v, sph_velocity_gradient_out out)
 {
-    int error = sphi_check_medium(k, dim, cloud, medium);
+    int error = sphi_check_medium(k, dim, cloud, medium, cloud.last);
     sph_index i, failed = 0;
     if (!error) error = sphi_check_vectors("v", dim, v, cloud.points.n);
     if (!error) error = sphi_check_gradient_out(dim, out);
@@ -8638,7 +8650,7 @@ SPH_FN sph_index sph_shock_indicator(sph_kernel k, int dim, sph_cloud cloud, sph
 {
     const size_t stride = sphi_stride(out.stride);
     sph_real support, v_sig[SPHI_TILE];
-    int error = sphi_check_medium(k, dim, cloud, state.medium);
+    int error = sphi_check_medium(k, dim, cloud, state.medium, cloud.last);
     sph_index i, p, tile, end, failed = 0;
     if (!error) error = sphi_check_not_negative("cs", state.cs, cloud.points.n);
     if (!error) error = sphi_check_vectors("v", dim, state.v, cloud.points.n);
@@ -8994,7 +9006,7 @@ SPH_FN int sphi_components(int dim, sph_vectors v) { return v.z.p ? 3 : dim; }
 SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
                                            sph_vectors field, sph_scalar_out out)
 {
-    int error = sphi_check_medium(k, dim, cloud, medium);
+    int error = sphi_check_medium(k, dim, cloud, medium, cloud.last);
     sph_index i, p, failed = 0;
     if (!error) error = sphi_check_vectors("field", dim, field, cloud.points.n);
     if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
@@ -9019,7 +9031,7 @@ SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_cloud clou
 SPH_FN sph_index sph_divergence_symmetric(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
                                           sph_vectors field, sph_scalar_out out)
 {
-    int error = sphi_check_medium(k, dim, cloud, medium);
+    int error = sphi_check_medium(k, dim, cloud, medium, cloud.points.n);
     sph_index i, p, failed = 0;
     if (!error) error = sphi_check_vectors("field", dim, field, cloud.points.n);
     if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
@@ -9045,7 +9057,7 @@ SPH_FN sph_index sph_divergence_symmetric(sph_kernel k, int dim, sph_cloud cloud
 SPH_FN sph_index sph_gradient_symmetric(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
                                         sph_scalars f, sph_vector_out out)
 {
-    int error = sphi_check_medium(k, dim, cloud, medium);
+    int error = sphi_check_medium(k, dim, cloud, medium, cloud.points.n);
     sph_index i, p, failed = 0;
     if (!error) error = sphi_check_field("f", f, cloud.points.n);
     if (!error) error = sphi_check_out("out", dim, out);
@@ -9081,7 +9093,7 @@ SPH_FN sph_index sph_curl_difference(sph_kernel k, int dim, sph_cloud cloud, sph
                                      sph_vectors field, sph_vector_out out)
 {
     const int parts = sphi_components(dim, field);
-    int error = sphi_check_medium(k, dim, cloud, medium);
+    int error = sphi_check_medium(k, dim, cloud, medium, cloud.last);
     sph_index i, p, failed = 0;
     if (!error) error = sphi_check_vectors("field", parts, field, cloud.points.n);
     if (!error) error = sphi_check_out("out", 3, out);
@@ -9114,7 +9126,7 @@ SPH_FN sph_index sph_curl_difference(sph_kernel k, int dim, sph_cloud cloud, sph
 typedef struct sph_cleaning {
     sph_medium medium;
     sph_vectors field;      /* B, of dim components */
-    sph_scalars psi, div_v; /* div_v = sph_scalars_none(): div v = 0 */
+    sph_scalars psi, div_v; /* div_v: of the targets; sph_scalars_none(): div v = 0 */
     sph_real ch, sigma;     /* speed and damping of the cleaning waves; see sph_cleaning_sigma */
 } sph_cleaning;
 /* Where the rates of cleaning go. */
@@ -9140,11 +9152,11 @@ SPH_FN sph_index sph_cleaning_rates(sph_kernel k, int dim, sph_cloud cloud, sph_
     const sph_scalars psi = state.psi, div_v = state.div_v;
     const sph_real ch = state.ch, sigma = state.sigma;
     const size_t stride = sphi_stride(out.stride);
-    int error = sphi_check_medium(k, dim, cloud, medium);
+    int error = sphi_check_medium(k, dim, cloud, medium, cloud.points.n);
     sph_index i, p, failed = 0;
     if (!error) error = sphi_check_vectors("field", dim, field, cloud.points.n);
     if (!error) error = sphi_check_field("psi", psi, cloud.points.n);
-    if (!error && div_v.p) error = sphi_check_field("div_v", div_v, cloud.points.n);
+    if (!error && div_v.p) error = sphi_check_field("div_v", div_v, cloud.last);
     if (!error) error = sphi_check_out("rate_B", dim, out.rate_B);
     if (!error && !out.rate_psi) error = sphi_refuse("out.rate_psi", -1, SPH_ERROR_NULL);
     if (!error && (!sphi_finite(ch) || ch < SPH_R(0) || !sphi_finite(sigma) || sigma < SPH_R(0)))
@@ -9245,7 +9257,7 @@ SPH_FN sph_index sph_resistivity_ohmic(sph_kernel k, int dim, sph_cloud cloud, s
                                        sph_ohmic_out out)
 {
     const int parts = sphi_components(dim, state.field);
-    int error = sphi_check_medium(k, dim, cloud, state.medium);
+    int error = sphi_check_medium(k, dim, cloud, state.medium, cloud.points.n);
     if (!error) error = sphi_check_not_negative("eta", state.eta, cloud.points.n);
     if (!error) error = sphi_check_vectors("field", parts, state.field, cloud.points.n);
     if (!error) error = sphi_check_out("rate_B", parts, out.rate_B);
@@ -9403,7 +9415,7 @@ SPH_FN sph_index sphi_mhd_some(int parts, int cleans, sph_kernel k, int dim, sph
 SPH_FN sph_index sph_mhd_rates(sph_kernel k, int dim, sph_cloud cloud, sph_mhd state, sph_mhd_out out)
 {
     const int parts = sphi_components(dim, state.v), cleans = state.psi.p != 0;
-    int error = sphi_check_medium(k, dim, cloud, state.medium);
+    int error = sphi_check_medium(k, dim, cloud, state.medium, cloud.points.n);
     if (!error) error = sphi_check_field("p", state.p, cloud.points.n);
     if (!error) error = sphi_check_not_negative("cs", state.cs, cloud.points.n);
     if (!error) error = sphi_check_vectors("v", parts, state.v, cloud.points.n);
@@ -9689,7 +9701,8 @@ SPH_FN sph_corrected_change sph_gas_pair_iad(int dim, sph_fluid_side i, sph_flui
 
 /* -------- reproducing kernels: sweeps */
 
-/* A, B and their gradients of all sources: what sph_rk_correction wrote. */
+/* A, B and their gradients of all sources: what sph_rk_correction wrote. Interpolation and gradients read
+   those of the targets. */
 typedef struct sph_rk {
     sph_scalars scale;
     sph_vectors slope, scale_gradient;
@@ -9847,7 +9860,7 @@ SPH_FN sph_index sph_interpolate_rk(sph_kernel k, int dim, sph_cloud cloud, sph_
 {
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_rk(dim, rk, cloud.points.n);
+    if (!error) error = sphi_check_rk(dim, rk, cloud.last);
     if (!error) error = sphi_check_field("f", f, cloud.points.n);
     if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
@@ -9876,7 +9889,7 @@ SPH_FN sph_index sph_interpolate_rows_rk(sph_kernel k, int dim, sph_cloud cloud,
     SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_rk(dim, rk, cloud.points.n);
+    if (!error) error = sphi_check_rk(dim, rk, cloud.last);
     if (!error && !row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
@@ -9909,7 +9922,7 @@ SPH_FN sph_index sph_gradient_rk(sph_kernel k, int dim, sph_cloud cloud, sph_rk 
 {
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_rk(dim, rk, cloud.points.n);
+    if (!error) error = sphi_check_rk(dim, rk, cloud.last);
     if (!error) error = sphi_check_field("f", f, cloud.points.n);
     if (!error) error = sphi_check_out("out", dim, out);
     if (error) return sphi_answer_of(error);
@@ -9944,7 +9957,7 @@ SPH_FN sph_index sph_gradient_rows_rk(sph_kernel k, int dim, sph_cloud cloud, sp
                                             *const SPH_RESTRICT wz = out.z;
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, p, failed = 0;
-    if (!error) error = sphi_check_rk(dim, rk, cloud.points.n);
+    if (!error) error = sphi_check_rk(dim, rk, cloud.last);
     if (!error) error = sphi_check_out("out", dim, sph_vector_out_separate(wx, wy, wz));
     if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
@@ -9970,15 +9983,16 @@ SPH_FN sph_index sph_gradient_rows_rk(sph_kernel k, int dim, sph_cloud cloud, sp
     return failed;
 }
 
-/* What both sweeps of gases check. */
-SPH_FN int sphi_check_corrected(sph_kernel k, int dim, sph_cloud cloud, sph_fluid f, sph_vector_out a)
+/* What both sweeps of gases check. n: of how many particles m is read. */
+SPH_FN int sphi_check_corrected(sph_kernel k, int dim, sph_cloud cloud, sph_fluid f, sph_index n,
+                                sph_vector_out a)
 {
-    int error = sphi_check_sweep(k, dim, cloud, "m", f.m);
+    int error = sphi_check_weights(k, dim, cloud, "m", f.m, n);
     if (!error && (f.viscosity < 0 || f.viscosity > (int)SPH_VISCOSITY_SIGNAL))
         error = sphi_refuse("fluid.viscosity", -1, SPH_ERROR_VALUE);
     if (!error && (!sphi_finite(f.alpha) || !sphi_finite(f.beta) || !sphi_finite(f.eta)))
         error = sphi_refuse("fluid.alpha, beta, eta", -1, SPH_ERROR_VALUE);
-    if (!error) error = sphi_check_positive("m", f.m, cloud.points.n);
+    if (!error) error = sphi_check_positive("m", f.m, n);
     if (!error) error = sphi_check_positive("rho", f.rho, cloud.points.n);
     if (!error) error = sphi_check_field("p", f.p, cloud.points.n);
     if (!error && f.viscosity != (int)SPH_VISCOSITY_NONE)
@@ -10054,18 +10068,18 @@ SPH_FN sph_index sphi_corrected_range(int iad, int uniform, sph_kernel k, int di
 /* Acceleration and du/dt of a gas by reproducing kernels (CRKSPH): the sums of sph_gas_pair_crk. Frontiere,
    Raskin & Owen 2017, JCP 332, 160, without their limiter of the viscosity. Momentum, and the energy sum m
    (v^2/2 + u), do not change, to round-off. What that costs: see the beginning of this chapter. Of fluid all
-   members are read; c only with artificial viscosity, whose kind and coefficients are those of fluid. Its
-   heating may be negative for single pairs, where the difference of the gradients is far from the line
-   between the particles. Volumes are those that sph_rk_correction saw (1 / sum W, or m / rho), and rk holds
-   its results for all sources. Lists hold all pairs with r < support ratio * max(h_i, h_j) (SPH_LARGER).
-   out.rate_u and out.status may be null. Returns the number of targets of which a result overflowed (it is 0
-   then), or a negative sph_error: SPH_ERROR_VALUE also for masses, densities and volumes that are not
-   positive. */
+   members are read (m of the targets); c only with artificial viscosity, whose kind and coefficients are
+   those of fluid. Its heating may be negative for single pairs, where the difference of the gradients is far
+   from the line between the particles. Volumes are those that sph_rk_correction saw (1 / sum W, or m / rho),
+   and rk holds its results for all sources. Lists hold all pairs with r < support ratio * max(h_i, h_j)
+   (SPH_LARGER). out.rate_u and out.status may be null. Returns the number of targets of which a result
+   overflowed (it is 0 then), or a negative sph_error: SPH_ERROR_VALUE also for masses, densities and volumes
+   that are not positive. */
 SPH_FN sph_index sph_gas_rates_crk(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid, sph_rk rk,
                                    sph_corrected_out out)
 {
     const sph_matrices none = sph_matrices_packed(dim, 0);
-    int error = sphi_check_corrected(k, dim, cloud, fluid, out.acceleration);
+    int error = sphi_check_corrected(k, dim, cloud, fluid, cloud.last, out.acceleration);
     if (!error) error = sphi_check_positive("volume", cloud.volume, cloud.points.n);
     if (!error) error = sphi_check_rk(dim, rk, cloud.points.n);
     if (error) return sphi_answer_of(error);
@@ -10080,7 +10094,7 @@ SPH_FN sph_index sph_gas_rates_iad(sph_kernel k, int dim, sph_cloud cloud, sph_f
                                    sph_matrices inverse, sph_corrected_out out)
 {
     const sph_rk *const none = 0;
-    int error = sphi_check_corrected(k, dim, cloud, fluid, out.acceleration);
+    int error = sphi_check_corrected(k, dim, cloud, fluid, cloud.points.n, out.acceleration);
     if (!error) error = sphi_check_matrices("inverse", dim, inverse, cloud.points.n);
     if (error) return sphi_answer_of(error);
     return cloud.h.stride ? sphi_corrected_range(1, 0, k, dim, cloud, &fluid, none, inverse, out)
@@ -10173,15 +10187,15 @@ SPH_FN sph_index sph_gravity_direct(sph_kernel k, sph_cloud cloud, sph_scalars m
     return failed;
 }
 /* zeta_i = dh_i/drho_i sum_j m_j dphi/dh(r, h_i) with dh/drho = -h / (3 rho): Price & Monaghan 2007, (22).
-   The sum contains the particle itself. Lists as for the density: r < support ratio * h_i. Returns the
-   number of targets whose result overflowed (it is 0 then), or a negative sph_error. */
+   The sum contains the particle itself; rho is of the targets. Lists as for the density: r < support ratio *
+   h_i. Returns the number of targets whose result overflowed (it is 0 then), or a negative sph_error. */
 SPH_FN sph_index sph_gravity_zeta(sph_kernel k, sph_cloud cloud, sph_scalars m, sph_scalars rho,
                                   sph_scalar_out out)
 {
     int error = sphi_check_sweep(k, 3, cloud, "m", m);
     sph_index i, p, failed = 0;
     if (error >= 0 && !sph_kernel_has_gravity(k)) error = sphi_refuse("kernel", -1, SPH_ERROR_KERNEL);
-    if (!error) error = sphi_check_positive("rho", rho, cloud.points.n);
+    if (!error) error = sphi_check_positive("rho", rho, cloud.last);
     if (!error && !out.p) error = sphi_refuse("out", -1, SPH_ERROR_NULL);
     if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
@@ -10201,14 +10215,15 @@ SPH_FN sph_index sph_gravity_zeta(sph_kernel k, sph_cloud cloud, sph_scalars m, 
 }
 /* What gravity adds to the acceleration where h follows the density:
        -(G/2) sum_j m_j (zeta_i F_i / Omega_i + zeta_j F_j / Omega_j) x_ij,
-   antisymmetric for each pair. newton is G; zeta comes from sph_gravity_zeta. Lists of all pairs within
-   the larger support (SPH_LARGER). Returns the number of targets whose result overflowed (it is 0 then),
-   or a negative sph_error. */
+   antisymmetric for each pair. newton is G; zeta comes from sph_gravity_zeta; rho is not read. Lists of all
+   pairs within the larger support (SPH_LARGER). Returns the number of targets whose result overflowed
+   (it is 0 then), or a negative sph_error. */
 SPH_FN sph_index sph_gravity_correction(sph_kernel k, sph_cloud cloud, sph_medium medium, sph_scalars zeta,
                                         sph_real newton, sph_vector_out acceleration)
 {
-    int error = sphi_check_medium(k, 3, cloud, medium);
+    int error = sphi_check_medium(k, 3, cloud, medium, cloud.last);
     sph_index i, p, failed = 0;
+    if (!error) error = sphi_check_positive("omega", medium.omega, cloud.points.n);
     if (!error) error = sphi_check_field("zeta", zeta, cloud.points.n);
     if (!error) error = sphi_check_out("acceleration", 3, acceleration);
     if (!error && !sphi_finite(newton)) error = sphi_refuse("newton", -1, SPH_ERROR_VALUE);
@@ -10406,7 +10421,7 @@ SPH_FN sph_vec sph_hourglass_pair(int dim, sph_solid_side i, sph_solid_side j, s
 /* The state of a solid, one value for each particle, all sources. */
 typedef struct sph_solid {
     sph_matrices inverse, stress; /* L of sph_gradient_correction_cspm, and P */
-    sph_scalars density;          /* of the reference state */
+    sph_scalars density;          /* of the reference state, of the targets */
     /* For hourglass control: its coefficient alpha (0: none; 1 is usual), and what else it reads: the current
        positions, F, and Young's modulus, not negative. */
     sph_real hourglass;
@@ -10435,7 +10450,7 @@ SPH_FN sph_index sph_deformation_gradient(sph_kernel k, int dim, sph_cloud cloud
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     sph_index i, p, failed = 0;
     if (!error) error = sphi_check_current(dim, x, cloud.points.n);
-    if (!error) error = sphi_check_matrices("inverse", dim, inverse, cloud.points.n);
+    if (!error) error = sphi_check_matrices("inverse", dim, inverse, cloud.last);
     if (!error) error = sphi_check_matrix_out("out", dim, out);
     if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
@@ -10528,7 +10543,7 @@ SPH_FN sph_index sph_solid_acceleration(sph_kernel k, int dim, sph_cloud cloud, 
     int error = sphi_check_sweep(k, dim, cloud, "volume", cloud.volume);
     if (!error) error = sphi_check_matrices("inverse", dim, solid.inverse, cloud.points.n);
     if (!error) error = sphi_check_matrices("stress", dim, solid.stress, cloud.points.n);
-    if (!error) error = sphi_check_positive("density", solid.density, cloud.points.n);
+    if (!error) error = sphi_check_positive("density", solid.density, cloud.last);
     if (!error && !sphi_finite(solid.hourglass)) error = sphi_refuse("solid.hourglass", -1, SPH_ERROR_VALUE);
     if (!error && controlled) error = sphi_check_current(dim, solid.x, cloud.points.n);
     if (!error && controlled) error = sphi_check_matrices("gradient", dim, solid.gradient, cloud.points.n);
@@ -10767,8 +10782,8 @@ SPH_FN sph_index sph_conserved_sums(int dim, sph_cloud cloud, sph_scalars m, sph
     int c, ok = 1, error = out ? sphi_check_targets(dim, cloud) : sphi_refuse("out", -1, SPH_ERROR_NULL);
     if (!error) error = sphi_check_arrays(dim, x);
     if (!error && cloud.checked != 1) error = sphi_check_positions(dim, x);
-    if (!error) error = sphi_check_field("m", m, x.n);
-    if (!error) error = sphi_check_vectors("v", dim, v, x.n);
+    if (!error) error = sphi_check_field("m", m, cloud.last);
+    if (!error) error = sphi_check_vectors("v", dim, v, cloud.last);
     if (error < 0) return error;
     for (c = 0; c < 8; c++) sum[c] = lost[c] = SPH_R(0);
     for (i = cloud.first; i < cloud.last; i++) {

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The complete programs of README.md and examples/USING.md compile without a warning and print what the pages
-# say; every function and file that the pages name exists.
+# The complete programs of README.md, examples/USING.md and examples/hosts/BEYOND.md compile without a warning and
+# print what the pages say; every function and file that the pages name exists.
 . tests/check.sh
 pages="README.md examples/README.md examples/USING.md examples/OPERATORS.md examples/papers/README.md examples/fluids/README.md examples/solids/README.md examples/gas/README.md examples/hosts/BEYOND.md tests/README.md tests/PLATFORMS.md CONTRIBUTING.md tests/VERIFICATION.md"
 program() { # PAGE TEXT: the page's only program, and what it must print
@@ -11,6 +11,7 @@ program() { # PAGE TEXT: the page's only program, and what it must print
 }
 program README.md "^f'' = 2.0000000000 at the end of the line, 2.0000000000 in the middle$"
 program examples/USING.md "^gradient in the corner: 2.000000 -*0.000000 -*0.000000$"
+program examples/hosts/BEYOND.md "^densities agree, momentum conserved$"
 for page in $pages; do
     for name in $(grep -o 'sph_[a-z0-9_]*' "$page" | grep -v -x -e sph_kernels -e sph_ops | sort -u); do
         check "$page names $name" grep -q -w -e "$name" sph_kernels.h sph_ops.h sph.h

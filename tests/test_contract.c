@@ -7,6 +7,8 @@
  * Each call that is refused must say so once (SPH_REFUSED), with the error, the argument and the first
  * particle at fault. Each is made twice, the second time with a cloud that sph_cloud_checked has marked: same
  * answer, same bytes. Those that are good are made once more, with outputs that are members of structs.
+ * Last, of each input it is found out by trial whether sources that are no targets have a part in an answer: if so, a NaN
+ * of theirs is refused; if not, it changes nothing.
  *
  * A new function needs a row in the tables, a line in `functions` and one to call it; a new fault a column and an entry in `columns`.
  * tests/test_contract_unchecked.c is the same with SPH_CHECK = 0, without the columns under "Contents".
@@ -2300,6 +2302,65 @@ static void test_complete(const char *path)
     if (strcmp(path, "sph_kernels.h") != 0) CHECK(found > 0);
 }
 
+/* ---------------------------------------------------------------- what only targets have */
+
+/* The first half of the particles as targets, of sources of which the others have this array times a factor.
+   Returns the answer; the outputs of the targets are in here->live. */
+static sph_index call_with_sources(const function *f, int option, int a, double factor)
+{
+    world w = here->good;
+    sph_index i;
+    memcpy(here->live, here->good_bytes, here->total);
+    w.last = w.n / 2;
+    if (f->numbers & N(VISCOSITY)) w.number[VISCOSITY] = option; /* what is read may depend on it */
+    for (i = w.last; i < w.n && a >= 0; i++) real_of(&w, a)[i] *= SPH_R(factor);
+    refusal.count = 0;
+    return f->call(&w);
+}
+/* Is this array one of what only targets have? Where the values of sources change a bit of an answer a NaN there
+   must be refused; else it must not be refused, nor change a bit. */
+static void test_sources(const function *f, int a)
+{
+    static const double factor[] = {1.25, -1.0, 0.0};
+    const unsigned char *const given = here->good_bytes + here->offset[a];
+    /* only whether the sum of two is 0 counts; and rho is what the rows are for */
+    const int hidden = (f->call == call_collision_count && a == INVERSE_M) || (f->call == call_density_diffusion_rows_molteni && a == RHO);
+    int option, k, read = hidden, refused = 0, same = 1;
+    now_function = f->name;
+    now_dim = here->good.dim;
+    for (option = 0; option <= (f->numbers & N(VISCOSITY) ? 3 : 0); option++) {
+        (void)call_with_sources(f, option, -1, 1.0);
+        memcpy(here->after, here->live, here->total);
+        for (k = 0; k < 4; k++) {
+            const sph_index answer = call_with_sources(f, option, a, k < 3 ? factor[k] : (double)NAN);
+            memcpy(here->live + here->offset[a], given, here->size[a]); /* only outputs are compared */
+            if (k < 3) read |= memcmp(here->live, here->after, here->total) != 0;
+            else same &= memcmp(here->live, here->after, here->total) == 0;
+            if (k == 3) refused |= answer < 0;
+        }
+    }
+    snprintf(what, sizeof what, "%s of what is no target", arrays[a].name);
+    if (SPH_CHECK && !check_count(read == refused)) complain(read ? "a NaN of a source is not refused" : "refused, but nothing reads it", 0);
+    if (!read && !check_count(same)) complain("a NaN that nothing reads changes the answer", 0);
+}
+static void test_targets_only(void)
+{
+    int i, a, found = 0;
+    now_column = "targets only";
+    now_answer = "the same bits";
+    for (i = 0; i < FUNCTIONS; i++) {
+        const function *const f = &functions[i];
+        uint64_t set;
+        here = &grounds[f->dims & 2 ? 2 : f->dims & 4 ? 3 : 1];
+        if (!(f->has & TARGETS) || !(f->has & COUNTED) || f->has & (ONE_ROW | RAW)) continue;
+        /* volumes, h and positions are a cloud's own, of all */
+        set = (values_of(f, &here->good) | (inputs_of(f, &here->good) & BIT(REACH))) & ~(f->writes | BIT(V) | BIT(ROW));
+        for (a = 0; a < ARRAYS; a++)
+            if (set & BIT(a)) test_sources(f, a), found++;
+    }
+    CHECK(found > 200);
+}
+
 int main(void)
 {
     static const int side[4] = {0, 24, 5, 3};
@@ -2315,6 +2376,7 @@ int main(void)
     test_complete("sph_kernels.h");
     test_complete("sph_ops.h");
     test_complete("sph.h");
+    test_targets_only();
     test_tables("tests/CONTRACT.md");
     test_causes("tests/CONTRACT.md");
     for (dim = 1; dim <= 3; dim++) ground_free(&grounds[dim]);

@@ -9,6 +9,9 @@
  *     cloud_exchange(&c, 3, xyz);                           their values: again after each change
  *     cloud_lists(&c, radius, criterion, CLOUD_SORTED);     rows of own particles; copies are sources only
  *     cloud_prune(&c);                                      without copies that no row names
+ *     cloud_inner(&c);                                      rows that name no copy first: to be swept in between
+ *     cloud_exchange_start(&c, 3, xyz);                     and
+ *     cloud_exchange_finish(&c);
  *     cloud_migrate(&c);                                    later: what has crossed a cut goes to its owner
  *
  * Arrays hold own particles, 0 ... n - 1, and behind them copies of others' particles, n ... n_total - 1: the
@@ -20,11 +23,13 @@
 #ifndef HOST_MPI_H
 #define HOST_MPI_H
 
+#include <math.h>
 #include <mpi.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <zoltan.h>
 #include <zoltan_comm.h>
 
@@ -53,6 +58,10 @@ typedef struct cloud {
     int64_t pairs, capacity;
     void *work;
     size_t work_size;
+    int inner;                            /* the first of own particles, whose rows name own ones only */
+    int under_way, coming[CLOUD_FIELDS];  /* how many fields an exchange has sent, and which; 0: there is none */
+    double *sent, *received;
+    double seconds;                       /* of the processor, by cloud_clock */
     int64_t values, exchanges, left;      /* what was sent, and how many particles have left this rank */
 } cloud;
 
@@ -79,6 +88,8 @@ static inline void cloud_need(const cloud *c, sph_index answer, const char *what
     if (answer < 0) cloud_stop(c, what, sph_status_text((int)answer));
     if (answer > 0) cloud_stop(c, what, "there are particles that are not ok");
 }
+
+static inline void cloud_exchange_finish(cloud *c);
 
 /* room for n particles */
 static inline void cloud_room(cloud *c, int n)
@@ -110,11 +121,35 @@ static inline sph_points cloud_points(const cloud *c, int n)
 {
     return sph_points_periodic(sph_points_separate(n, c->f[0], c->f[1], c->f[2]), c->period[0], c->period[1], c->period[2]);
 }
-/* what the sweeps take: own particles as targets, all as sources */
+/* What the sweeps take: own particles as targets, all as sources. In two parts: the inner ones, of which the
+   sources are own particles, too, while copies may be on their way; and then the outer ones. */
 static inline sph_cloud cloud_view(const cloud *c, sph_scalars h, sph_scalars volume)
 {
     const sph_list list = {c->start, c->index};
     return sph_cloud_range(sph_cloud_of(cloud_points(c, c->n_total), list, h, volume), 0, c->n);
+}
+static inline sph_cloud cloud_view_inner(const cloud *c, sph_scalars h, sph_scalars volume)
+{
+    const sph_list list = {c->start, c->index};
+    return sph_cloud_range(sph_cloud_of(cloud_points(c, c->n), list, h, volume), 0, c->inner);
+}
+static inline sph_cloud cloud_view_outer(const cloud *c, sph_scalars h, sph_scalars volume)
+{
+    return sph_cloud_range(cloud_view(c, h, volume), c->inner, c->n);
+}
+
+/* Counts the time of the processor between cloud_clock(c, -1) and cloud_clock(c, 1): without waiting for others. */
+static inline void cloud_clock(cloud *c, int sign) { c->seconds += sign * (double)clock() / CLOCKS_PER_SEC; }
+/* Prints it, and what a particle costs: on n ranks as much as on one, if nothing is done twice or waited for. */
+static inline void cloud_say_seconds(const cloud *c, const char *what, int times)
+{
+    double sum, most;
+    long long all = c->n;
+    MPI_Reduce(&c->seconds, &sum, 1, MPI_DOUBLE, MPI_SUM, 0, c->comm);
+    MPI_Reduce(&c->seconds, &most, 1, MPI_DOUBLE, MPI_MAX, 0, c->comm);
+    MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_LONG_LONG, MPI_SUM, c->comm);
+    if (c->rank == 0 && all > 0 && times > 0)
+        printf("%s: processor seconds %.2f of all ranks, %.2f of the busiest; %.0f ns a particle and time\n", what, sum, most, 1e9 * sum / ((double)all * times));
 }
 
 /* ---------------------------------------------------------------- who owns what */
@@ -188,6 +223,7 @@ static inline void cloud_begin(cloud *c, MPI_Comm comm, int parts, int moved, in
 static inline void cloud_end(cloud *c)
 {
     int k;
+    cloud_exchange_finish(c);
     if (c->plan) Zoltan_Comm_Destroy(&c->plan);
     Zoltan_Destroy(&c->zoltan);
     for (k = 0; k < c->fields; k++) free(c->f[k]);
@@ -202,6 +238,7 @@ static inline void cloud_move(cloud *c, const int *owner)
     double *out, *in, *at;
     ZOLTAN_COMM_OBJ *plan = NULL;
     int i, k, leaving = 0, arriving, kept = 0;
+    cloud_exchange_finish(c);
     for (i = 0; i < c->n; i++)
         if (owner[i] != c->rank) to[leaving++] = owner[i];
     out = at = cloud_memory(c, NULL, (size_t)leaving * record, sizeof *out);
@@ -327,20 +364,45 @@ static inline void cloud_halo(cloud *c, sph_scalars radius, int criterion)
     cloud_plan(c);
     free(part), free(chosen);
 }
-/* Sends these fields of the particles that others need, and receives those of the halo. */
-static inline void cloud_exchange(cloud *c, int count, const int *field)
+/* Sends these fields of the particles that others need, and receives those of the halo, in two parts. What was
+   sent may change after the first; what comes is there after the second, which does nothing where nothing is
+   under way. In between inner rows may be swept (cloud_inner); copies hold no number then, so that it shows if
+   they are read. */
+static inline void cloud_exchange_start(cloud *c, int count, const int *field)
 {
-    double *const out = cloud_memory(c, NULL, (size_t)c->sends * (size_t)count, sizeof *out), *to = out;
-    double *const in = cloud_memory(c, NULL, (size_t)(c->n_total - c->n) * (size_t)count, sizeof *in), *from = in;
+    double *to;
     int i, k;
+    cloud_exchange_finish(c);
+    c->sent = to = cloud_memory(c, NULL, (size_t)c->sends * (size_t)count, sizeof *c->sent);
+    c->received = cloud_memory(c, NULL, (size_t)(c->n_total - c->n) * (size_t)count, sizeof *c->received);
     for (i = 0; i < c->sends; i++)
         for (k = 0; k < count; k++) *to++ = c->f[field[k]][c->send[i]];
-    cloud_zoltan(c, Zoltan_Comm_Do(c->plan, CLOUD_TAG + 3, (char *)out, count * (int)sizeof *out, (char *)in), "Zoltan_Comm_Do");
-    for (i = c->n; i < c->n_total; i++)
-        for (k = 0; k < count; k++) c->f[field[k]][i] = *from++;
+    cloud_zoltan(c, Zoltan_Comm_Do_Post(c->plan, CLOUD_TAG + 3, (char *)c->sent, count * (int)sizeof *c->sent, (char *)c->received),
+                 "Zoltan_Comm_Do_Post");
+    for (k = 0; k < count; k++) {
+        c->coming[k] = field[k];
+        for (i = c->n; i < c->n_total; i++) c->f[field[k]][i] = NAN;
+    }
+    c->under_way = count;
     c->values += (int64_t)c->sends * count;
     c->exchanges++;
-    free(out), free(in);
+}
+static inline void cloud_exchange_finish(cloud *c)
+{
+    const double *from;
+    int i, k;
+    if (!c->under_way) return;
+    cloud_zoltan(c, Zoltan_Comm_Do_Wait(c->plan, CLOUD_TAG + 3, (char *)c->sent, c->under_way * (int)sizeof *c->sent, (char *)c->received),
+                 "Zoltan_Comm_Do_Wait");
+    for (from = c->received, i = c->n; i < c->n_total; i++)
+        for (k = 0; k < c->under_way; k++) c->f[c->coming[k]][i] = *from++;
+    free(c->sent), free(c->received);
+    c->under_way = 0;
+}
+static inline void cloud_exchange(cloud *c, int count, const int *field)
+{
+    cloud_exchange_start(c, count, field);
+    cloud_exchange_finish(c);
 }
 /* The same for whole numbers of all particles: c->number, or rows of a matrix. */
 static inline void cloud_exchange_numbers(cloud *c, int64_t *number)
@@ -356,15 +418,14 @@ static inline void cloud_exchange_numbers(cloud *c, int64_t *number)
 
 /* ---------------------------------------------------------------- lists */
 
-/* Own particles into the order of the grid, which makes the sweeps faster; the halo stays as it comes. */
-static inline void cloud_order(cloud *c, sph_grid *grid)
+/* Own particle order[i] becomes number i, in all that is kept of it but for the lists; place: room for where each
+   of them has gone. */
+static inline void cloud_permute(cloud *c, const sph_index *order, sph_index *place)
 {
-    sph_index *const order = cloud_memory(c, NULL, (size_t)c->n_total * 2, sizeof *order), *const place = order + c->n_total;
     double *const sorted = cloud_memory(c, NULL, (size_t)c->n, sizeof *sorted);
     int64_t *const numbers = cloud_memory(c, NULL, (size_t)c->n, sizeof *numbers);
     int i, k;
-    cloud_need(c, sph_grid_permutation_own(grid, c->n, order), "sph_grid_permutation_own");
-    cloud_need(c, sph_permute_inverse(c->n_total, order, place), "sph_permute_inverse");
+    cloud_need(c, sph_permute_inverse(c->n, order, place), "sph_permute_inverse");
     for (k = 0; k < c->moved + 2; k++) {
         double *const a = k < c->moved ? c->f[k] : k == c->moved ? c->weight : c->reach;
         cloud_need(c, sph_permute(c->n, order, a, 1, sorted), "sph_permute");
@@ -373,8 +434,42 @@ static inline void cloud_order(cloud *c, sph_grid *grid)
     for (i = 0; i < c->n; i++) numbers[i] = c->number[order[i]];
     memcpy(c->number, numbers, (size_t)c->n * sizeof *numbers);
     for (i = 0; i < c->sends; i++) c->send[i] = (int)place[c->send[i]];
+    free(sorted), free(numbers);
+}
+/* Own particles into the order of the grid, which makes the sweeps faster; the halo stays as it comes. */
+static inline void cloud_order(cloud *c, sph_grid *grid)
+{
+    sph_index *const order = cloud_memory(c, NULL, (size_t)c->n_total * 2, sizeof *order);
+    cloud_need(c, sph_grid_permutation_own(grid, c->n, order), "sph_grid_permutation_own");
+    cloud_permute(c, order, order + c->n_total);
     cloud_need(c, sph_grid_renumber_own(grid, c->n), "sph_grid_renumber_own");
-    free(order), free(sorted), free(numbers);
+    free(order);
+}
+/* Own particles whose rows name own ones only come first, with their rows: c->inner of them. After cloud_lists. */
+static inline void cloud_inner(cloud *c)
+{
+    sph_index *const order = cloud_memory(c, NULL, (size_t)c->n * 2, sizeof *order), *const place = order + c->n;
+    sph_index *const start = cloud_memory(c, NULL, (size_t)c->n + 1, sizeof *start);
+    sph_index *const index = cloud_memory(c, NULL, (size_t)c->capacity, sizeof *index), p;
+    int i, next = 0, outer;
+    for (i = 0; i < c->n; i++) { /* place: whether a row names a copy */
+        place[i] = 0;
+        for (p = c->start[i]; p < c->start[i + 1]; p++) place[i] |= c->index[p] >= c->n;
+    }
+    for (outer = 0; outer < 2; outer++) {
+        for (i = 0; i < c->n; i++)
+            if (place[i] == outer) order[next++] = i;
+        if (!outer) c->inner = next;
+    }
+    cloud_permute(c, order, place);
+    for (start[0] = 0, i = 0; i < c->n; i++) {
+        start[i + 1] = start[i];
+        for (p = c->start[order[i]]; p < c->start[order[i] + 1]; p++) index[start[i + 1]++] = c->index[p] < c->n ? place[c->index[p]] : c->index[p];
+    }
+    memcpy(c->start, start, ((size_t)c->n + 1) * sizeof *start);
+    free(c->index);
+    c->index = index;
+    free(order), free(start);
 }
 /* Lists of own particles among all. The positions of the halo must be there, and radii that are its own; so
    must its numbers with CLOUD_SORTED, which gives sums the same roundings on any number of ranks. (For that the
@@ -408,6 +503,7 @@ static inline void cloud_lists(cloud *c, sph_scalars radius, int criterion, int 
     }
     cloud_need(c, answer, "sph_grid_lists");
     if (c->n == 0) c->start[0] = 0;
+    c->inner = 0; /* not known */
     if (flags & CLOUD_SORTED) cloud_need(c, sph_list_sort(c->n, c->n_total, c->start, c->index, c->number), "sph_list_sort");
 }
 /* Leaves in the halo what the rows name. Where radii differ much, the boxes of sph_select_near send several

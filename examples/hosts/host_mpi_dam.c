@@ -9,14 +9,15 @@
  *
  * Weakly compressible SPH: a column of A x 2 A x A in a channel of 5 A, whose walls are fixed particles with
  * densities of their own; -resolution particles across A. Owners, migration, halo and lists by host_mpi.h. In a
- * step two exchanges: velocities, before the rate of density is summed, and positions with densities. Lists have
+ * step two exchanges: velocities, before the rate of density is summed, and positions with densities. While they
+ * are on their way, rows that name no copies are swept. Lists have
  * a skin and are kept until a particle has moved by half of it; then particles go to their owners, and the cuts
  * are made anew if a rank has 1.1 times the mean work or more.
  *
  *   -write NAME     the end as NAME.h5, with NAME.xmf for ParaView; with -every N also each N steps, and with -keep
  *                   each of these as NAME_STEP.h5. The layout is that of Gadget and SWIFT (PartType0/Coordinates ...).
- *                   A file is written as NAME.h5.part by all ranks and then renamed: whoever ends the run in the
- *                   middle leaves the one before as it was
+ *                   A file is written as NAME.h5.part by all ranks, and renamed when the disk has it: whatever
+ *                   ends the run in the middle leaves the one before as it was
  *   -restart FILE   goes on from there, on any number of ranks, with the same -resolution
  *   -sorted         rows in the order of global numbers: the same bits on any number of ranks, and the same as
  *                   without a stop, if files were written at the same steps
@@ -24,10 +25,14 @@
  *   -parts N        the first N ranks own all particles
  *   -compare FILE   prints how far all particles are from those of a file, which each rank reads whole
  *   -halo FACTOR    chooses copies for FACTOR times the radius: below 1 an error, which this is to show
- *   -break STEP     ends all ranks in the middle of the file of this step: for the test of that
+ *   -break STEP     kills the last rank in the middle of the file of this step: for the test of that
  */
+#define _POSIX_C_SOURCE 200809L
 #include "host_mpi.h"
+#include <fcntl.h>
 #include <hdf5.h>
+#include <signal.h>
+#include <unistd.h>
 
 enum { X, Y, Z, VX, VY, VZ, RHO, MASS, WALL, MOVED, P = MOVED, AX, AY, AZ, RATE, VOLUME, OLDX, OLDY, OLDZ, FIELDS };
 #define KERNEL SPH_WENDLAND_C2
@@ -81,35 +86,59 @@ static void find_neighbours(cloud *c, const options *o, int balance)
     cloud_halo(c, sph_scalars_same(&chosen), SPH_GATHER);
     cloud_exchange(c, 8, sent);
     if (o->sorted) cloud_exchange_numbers(c, c->number);
+    cloud_clock(c, -1);
     cloud_lists(c, sph_scalars_same(&reach), SPH_GATHER, (o->sorted ? CLOUD_SORTED : 0) | (balance ? CLOUD_ORDERED : 0));
+    cloud_inner(c);
+    cloud_clock(c, 1);
     for (i = 0; i < c->n; i++) c->weight[i] = 10 + c->start[i + 1] - c->start[i]; /* a particle's work: some ten pairs, and its own */
     for (k = 0; k < 3; k++) memcpy(c->f[OLDX + k], c->f[X + k], (size_t)c->n * sizeof(double));
+}
+/* what follows from the density, of particles from ... to - 1 */
+static void pressures(cloud *c, int from, int to)
+{
+    int i;
+    for (i = from; i < to; i++) {
+        c->f[P][i] = sph_pressure_tait(c->f[RHO][i], water);
+        c->f[VOLUME][i] = c->f[MASS][i] / c->f[RHO][i];
+    }
 }
 /* 1 if the lists were made anew, 2 if the cuts were, too */
 static int step(cloud *c, const options *o)
 {
     static const double one = 1;
     static const int velocity[] = {VX, VY, VZ}, place[] = {X, Y, Z, RHO};
-    const sph_cloud view = cloud_view(c, sph_scalars_same(&h), sph_scalars_none());
+    const sph_scalars length = sph_scalars_same(&h), none = sph_scalars_none();
+    const sph_cloud inner = cloud_view_inner(c, length, none), outer = cloud_view_outer(c, length, none);
     const sph_scalars density = sph_scalars_array(c->f[RHO]), unit = sph_scalars_same(&one), sound = {&water.c, 0};
     const sph_vectors v = sph_vectors_separate(c->f[VX], c->f[VY], c->f[VZ]);
     const sph_fluid fluid = {sph_scalars_array(c->f[MASS]), density, sph_scalars_array(c->f[P]), sound, v, SPH_VISCOSITY_MONAGHAN, 0.05, 0, 0.1};
     const sph_medium volumes = {sph_scalars_array(c->f[VOLUME]), unit, unit}; /* of the neighbours: densities may jump */
     const sph_fluid_out force = {.acceleration = sph_vector_out_separate(c->f[AX], c->f[AY], c->f[AZ])};
+    const sph_scalar_out rate = sph_scalar_out_array(c->f[RATE], NULL);
     int i, k, due, balance;
-    for (i = 0; i < c->n_total; i++) {
-        c->f[P][i] = sph_pressure_tait(c->f[RHO][i], water);
-        c->f[VOLUME][i] = c->f[MASS][i] / c->f[RHO][i];
-    }
-    cloud_need(c, sph_fluid_rates_colagrossi(KERNEL, 3, view, fluid, force), "sph_fluid_rates_colagrossi");
+    cloud_clock(c, -1);
+    pressures(c, 0, c->n);
+    cloud_need(c, sph_fluid_rates_colagrossi(KERNEL, 3, inner, fluid, force), "sph_fluid_rates_colagrossi");
+    cloud_clock(c, 1);
+    cloud_exchange_finish(c); /* places and densities, since the step before */
+    cloud_clock(c, -1);
+    pressures(c, c->n, c->n_total);
+    cloud_need(c, sph_fluid_rates_colagrossi(KERNEL, 3, outer, fluid, force), "sph_fluid_rates_colagrossi");
+    cloud_clock(c, 1);
     for (i = 0; i < c->n; i++)
         if (!(c->f[WALL][i] > 0)) {
             c->f[VX][i] += dt * c->f[AX][i];
             c->f[VY][i] += dt * (c->f[AY][i] - gravity);
             c->f[VZ][i] += dt * c->f[AZ][i];
         }
-    cloud_exchange(c, 3, velocity);
-    cloud_need(c, sph_divergence_difference(KERNEL, 3, view, volumes, v, sph_scalar_out_array(c->f[RATE], NULL)), "sph_divergence_difference");
+    cloud_exchange_start(c, 3, velocity);
+    cloud_clock(c, -1);
+    cloud_need(c, sph_divergence_difference(KERNEL, 3, inner, volumes, v, rate), "sph_divergence_difference");
+    cloud_clock(c, 1);
+    cloud_exchange_finish(c);
+    cloud_clock(c, -1);
+    cloud_need(c, sph_divergence_difference(KERNEL, 3, outer, volumes, v, rate), "sph_divergence_difference");
+    cloud_clock(c, 1);
     for (i = 0; i < c->n; i++) {
         c->f[RHO][i] *= 1 - dt * c->f[RATE][i];
         for (k = 0; k < 3; k++) c->f[X + k][i] += dt * c->f[VX + k][i]; /* walls have the velocity 0 */
@@ -118,7 +147,7 @@ static int step(cloud *c, const options *o)
     if (due < 0) cloud_need(c, due, "sph_rebuild_due");
     MPI_Allreduce(MPI_IN_PLACE, &due, 1, MPI_INT, MPI_MAX, c->comm);
     if (!due) {
-        cloud_exchange(c, 4, place);
+        cloud_exchange_start(c, 4, place);
         return 0;
     }
     balance = cloud_imbalance(c) > 1.1;
@@ -174,15 +203,19 @@ static void transfer(const cloud *c, hid_t data, hid_t how, const char *file, in
     H5Sclose(mine), H5Sclose(space);
     free(buffer);
 }
+/* Has the disk what was written to this file, so that nothing but the whole of it can be found after a crash? */
+static int on_disk(const char *name)
+{
+    const int file = open(name, O_RDONLY), ok = file >= 0 && fsync(file) == 0;
+    if (file >= 0) close(file);
+    return ok;
+}
 /* what tells ParaView (its reader "Xdmf3") what the numbers in NAME.h5 are */
-static int write_xdmf(const char *base, double time, long long all)
+static int write_xdmf(const char *path, const char *base, double time, long long all)
 {
     const char *const name = strrchr(base, '/') ? strrchr(base, '/') + 1 : base;
-    char path[1100];
-    FILE *file;
+    FILE *const file = fopen(path, "w");
     int set;
-    snprintf(path, sizeof path, "%s.xmf", base);
-    file = fopen(path, "w");
     if (!file) return 0;
     fprintf(file, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"%.9g\"/>\n"
                   "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%lld\"/>\n", time, all);
@@ -203,13 +236,15 @@ static void write_file(cloud *c, const options *o, const char *base, int steps)
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS), together = H5Pcreate(H5P_DATASET_XFER);
     const double time = steps * dt, box[3] = {5, 3, 1}, masses[6] = {0};
     const int files = 1;
-    char name[1100], part[1110];
+    char name[1100], part[1110], picture[1100], picture_part[1110];
     long long n = c->n, first = 0, all;
     long long counts[6] = {0};
     hid_t file, header, group;
-    int set, answer[2] = {0, 0};
+    int set, ok = 0;
     snprintf(name, sizeof name, "%s.h5", base);
     snprintf(part, sizeof part, "%s.part", name);
+    snprintf(picture, sizeof picture, "%s.xmf", base);
+    snprintf(picture_part, sizeof picture_part, "%s.part", picture);
     MPI_Exscan(&n, &first, 1, MPI_LONG_LONG, MPI_SUM, c->comm);
     if (c->rank == 0) first = 0;
     MPI_Allreduce(&n, &all, 1, MPI_LONG_LONG, MPI_SUM, c->comm);
@@ -235,17 +270,17 @@ static void write_file(cloud *c, const options *o, const char *base, int steps)
         const hid_t data = file_need(c, H5Dcreate2(group, stored[set].name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), part, "cannot write this file");
         transfer(c, data, together, part, set, 1, (hsize_t)first, (hsize_t)n);
         H5Dclose(data), H5Sclose(space);
-        if (set == STORED / 2 && steps == o->stop_at) cloud_stop(c, part, "ended in the middle, as -break asks");
+        if (set == STORED / 2 && steps == o->stop_at && c->rank == c->ranks - 1) raise(SIGKILL);
     }
     H5Gclose(group);
+    file_need(c, H5Fflush(file, H5F_SCOPE_GLOBAL), part, "cannot write this file"); /* from each machine */
     file_need(c, H5Fclose(file), part, "cannot write this file");
     H5Pclose(access), H5Pclose(together);
-    if (c->rank == 0) { /* the pictures first: they name the new file, which the next line puts in its place */
-        answer[0] = write_xdmf(base, time, all);
-        answer[1] = answer[0] && rename(part, name) == 0;
-    }
-    MPI_Bcast(answer, 2, MPI_INT, 0, c->comm);
-    if (!answer[1]) cloud_stop(c, name, "cannot write this file, or the .xmf beside it");
+    if (c->rank == 0)
+        ok = on_disk(part) && write_xdmf(picture_part, base, time, all) && on_disk(picture_part) && rename(part, name) == 0 &&
+             rename(picture_part, picture) == 0;
+    MPI_Bcast(&ok, 1, MPI_INT, 0, c->comm);
+    if (!ok) cloud_stop(c, name, "cannot write this file, or the .xmf beside it");
 }
 /* Each rank of comm its share of a file's particles, whose number must be `wanted`. */
 static void read_file(cloud *c, MPI_Comm comm, const char *name, int resolution, int64_t wanted, int *steps)
@@ -314,12 +349,14 @@ static void compare(cloud *c, const options *o, int64_t all)
 
 static void say(cloud *c, int steps, double seconds, const int *rebuilt)
 {
+    const sph_list no_lists = {NULL, NULL};
+    const sph_cloud own = sph_cloud_of(cloud_points(c, c->n), no_lists, sph_scalars_none(), sph_scalars_none()); /* copies may be on their way */
     sph_conserved sums;
     double sum[3], front = 0, imbalance;
-    long long count[2] = {c->n_total - c->n, c->n == 0};
+    long long count[3] = {c->n_total - c->n, c->n == 0, c->inner};
     int i;
-    cloud_need(c, sph_conserved_sums(3, cloud_view(c, sph_scalars_same(&h), sph_scalars_none()), sph_scalars_array(c->f[MASS]),
-                                     sph_vectors_separate(c->f[VX], c->f[VY], c->f[VZ]), &sums), "sph_conserved_sums");
+    cloud_need(c, sph_conserved_sums(3, own, sph_scalars_array(c->f[MASS]), sph_vectors_separate(c->f[VX], c->f[VY], c->f[VZ]), &sums),
+               "sph_conserved_sums");
     sum[0] = sums.mass, sum[1] = sums.kinetic_energy, sum[2] = 0;
     for (i = 0; i < c->n; i++) {
         sum[2] += c->f[MASS][i] * gravity * c->f[Y][i];
@@ -327,11 +364,11 @@ static void say(cloud *c, int steps, double seconds, const int *rebuilt)
     }
     MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, c->comm);
     MPI_Allreduce(MPI_IN_PLACE, &front, 1, MPI_DOUBLE, MPI_MAX, c->comm);
-    MPI_Allreduce(MPI_IN_PLACE, count, 2, MPI_LONG_LONG, MPI_SUM, c->comm);
+    MPI_Allreduce(MPI_IN_PLACE, count, 3, MPI_LONG_LONG, MPI_SUM, c->comm);
     imbalance = cloud_imbalance(c);
     if (c->rank == 0) {
-        printf("step %d time %.4f front %.6f mass %.12g kinetic %.8g potential %.8g copies %lld empty %lld imbalance %.3f rebuilt %d balanced %d %.1f s\n",
-               steps, steps * dt, front, sum[0], sum[1], sum[2], count[0], count[1], imbalance, rebuilt[0], rebuilt[1], seconds);
+        printf("step %d time %.4f front %.6f mass %.12g kinetic %.8g potential %.8g copies %lld empty %lld inner %lld imbalance %.3f rebuilt %d balanced %d %.1f s\n",
+               steps, steps * dt, front, sum[0], sum[1], sum[2], count[0], count[1], count[2], imbalance, rebuilt[0], rebuilt[1], seconds);
         fflush(stdout);
     }
 }
@@ -394,6 +431,7 @@ int main(int argc, char **argv)
     find_neighbours(&c, &o, 1);
     find_neighbours(&c, &o, 1); /* now that the lists tell the work */
     begin = MPI_Wtime();
+    c.seconds = 0;
     first = steps; /* there is a file of it */
     for (; steps < o.steps; steps++) {
         int again;
@@ -409,6 +447,7 @@ int main(int argc, char **argv)
         rebuilt[1] += again > 1;
     }
     say(&c, steps, MPI_Wtime() - begin, rebuilt);
+    cloud_say_seconds(&c, "sweeps and lists", steps - first);
     if (o.write) write_file(&c, &o, o.write, steps);
     if (o.compare) compare(&c, &o, all);
     sent[0] = c.values, sent[1] = c.left;

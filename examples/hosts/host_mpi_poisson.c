@@ -192,8 +192,8 @@ int main(int argc, char **argv)
     cloud_halo(&c, sph_scalars_same(&radius), SPH_GATHER);
     cloud_exchange(&c, 4, sent);
     cloud_exchange_numbers(&c, c.number);
+    cloud_clock(&c, -1);
     cloud_lists(&c, sph_scalars_same(&radius), SPH_GATHER, CLOUD_ORDERED);
-    for (i = c.n; i < c.n_total; i++) c.f[EDGE][i] = 0; /* only targets have it, but it must be a number */
     copies = c.n_total - c.n;
     pairs = c.pairs;
     { /* the part that knows of SPH */
@@ -209,6 +209,7 @@ int main(int argc, char **argv)
         for (i = 0; i < c.n; i++) /* rows of the surface are written over */
             if (!(c.f[EDGE][i] > 0)) cloud_need(&c, status[i], "sph_elliptic_rows_msph");
         cloud_need(&c, sph_elliptic_rows_boundary(KERNEL, 3, view, sph_scalars_same(&one), options, given, out), "sph_elliptic_rows_boundary");
+        cloud_clock(&c, 1);
         PetscCall(assemble(&c, row, &A, &b));
         free(row), free(status);
     }
@@ -222,6 +223,7 @@ int main(int argc, char **argv)
     MPI_Allreduce(MPI_IN_PLACE, &pairs, 1, MPI_LONG_LONG, MPI_SUM, c.comm);
     PetscCall(PetscPrintf(c.comm, "ranks %d points %lld pairs %lld copies %lld residual %.2e iterations %d error %.4e\n", c.ranks,
                           (long long)side * side * side, pairs, copies, (double)residual, (int)iterations, most));
+    cloud_say_seconds(&c, "lists and rows", 1);
     PetscCall(in_order(&c, u, &sorted));
     if (writes) {
         PetscViewer file;

@@ -13,16 +13,12 @@
 #include "opencl.h"
 #include "sph.h"
 
+#include "lists.h"
 #include <math.h>
-
-typedef struct cells { /* as in lists.cl */
-    sph_real low[3], inverse_width[3], box[3];
-    int count[3], dim;
-} cells;
 
 typedef struct cloud {
     sph_index n, n_total;
-    sph_real *x, *y, *z, *R, *h, *m, *rho;
+    sph_real *x, *y, *z, *R, *h, *m, *rho; /* one behind the other */
 } cloud;
 
 static void *memory(size_t count, size_t size)
@@ -49,7 +45,8 @@ static cloud cloud_new(int side)
     c.n = c.n_total / 8 * 7;
     array[0] = &c.x, array[1] = &c.y, array[2] = &c.z, array[3] = &c.R, array[4] = &c.h, array[5] = &c.m,
     array[6] = &c.rho;
-    for (k = 0; k < 7; k++) *array[k] = (sph_real *)memory((size_t)c.n_total, sizeof(sph_real));
+    c.x = (sph_real *)memory(7 * (size_t)c.n_total, sizeof(sph_real));
+    for (k = 1; k < 7; k++) *array[k] = c.x + k * c.n_total;
     for (i = 0; i < c.n_total; i++) {
         const sph_index a = (sph_index)((int64_t)i * 30011 % c.n_total);
         c.x[i] = SPH_R((a % side + 0.4 * uniform()) * spacing);
@@ -61,17 +58,6 @@ static cloud cloud_new(int side)
     }
     return c;
 }
-static void cloud_free(cloud *c)
-{
-    free(c->x), free(c->y), free(c->z), free(c->R), free(c->h), free(c->m), free(c->rho);
-}
-
-#define ARGUMENT(v) \
-    { \
-        sizeof(v), &(v) \
-    }
-#define NUMBER(a) ((cl_int)(sizeof(a) / sizeof *(a)))
-
 /* Prints how the lists and densities of the device differ from the host's. Returns how many rows do. */
 static int compare(cloud *c, int criterion, int periodic, int say)
 {
@@ -81,7 +67,7 @@ static int compare(cloud *c, int criterion, int periodic, int say)
         sph_points_periodic(sph_points_separate(c->n_total, c->x, c->y, c->z), length, length, length);
     const size_t size = sph_grid_workspace(3, c->n_total), starts = ((size_t)c->n + 1) * sizeof(sph_index),
                  each = (size_t)c->n_total * sizeof(sph_real);
-    const size_t all = ((size_t)c->n_total + 63) / 64 * 64, some = ((size_t)c->n + 63) / 64 * 64;
+    const size_t all = ((size_t)c->n_total + GROUP - 1) / GROUP * GROUP, some = ((size_t)c->n + GROUP - 1) / GROUP * GROUP;
     sph_query query = sph_query_of(points, criterion, sph_scalars_array(c->R), SPH_LIST_SORTED);
     sph_index *const start = (sph_index *)memory(1, starts),
                      *const start_device = (sph_index *)memory(1, starts), *index, *index_device, i;
@@ -105,66 +91,53 @@ static int compare(cloud *c, int criterion, int periodic, int say)
                               sph_scalar_out_array(c->rho, 0)))
         return puts("density"), 1;
 
-    g.dim = 3;
-    for (k = 0; k < 3; k++) {
-        const sph_real fine = SPH_R(k == 0 ? 4 : 1);
-        g.low[k] = SPH_R(0);
-        g.box[k] = length;
-        g.count[k] =
-            (int)(SPH_R(1) / widest * fine); /* of the unit cube: the last cell of an open axis is wide */
-        if (g.count[k] < 1) g.count[k] = 1;
-        g.inverse_width[k] = (sph_real)g.count[k];
-    }
-    buckets = g.count[0] * g.count[1] * g.count[2];
+    g = cells_of(3, widest, periodic);
+    buckets = cells_all(g);
     {
         const cl_int n = c->n, n_total = c->n_total;
-        const cl_mem x = opencl_copy(each, c->x), y = opencl_copy(each, c->y), z = opencl_copy(each, c->z),
-                     R = opencl_copy(each, c->R), h = opencl_copy(each, c->h), m = opencl_copy(each, c->m),
-                     density_of = opencl_copy(each, 0);
+        const cl_int capacity = INT32_MAX;
+        const cl_mem x = opencl_copy(4 * each, c->x), h = opencl_copy(each, c->h), m = opencl_copy(each, c->m),
+                     density_of = opencl_copy(each, 0), largest = opencl_copy(sizeof widest, &widest);
         const cl_mem bucket = opencl_copy(sizeof(int) * (size_t)n_total, 0),
                      place = opencl_copy(sizeof(int) * (size_t)n_total, 0),
                      member = opencl_copy(sizeof(int) * (size_t)n_total, 0),
                      first = opencl_copy(sizeof(int) * ((size_t)buckets + 1), 0),
                      begin = opencl_copy(starts, 0);
-        const opencl_argument count[] = {ARGUMENT(n_total), ARGUMENT(g),    ARGUMENT(x),
-                                         ARGUMENT(y),       ARGUMENT(z),    ARGUMENT(bucket),
-                                         ARGUMENT(place),   ARGUMENT(first)};
-        const opencl_argument scan_cells[] = {ARGUMENT(buckets), ARGUMENT(first), {64 * sizeof(int), 0}},
-                              scan_rows[] = {ARGUMENT(n), ARGUMENT(begin), {64 * sizeof(int), 0}};
+        const opencl_argument count[] = {ARGUMENT(n_total), ARGUMENT(g),     ARGUMENT(x),
+                                         ARGUMENT(bucket),  ARGUMENT(place), ARGUMENT(first)};
+        const opencl_argument scan_cells[] = {ARGUMENT(buckets), ARGUMENT(first)},
+                              scan_rows[] = {ARGUMENT(n), ARGUMENT(begin)};
         const opencl_argument put[] = {ARGUMENT(n_total), ARGUMENT(bucket), ARGUMENT(place), ARGUMENT(first),
                                        ARGUMENT(member)};
         const opencl_argument order[] = {ARGUMENT(buckets), ARGUMENT(first), ARGUMENT(member)};
-        const opencl_argument lengths[] = {ARGUMENT(n),      ARGUMENT(n_total), ARGUMENT(criterion),
-                                           ARGUMENT(widest), ARGUMENT(g),       ARGUMENT(x),
-                                           ARGUMENT(y),      ARGUMENT(z),       ARGUMENT(R),
-                                           ARGUMENT(first),  ARGUMENT(member),  ARGUMENT(begin)};
-        took[0] = opencl_run("count", all, 64, NUMBER(count), count);
-        took[1] = opencl_run("scan", 64, 64, NUMBER(scan_cells), scan_cells);
-        took[2] = opencl_run("put", all, 64, NUMBER(put), put);
-        took[3] = opencl_run("order", ((size_t)buckets + 63) / 64 * 64, 64, NUMBER(order), order);
-        took[4] = opencl_run("lengths", some, 64, NUMBER(lengths), lengths);
-        took[4] += opencl_run("scan", 64, 64, NUMBER(scan_rows), scan_rows);
+        const opencl_argument lengths[] = {ARGUMENT(n),     ARGUMENT(n_total), ARGUMENT(criterion),
+                                           ARGUMENT(g),     ARGUMENT(x),       ARGUMENT(largest),
+                                           ARGUMENT(first), ARGUMENT(member),  ARGUMENT(begin)};
+        took[0] = opencl_run("count", all, GROUP, NUMBER(count), count);
+        took[1] = opencl_run("scan", SCANNERS, SCANNERS, NUMBER(scan_cells), scan_cells);
+        took[2] = opencl_run("put", all, GROUP, NUMBER(put), put);
+        took[3] = opencl_run("order", ((size_t)buckets + GROUP - 1) / GROUP * GROUP, GROUP, NUMBER(order), order);
+        took[4] = opencl_run("lengths", some, GROUP, NUMBER(lengths), lengths);
+        took[4] += opencl_run("scan", SCANNERS, SCANNERS, NUMBER(scan_rows), scan_rows);
         opencl_back(begin, starts - sizeof(int), sizeof(int), &pairs_device);
         index_device = (sph_index *)memory((size_t)pairs_device + 1, sizeof *index_device);
         {
             const cl_mem entries = opencl_copy(((size_t)pairs_device + 1) * sizeof(int), 0);
-            const opencl_argument rows[] = {
-                ARGUMENT(n),      ARGUMENT(n_total), ARGUMENT(criterion), ARGUMENT(widest), ARGUMENT(g),
-                ARGUMENT(x),      ARGUMENT(y),       ARGUMENT(z),         ARGUMENT(R),      ARGUMENT(first),
-                ARGUMENT(member), ARGUMENT(begin),   ARGUMENT(entries)};
-            const opencl_argument density[] = {ARGUMENT(n),     ARGUMENT(n_total),   ARGUMENT(g),
-                                               ARGUMENT(x),     ARGUMENT(y),         ARGUMENT(z),
-                                               ARGUMENT(begin), ARGUMENT(entries),   ARGUMENT(h),
-                                               ARGUMENT(m),     ARGUMENT(density_of)};
-            took[5] = opencl_run("rows", some, 64, NUMBER(rows), rows);
-            took[6] = opencl_run("density", some, 64, NUMBER(density), density);
+            const opencl_argument rows[] = {ARGUMENT(n),      ARGUMENT(n_total), ARGUMENT(criterion), ARGUMENT(g),
+                                            ARGUMENT(x),      ARGUMENT(largest), ARGUMENT(first),     ARGUMENT(member),
+                                            ARGUMENT(begin),  ARGUMENT(capacity), ARGUMENT(entries)};
+            const opencl_argument density[] = {ARGUMENT(n),     ARGUMENT(n_total), ARGUMENT(g),
+                                               ARGUMENT(x),     ARGUMENT(begin),   ARGUMENT(entries),
+                                               ARGUMENT(h),     ARGUMENT(m),       ARGUMENT(density_of)};
+            took[5] = opencl_run("rows", some, GROUP, NUMBER(rows), rows);
+            took[6] = opencl_run("density", some, GROUP, NUMBER(density), density);
             opencl_back(entries, 0, (size_t)pairs_device * sizeof(int), index_device);
             clReleaseMemObject(entries);
         }
         opencl_back(begin, 0, starts, start_device);
         opencl_back(density_of, 0, each, rho);
         {
-            const cl_mem used[] = {x, y, z, R, h, m, density_of, bucket, place, member, first, begin};
+            const cl_mem used[] = {x, h, m, density_of, largest, bucket, place, member, first, begin};
             for (k = 0; k < NUMBER(used); k++) clReleaseMemObject(used[k]);
         }
     }
@@ -204,6 +177,6 @@ int main(int argc, char **argv)
         wrong += compare(&c, SPH_GATHER, periodic, argc > 1);
         wrong += compare(&c, SPH_LARGER, periodic, argc > 1);
     }
-    cloud_free(&c);
+    free(c.x);
     return wrong != 0;
 }

@@ -78,6 +78,11 @@ typedef struct opencl_argument {
     size_t size;
     const void *p;
 } opencl_argument;
+#define ARGUMENT(v) \
+    { \
+        sizeof(v), &(v) \
+    }
+#define NUMBER(a) ((cl_int)(sizeof(a) / sizeof *(a)))
 static double opencl_run(const char *name, size_t items, size_t group, int count, const opencl_argument *a)
 {
     cl_int error;

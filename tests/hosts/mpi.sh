@@ -38,6 +38,12 @@ run() { # NAME N PROGRAM ...: what it prints goes into scratch/NAME
     # shellcheck disable=SC2016
     check "$what" sh -c 'to=$1; shift; "$@" > "$to"' sh "$to" timeout 120 mpirun -n "$@"
 }
+fails() { ! "$@"; }
+killed() { # it ends soon, and not well
+    ranks "$@"
+    ended=$?
+    [ $ended -ne 0 ] && [ $ended -ne 124 ]
+}
 word() { # the word behind WORD in the last line of scratch/NAME that has it
     awk -v word="$2" '{ for (i = 1; i < NF; i++) if ($i == word) found = $(i + 1) } END { print found }' "$scratch/$1"
 }
@@ -49,18 +55,23 @@ bytes() { # of all values of copies, within 10 percent of 8 each
 
 if built host_mpi_vary; then
     vary=$scratch/host_mpi_vary
-    for box in open periodic; do
+    for box in 0 1; do # none, and a periodic one
         for n in 1 2 4; do
             run vary-$box-$n $n "$vary" 4000 $box
-            for criterion in gather larger; do
+            for criterion in gather larger adaptive; do
                 for m in 1 $n; do grep "^$criterion" "$scratch/vary-$box-$m" | sed 's/;.*//' > "$scratch/pairs-$m"; done
                 check "the same pairs on $n ranks, $box, $criterion" cmp "$scratch/pairs-1" "$scratch/pairs-$n"
             done
         done
+        check "lengths grow, and with them the halo, $box" less "$(awk -v n="$(word vary-$box-4 first)" 'BEGIN { print 2 * n + 1 }')" \
+            "$(word vary-$box-4 then)"
+        check "all have a length, $box" grep -q "^adaptive h 0[.0-9]* to 0.1[0-9]* hash [0-9a-f]* rounds [2-9]* alone 0;" "$scratch/vary-$box-4"
         check "radii differ, $box" less 10 "$(word vary-$box-1 smallest | sed 's/;//')"
         check "a pruned halo is less than half, $box" \
             less "$(awk -v n="$(word vary-$box-4 pruned)" 'BEGIN { print 2 * n }')" "$(word vary-$box-4 copies | sed 's/,//')"
     done
+    check "a box that is none" answers error "rank [01]: sph_part_of: a box length is" ranks 2 "$vary" 500 nan
+    check "a box that is too small" answers error "rank [01]: sph_.*: a box length is" ranks 2 "$vary" 500 0.2
     for n in 0 1 3; do check "$n particles on 4 ranks" answers 0 "of $n particles" ranks 4 "$vary" $n; done
 fi
 
@@ -100,6 +111,9 @@ elif built host_mpi_dam hdf5-openmpi; then
         run dam-$n $n "$dam" -resolution 4 -steps $steps -sorted -every 200 -keep -write "$at" -compare "$scratch/one_000000$steps.h5"
         check "the same bits on $n ranks" grep -q "3068 of 3068 particles have the same bits" "$scratch/dam-$n"
         check "bytes of the halo on $n ranks" bytes dam-$n
+        # whose rows were swept while copies were on their way
+        check "inner particles on $n ranks" less 400 "$(word dam-$n inner)"
+        check "outer particles on $n ranks" less "$(word dam-$n inner)" 2900
         check "balance on $n ranks" awk '{ for (i = 1; i < NF; i++) if ($i == "imbalance") { n++; bad += $(i + 1) > 1.1 } } END { exit bad || n < 3 }' "$scratch/dam-$n"
     done
     check "particles moved, and cuts were made anew" less 1 "$(word dam-4 balanced)"
@@ -111,10 +125,36 @@ elif built host_mpi_dam hdf5-openmpi; then
     check "3 ranks, then 2: the same bits" grep -q "3068 of 3068 particles have the same bits" "$scratch/dam-3-2"
 
     cp "$at.h5" "$scratch/before"
-    check "an end in the middle of a file" answers error "as -break asks" ranks 2 "$dam" -resolution 4 -steps 210 -restart "$at.h5" -write "$at" -break 210
+    check "a rank is killed in the middle of a file" killed 2 "$dam" -resolution 4 -steps 210 -restart "$at.h5" -write "$at" -break 210
     check "there was a part of a file" test -s "$at.h5.part"
     check "and the one before is whole" cmp "$at.h5" "$scratch/before"
-    check "the pictures name what is there" grep -q "$(basename "$at").h5:/PartType0/Coordinates" "$at.xmf"
+    for moment in 1 2 3; do # and whenever: a file is written each step
+        rm -f "$scratch/pids"
+        # shellcheck disable=SC2016
+        ranks 2 sh -c 'echo $$ >> "$0"; exec "$@"' "$scratch/pids" "$dam" -resolution 4 -steps 1000000 -sorted -every 1 \
+            -restart "$at.h5" -write "$at" > "$scratch/log" 2>&1 &
+        waited=0
+        until ! cmp -s "$at.h5" "$scratch/before" || [ $waited -ge 60 ]; do sleep 1; waited=$((waited + 1)); done
+        sleep 0.$((moment * 3))
+        kill -9 "$(tail -n 1 "$scratch/pids")"
+        check "a rank killed at any moment ends all" fails wait $!
+        check "there were new files" less 0 "$(($(cmp -s "$at.h5" "$scratch/before"; echo $?) - 1))"
+        run dam-killed 1 "$dam" -resolution 4 -steps 0 -restart "$at.h5"
+        check "a file that can be read is left" same "$(word dam-killed mass)" "$(word dam-1 mass)"
+        cp "$at.h5" "$scratch/before"
+    done
+    if ! installed python3; then
+        skip "the pictures" "python3 is not installed"
+    else
+        # shellcheck disable=SC2046,SC2086
+        check "what reads arrays compiles" mpicc $warn tests/hosts/mpi_arrays.c -o "$scratch/arrays" $(flags_of hdf5-openmpi) -lm
+        # shellcheck disable=SC2016
+        check "the pictures are XML" sh -c 'python3 -S tests/hosts/mpi_pictures.py "$1.xmf" > "$2"' sh "$at" "$scratch/pictures"
+        check "the pictures name what is there" grep -q "$(basename "$at").h5 /PartType0/Coordinates Float 8 3068 3" "$scratch/pictures"
+        check "as it is" answers 0 "6 arrays" "$scratch/arrays" "$scratch" "$scratch/pictures"
+        sed 's/3068/3067/' "$scratch/pictures" > "$scratch/pictures-wrong"
+        check "and not otherwise" answers 1 "not what the pictures say" "$scratch/arrays" "$scratch" "$scratch/pictures-wrong"
+    fi
     check "a halo that is too small" answers error "the halo is too small" ranks 3 "$dam" -resolution 4 -steps 5 -halo 0.7
     check "a file that is not there" answers error "does not exist" ranks 2 "$dam" -resolution 4 -steps 5 -restart "$scratch/none.h5"
     check "a file that is no HDF5" answers error "is no HDF5 file" ranks 2 "$dam" -resolution 4 -steps 5 -restart "$at.xmf"
