@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * gas_cases.h - what the drivers of this folder share: their options, a table's common rows, a lattice, and cases
- * that several of them run. The gas is that of examples/common/gas.h.
+ * gas_cases.h - what the drivers of this folder share: their options, a ball of particles, and cases that
+ * several of them run. The gas is that of examples/common/gas.h.
  */
 #ifndef GAS_CASES_H
 #define GAS_CASES_H
@@ -33,15 +33,22 @@ static inline gas_options gas_begin(int argc, char **argv, report *r, const char
     return o;
 }
 
-/* Node i of a lattice of side[0] x side[1] (x ...) nodes, in the middle of cells of the size dx */
-static inline void gas_node(gas *g, sph_index i, const int *side, const double *dx)
+/* The nodes within the unit ball, in the middle of cells of the size 1 / side; counts only where x is null */
+static inline sph_index gas_ball(int dim, int side, double *const *x)
 {
-    int k;
-    sph_index rest = i;
-    for (k = 0; k < g->dim; k++) {
-        g->a[X + k][i] = (rest % side[k] + 0.5) * dx[k];
-        rest /= side[k];
+    const double dx = 1.0 / side;
+    const int row = 2 * side, all = dim == 1 ? row : dim == 2 ? row * row : row * row * row;
+    sph_index n = 0;
+    int i, k;
+    for (i = 0; i < all; i++) {
+        const int at[3] = {i % row, i / row % row, i / row / row};
+        double p[3] = {0, 0, 0};
+        for (k = 0; k < dim; k++) p[k] = (at[k] + 0.5 - side) * dx;
+        if (p[0] * p[0] + p[1] * p[1] + p[2] * p[2] >= 1) continue;
+        for (k = 0; k < dim && x; k++) x[k][n] = p[k];
+        n++;
     }
+    return n;
 }
 
 /* gas_run, with a line of progress */

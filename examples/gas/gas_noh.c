@@ -26,41 +26,24 @@ static const trial trials[] = {{"1D, no conductivity", "1d_none", 1, 200, SPH_CO
                                {"2D, Price", "2d_64", 2, 64, SPH_CONDUCTIVITY_PRICE},
                                {"3D, Price", "3d", 3, 16, SPH_CONDUCTIVITY_PRICE}};
 
-/* The nodes within the unit ball, in the middle of their cells; counts only where g is null */
-static sph_index ball(gas *g, int dim, int side)
-{
-    const double dx = 1.0 / side;
-    const int row = 2 * side, all = dim == 1 ? row : dim == 2 ? row * row : row * row * row;
-    sph_index n = 0;
-    int i, k;
-    for (i = 0; i < all; i++) {
-        const int at[3] = {i % row, i / row % row, i / row / row};
-        double p[3] = {0, 0, 0}, r;
-        for (k = 0; k < dim; k++) p[k] = (at[k] + 0.5 - side) * dx;
-        r = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-        if (r >= 1) continue;
-        for (k = 0; k < dim && g; k++) {
-            g->a[X + k][n] = p[k];
-            g->a[VX + k][n] = -p[k] / r;
-            g->a[M][n] = pow(dx, dim);
-            g->a[H][n] = GAS_ETA * dx;
-            g->a[U][n] = 1e-6;
-        }
-        n++;
-    }
-    return n;
-}
-
 /* The least rho in the middle, over the exact one */
 static double implosion(report *r, const gas_options *o, const trial *t)
 {
     const double exact = pow(4, t->dim), shock = END / 3;
-    gas g = gas_new(t->dim, ball(NULL, t->dim, t->side), 5.0 / 3);
+    gas g = gas_new(t->dim, gas_ball(t->dim, t->side, NULL), 5.0 / 3);
     double rho = 0, v = 0, in = 0, middle = 1, before, out = 0, error = 0, front = 0, energy;
     char setting[32], name[64];
     FILE *data;
     sph_index i;
-    ball(&g, t->dim, t->side);
+    gas_ball(t->dim, t->side, g.a + X);
+    for (i = 0; i < g.n; i++) {
+        const double q = sqrt(gas_square(&g, X, i));
+        int k;
+        for (k = 0; k < t->dim; k++) g.a[VX + k][i] = -g.a[X + k][i] / q;
+        g.a[M][i] = pow(1.0 / t->side, t->dim);
+        g.a[H][i] = g.eta / t->side;
+        g.a[U][i] = 1e-6;
+    }
     g.run = t->name;
     g.conductivity = t->conductivity;
     gas_start(&g);
