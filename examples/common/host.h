@@ -28,6 +28,7 @@
 #ifndef HOST_H
 #define HOST_H
 
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -99,6 +100,25 @@ static inline sph_index host_expect(sph_index answer, int of_all, const char *fi
 #define expect(answer) host_expect(answer, 0, __FILE__, __LINE__)
 /* Not refused, and all targets are ok. */
 #define expect_all(answer) host_expect(answer, 1, __FILE__, __LINE__)
+/* expect_all in a run, at the time t: the first particle whose value is no number is named. state: arrays of
+   x.n values, with their names. */
+static inline void expect_finite(sph_index answer, const char *run, double t, double *const *state,
+                                 const char *const *name, int arrays, sph_points x)
+{
+    sph_index i;
+    int a;
+    if (answer == 0) return;
+    fflush(stdout);
+    fprintf(stderr, "\n%s, t = %g: the run stops\n", run, t);
+    for (a = 0; a < arrays; a++)
+        for (i = 0; i < x.n; i++)
+            if (!isfinite(state[a][i])) {
+                fprintf(stderr, "%s of particle %ld at (%g, %g) is %g\n", name[a], (long)i, x.x[i], x.y[i],
+                        state[a][i]);
+                exit(1);
+            }
+    expect_all(answer);
+}
 
 /* ---- dimensions ---- */
 

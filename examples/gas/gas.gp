@@ -38,7 +38,7 @@ if (there("gas_gresho_constant_32")) {
     unset multiplot
 }
 
-if (there("gas_waves")) {
+if (there("gas_waves_errors")) {
     reset
     set datafile separator ","
     set output "gas_waves.png"
@@ -49,6 +49,6 @@ if (there("gas_waves")) {
     set xlabel "particles a wavelength"
     set xrange [12:160]
     set key bottom left
-    plot for [w in "sound Alfven fast slow"] "gas_waves.csv" using (strcol(1) eq w ? $2 : 1/0):3 every ::1 with linespoints pointtype 7 title w, \
+    plot for [w in "sound Alfven fast slow"] "gas_waves_errors.csv" using (strcol(1) eq w ? $2 : 1/0):3 every ::1 with linespoints pointtype 7 title w, \
         10 / x**2 with lines dashtype 2 linecolor rgb "black" title "N^{-2}"
 }

@@ -10,148 +10,152 @@
  * cubic spline, artificial viscosity alpha v_sig with alpha = 0.1, to t = 1. Plain SPH is sph_gas_rates: P /
  * rho^2, symmetric. The error is the mean of |v - exact| along the circles.
  */
-#include "../common/figure.h"
-#include "../common/options.h"
-#include "gas.h"
+#include "gas_cases.h"
+#include "gas_riemann.h"
 
 enum { PLAIN, CRK, IAD, FORMS };
+static const char *const form_name[FORMS] = {"plain", "CRK", "IAD"};
 
-typedef struct cloud {
-    int n, form;
-    double h, *x[2], *v[2], *a[2], *u, *rate, *m, *rho, *p, *c, *volume, *one, *alpha;
-    double *scale, *slope[2], *scale_gradient[2], *slope_gradient, *inverse;
-    search near;
-    sph_cloud of;
-} cloud;
-static double *room(int n) { return (double *)need_zeros((size_t)n, sizeof(double)); }
-
-static void rates(cloud *g)
+/* What the corrected forms need beside the gas */
+typedef struct corrected {
+    int form;
+    double alpha; /* of the viscosity */
+    double *scale, *slope[2], *scale_gradient[2], *matrix; /* matrix: slope_gradient, or the inverse of IAD */
+} corrected;
+static sph_rk kernels_of(const corrected *c)
 {
-    const double support = sph_kernel_support(GAS_KERNEL, g->h), gamma = 5.0 / 3;
-    const sph_points points = sph_points_periodic(sph_points_separate(g->n, g->x[0], g->x[1], NULL), 1, 1, 0);
-    const sph_scalars h = sph_scalars_same(&g->h);
-    const sph_vectors v = vectors_of(g->v, 2);
-    int i;
-    search_all(&g->near, 2, points, sph_scalars_same(&support), SPH_GATHER);
-    g->of = sph_cloud_checked(2, sph_cloud_of(points, g->near.found.list, h, sph_scalars_none()));
-    expect_all(sph_density_summation(GAS_KERNEL, 2, g->of, sph_scalars_array(g->m), sph_scalar_out_array(g->rho, NULL)));
-    for (i = 0; i < g->n; i++) {
-        g->p[i] = (gamma - 1) * g->rho[i] * g->u[i];
-        g->c[i] = sqrt(gamma * g->p[i] / g->rho[i]);
-        g->volume[i] = g->m[i] / g->rho[i];
-    }
-    g->of.volume = sph_scalars_array(g->volume);
-    if (g->form == PLAIN) {
-        const sph_gas s = {.medium = {sph_scalars_array(g->m), sph_scalars_array(g->rho), sph_scalars_array(g->one)},
-                           .p = sph_scalars_array(g->p), .cs = sph_scalars_array(g->c),
-                           .alpha = sph_scalars_array(g->alpha), .v = v, .beta = 2};
-        const sph_gas_out out = {.acceleration = vectors_into(g->a, 2), .rate_u = g->rate};
-        expect_all(sph_gas_rates(GAS_KERNEL, 2, g->of, s, out));
-    } else {
-        const sph_fluid f = {.m = sph_scalars_array(g->m), .rho = sph_scalars_array(g->rho), .p = sph_scalars_array(g->p),
-                             .c = sph_scalars_array(g->c), .v = v, .viscosity = SPH_VISCOSITY_SIGNAL, .alpha = 0.1, .beta = 2};
-        const sph_corrected_out out = {.acceleration = vectors_into(g->a, 2), .rate_u = g->rate};
-        if (g->form == CRK) {
-            const sph_rk_out to = {.scale = g->scale, .slope = vectors_into(g->slope, 2),
-                                   .scale_gradient = vectors_into(g->scale_gradient, 2),
-                                   .slope_gradient = sph_matrix_out_packed(2, g->slope_gradient)};
-            const sph_rk rk = {sph_scalars_array(g->scale), vectors_of(g->slope, 2), vectors_of(g->scale_gradient, 2),
-                               sph_matrices_packed(2, g->slope_gradient)};
-            expect_all(sph_rk_correction(GAS_KERNEL, 2, g->of, to));
-            expect_all(sph_gas_rates_crk(GAS_KERNEL, 2, g->of, f, rk, out));
-        } else {
-            const sph_correction_out to = {.inverse = sph_matrix_out_packed(2, g->inverse)};
-            expect_all(sph_gradient_correction_iad(GAS_KERNEL, 2, g->of, to));
-            expect_all(sph_gas_rates_iad(GAS_KERNEL, 2, g->of, f, sph_matrices_packed(2, g->inverse), out));
-        }
-    }
+    const sph_rk rk = {sph_scalars_array(c->scale), vectors_of(c->slope, 2), vectors_of(c->scale_gradient, 2), sph_matrices_packed(2, c->matrix)};
+    return rk;
 }
-typedef struct vortex_result {
-    double error, energy, momentum;
-} vortex_result;
-static vortex_result vortex(int form, int side, double end)
+static long correction_part(void *data, long first, long last)
 {
-    cloud g;
-    vortex_result r = {0, 0, 0};
-    double t = 0, before = 0, after = 0, push[2] = {0, 0}, dt;
-    const double dx = 1.0 / side;
-    double *kept[5];
-    int i, k, stage;
-    memset(&g, 0, sizeof g);
-    g.n = side * side;
-    g.form = form;
-    g.h = 1.4 * dx;
+    const gas *const g = (const gas *)data;
+    const corrected *const c = (const corrected *)g->others;
+    const sph_rk_out rk = {.scale = c->scale, .slope = vectors_into(c->slope, 2), .scale_gradient = vectors_into(c->scale_gradient, 2),
+                           .slope_gradient = sph_matrix_out_packed(2, c->matrix)};
+    const sph_correction_out iad = {.inverse = sph_matrix_out_packed(2, c->matrix)};
+    if (c->form == CRK) return sph_rk_correction(GAS_KERNEL, 2, gas_cloud(g, first, last), rk);
+    return sph_gradient_correction_iad(GAS_KERNEL, 2, gas_cloud(g, first, last), iad);
+}
+static long force_part(void *data, long first, long last)
+{
+    const gas *const g = (const gas *)data;
+    const corrected *const c = (const corrected *)g->others;
+    const sph_cloud cloud = gas_cloud(g, first, last);
+    const sph_fluid f = {.m = gas_field(g, M), .rho = gas_field(g, RHO), .p = gas_field(g, P), .c = gas_field(g, CS),
+                         .v = vectors_of(g->a + VX, 2), .viscosity = SPH_VISCOSITY_SIGNAL, .alpha = c->alpha, .beta = 2};
+    const sph_corrected_out out = {.acceleration = vectors_into(g->rate + VX, 2), .rate_u = g->rate[U]};
+    if (c->form == CRK) return sph_gas_rates_crk(GAS_KERNEL, 2, cloud, f, kernels_of(c), out);
+    return sph_gas_rates_iad(GAS_KERNEL, 2, cloud, f, sph_matrices_packed(2, c->matrix), out);
+}
+/* The plain rates first: they give the signal speed */
+static void forces(gas *g)
+{
+    const corrected *const c = (const corrected *)g->others;
+    expect_all((sph_index)threads_each(g->free, gas_rates_part, g));
+    if (c->form == PLAIN) return;
+    expect_all((sph_index)threads_each(g->n, correction_part, g));
+    expect_all((sph_index)threads_each(g->free, force_part, g));
+}
+static void corrected_open(corrected *c, gas *g, int form, double alpha)
+{
+    const size_t n = (size_t)g->n;
+    int k;
+    memset(c, 0, sizeof *c);
+    c->form = form;
+    c->alpha = g->alpha[1] = alpha;
+    c->scale = (double *)need_zeros(9 * n, sizeof(double));
     for (k = 0; k < 2; k++) {
-        g.x[k] = room(g.n), g.v[k] = room(g.n), g.a[k] = room(g.n), g.slope[k] = room(g.n), g.scale_gradient[k] = room(g.n);
+        c->slope[k] = c->scale + (size_t)(1 + k) * n;
+        c->scale_gradient[k] = c->scale + (size_t)(3 + k) * n;
     }
-    g.u = room(g.n), g.rate = room(g.n), g.m = room(g.n), g.rho = room(g.n), g.p = room(g.n), g.c = room(g.n);
-    g.volume = room(g.n), g.one = room(g.n), g.alpha = room(g.n), g.scale = room(g.n);
-    g.slope_gradient = room(4 * g.n), g.inverse = room(4 * g.n);
-    for (k = 0; k < 5; k++) kept[k] = room(g.n);
+    c->matrix = c->scale + 5 * n;
+    g->forces = forces;
+    g->others = c;
+}
+static void corrected_close(corrected *c) { free(c->scale); }
+
+/* Gresho's vortex: the mean error of v along the circles */
+static double vortex(report *r, int form, int side)
+{
+    const double dx = 1.0 / side;
+    gas g = gas_new(2, side * side, 5.0 / 3);
+    corrected c;
+    double error = 0, before;
+    sph_index i;
+    corrected_open(&c, &g, form, 0.1);
+    g.eta = 1.4;
+    g.box[0] = g.box[1] = 1;
     for (i = 0; i < g.n; i++) {
         const double x = (i % side + 0.5) * dx - 0.5, y = (i / side + 0.5) * dx - 0.5, q = hypot(x, y);
-        g.x[0][i] = x + 0.5;
-        g.x[1][i] = y + 0.5;
-        g.v[0][i] = -gresho_speed(q) * y / q;
-        g.v[1][i] = gresho_speed(q) * x / q;
-        g.u[i] = 1.5 * gresho_pressure(q);
-        g.m[i] = dx * dx;
-        g.one[i] = 1;
-        g.alpha[i] = 0.1;
-        before += g.m[i] * (g.u[i] + 0.5 * gresho_speed(q) * gresho_speed(q));
+        g.a[X][i] = x + 0.5;
+        g.a[Y][i] = y + 0.5;
+        g.a[VX][i] = -gresho_speed(q) * y / q;
+        g.a[VY][i] = gresho_speed(q) * x / q;
+        g.a[U][i] = 1.5 * gresho_pressure(q);
+        g.a[M][i] = dx * dx;
+        g.a[H][i] = g.eta * dx;
     }
-    dt = end / ceil(end / (0.2 * g.h / 4.5));
-    while (t < end - 0.5 * dt) { /* midpoint rule */
-        double *const state[5] = {g.x[0], g.x[1], g.v[0], g.v[1], g.u};
-        const double *const rate[5] = {g.v[0], g.v[1], g.a[0], g.a[1], g.rate};
-        for (k = 0; k < 5; k++) memcpy(kept[k], state[k], (size_t)g.n * sizeof(double));
-        for (stage = 0; stage < 2; stage++) {
-            const double step = stage ? dt : 0.5 * dt;
-            rates(&g);
-            for (k = 0; k < 5; k++)
-                for (i = 0; i < g.n; i++) state[k][i] = kept[k][i] + step * rate[k][i];
-        }
-        t += dt;
-    }
+    gas_start(&g);
+    before = gas_measure(&g).total;
+    gas_run(&g, 1, 0.2);
     for (i = 0; i < g.n; i++) {
-        const double x = g.x[0][i] - floor(g.x[0][i]) - 0.5, y = g.x[1][i] - floor(g.x[1][i]) - 0.5, q = hypot(x, y);
-        r.error += fabs((g.v[1][i] * x - g.v[0][i] * y) / q - gresho_speed(q)) / g.n;
-        after += g.m[i] * (g.u[i] + 0.5 * (g.v[0][i] * g.v[0][i] + g.v[1][i] * g.v[1][i]));
-        push[0] += g.m[i] * g.v[0][i];
-        push[1] += g.m[i] * g.v[1][i];
+        const double x = g.a[X][i] - floor(g.a[X][i]) - 0.5, y = g.a[Y][i] - floor(g.a[Y][i]) - 0.5, q = hypot(x, y);
+        error += fabs((g.a[VY][i] * x - g.a[VX][i] * y) / q - gresho_speed(q)) / g.n;
     }
-    r.energy = after / before;
-    r.momentum = hypot(push[0], push[1]);
-    for (k = 0; k < 2; k++) free(g.x[k]), free(g.v[k]), free(g.a[k]), free(g.slope[k]), free(g.scale_gradient[k]);
-    for (k = 0; k < 5; k++) free(kept[k]);
-    free(g.u), free(g.rate), free(g.m), free(g.rho), free(g.p), free(g.c), free(g.volume), free(g.one);
-    free(g.alpha), free(g.scale), free(g.slope_gradient), free(g.inverse);
-    search_close(&g.near);
-    return r;
+    report_info(r, "Gresho", form_name[form], "mean error of v", error);
+    report_absolute(report_beside(r, REPORT_THEORY), "Gresho", form_name[form], "change of the energy", 0, gas_measure(&g).total / before - 1, 1e-3);
+    report_absolute(report_beside(r, REPORT_THEORY), "Gresho", form_name[form], "momentum", 0, gas_measure(&g).momentum, 1e-12);
+    corrected_close(&c);
+    gas_close(&g);
+    return error;
+}
+
+/* Sod's tube in two dimensions: the errors of rho, v, P */
+static sod_errors tube_of(report *r, const gas_options *o, const riemann *s, int form, double dx)
+{
+    gas g = tube_new(&sod_tube, 2, dx);
+    corrected c;
+    sod_errors e;
+    double before;
+    char name[64];
+    corrected_open(&c, &g, form, 1);
+    gas_start(&g);
+    before = gas_measure(&g).total;
+    gas_run(&g, SOD_END, 0.3);
+    e = sod_compare(&g, s);
+    snprintf(name, sizeof name, "gas_crk_sod_%s", form_name[form]);
+    sod_write(&g, s, o->figures, name);
+    report_info(r, "Sod 2D", form_name[form], "L1 of rho", e.l1[SOD_RHO]);
+    report_info(r, "Sod 2D", form_name[form], "L1 of v", e.l1[SOD_V]);
+    report_info(r, "Sod 2D", form_name[form], "L1 of P", e.l1[SOD_P]);
+    report_info(r, "Sod 2D", form_name[form], "v across the tube, largest", e.across);
+    report_absolute(report_beside(r, REPORT_THEORY), "Sod 2D", form_name[form], "change of the energy", 0, gas_measure(&g).total / before - 1, 1e-3);
+    corrected_close(&c);
+    gas_close(&g);
+    return e;
 }
 
 int main(int argc, char **argv)
 {
-    static const char *const forms[FORMS] = {"plain", "CRK", "IAD"};
-    const char *out = ".", *figures = ".";
-    double error[FORMS];
-    int full = 0, form;
-    const option_spec specs[] = {{"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
-                                 {"figures", "folder of the figures' data", OPTION_TEXT, &figures, 0, 0},
-                                 {"full", "80 x 80 particles", OPTION_FLAG, &full, 0, 0}};
     static report r;
-    options_parse(argc, argv, "Gresho's vortex by plain SPH, CRKSPH and IAD.", specs, 3);
-    report_open(&r, "gas_crk", out);
-    figure_folder(figures, "gas_crk");
+    const gas_options o = gas_begin(argc, argv, &r, "gas_crk", "Gresho's vortex and Sod's tube by plain SPH, CRKSPH and IAD.", "80 x 80 particles; dx = 1/400");
+    const riemann s = riemann_solve();
+    double error[FORMS];
+    sod_errors e[FORMS];
+    int form;
     report_section(&r, "Gresho's vortex, t = 1");
-    for (form = 0; form < FORMS; form++) {
-        const vortex_result v = vortex(form, full ? 80 : 40, 1);
-        error[form] = v.error;
-        report_info(&r, "Gresho", forms[form], "mean error of v", v.error);
-        report_range(report_beside(&r, REPORT_THEORY), "Gresho", forms[form], "energy / that of the start", 1, v.energy, 0.999, 1.001);
-        report_range(report_beside(&r, REPORT_THEORY), "Gresho", forms[form], "momentum", 0, v.momentum, 0, 1e-12);
-    }
+    for (form = 0; form < FORMS; form++) error[form] = vortex(&r, form, o.full ? 80 : 40);
     report_range(&r, "Gresho", "CRK / plain", "ratio of errors", (double)NAN, error[CRK] / error[PLAIN], 0.4, 0.8);
     report_range(&r, "Gresho", "IAD / plain", "ratio of errors", (double)NAN, error[IAD] / error[PLAIN], 0.3, 0.6);
+    report_section(&r, "Sod's tube in two dimensions, t = 0.2");
+    for (form = 0; form < FORMS; form++) e[form] = tube_of(&r, &o, &s, form, o.full ? 1.0 / 400 : 1.0 / 200);
+    for (form = CRK; form < FORMS; form++) {
+        char what[32];
+        snprintf(what, sizeof what, "%s / plain", form_name[form]);
+        report_info(&r, "Sod 2D", what, "ratio of L1 of rho", e[form].l1[SOD_RHO] / e[PLAIN].l1[SOD_RHO]);
+        report_info(&r, "Sod 2D", what, "ratio of L1 of v", e[form].l1[SOD_V] / e[PLAIN].l1[SOD_V]);
+        report_info(&r, "Sod 2D", what, "ratio of L1 of P", e[form].l1[SOD_P] / e[PLAIN].l1[SOD_P]);
+    }
     return report_close(&r) ? 1 : 0;
 }

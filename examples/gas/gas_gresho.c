@@ -13,9 +13,7 @@
  * the runs are noisy: half the time step moves the peak by 10 %. Each is beside an independent trial, whose
  * errors are larger by a tenth to a third: its norm is not known, and the ratio to alpha = 1 is judged instead.
  */
-#include "../common/figure.h"
-#include "../common/options.h"
-#include "gas.h"
+#include "gas_cases.h"
 
 typedef struct figures_of { /* of an independent trial; peak 0, alpha 0: none is known */
     double peak, error, alpha;
@@ -39,7 +37,7 @@ static void vortex(report *r, const char *figures, const trial *t, int side, dou
     const double dx = 1.0 / side;
     const figures_of *const known = &t->at[side > 32];
     gas g = gas_new(2, side * side, 5.0 / 3);
-    double before, error = 0, inside = 0, peak = 0, at_peak = 0, alpha = 0, push[2] = {0, 0};
+    double before, error = 0, inside = 0, peak = 0, at_peak = 0, alpha = 0;
     char setting[32], name[64];
     FILE *data;
     sph_index i;
@@ -57,8 +55,8 @@ static void vortex(report *r, const char *figures, const trial *t, int side, dou
         g.a[M][i] = dx * dx;
         g.a[H][i] = 1.2 * dx;
     }
-    before = gas_energy(&g);
     gas_start(&g);
+    before = gas_measure(&g).total;
     gas_run(&g, 1, 0.15);
     snprintf(name, sizeof name, "gas_gresho_%s_%d", t->file, side);
     data = figure_open(figures, name);
@@ -75,8 +73,6 @@ static void vortex(report *r, const char *figures, const trial *t, int side, dou
             at_peak++;
         }
         alpha += g.a[ALPHA][i] / g.n;
-        push[0] += g.a[M][i] * g.a[VX][i];
-        push[1] += g.a[M][i] * g.a[VY][i];
         fprintf(data, "%.9g,%.9g,%.9g,%.9g\n", q, v, g.a[ALPHA][i], gresho_speed(q));
     }
     figure_close(data);
@@ -98,28 +94,21 @@ static void vortex(report *r, const char *figures, const trial *t, int side, dou
     if (known->alpha > 0)
         report_range(report_beside(r, REPORT_REGRESSION), t->name, setting, "mean alpha", known->alpha, alpha, 0, 1.3 * known->alpha);
     else report_info(r, t->name, setting, "mean alpha", alpha);
-    report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "change of the energy", 0, gas_energy(&g) / before - 1, 5e-4);
-    report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "momentum", 0, hypot(push[0], push[1]), 1e-12);
+    report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "change of the energy", 0, gas_measure(&g).total / before - 1, 5e-4);
+    report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "momentum", 0, gas_measure(&g).momentum, 1e-12);
     gas_close(&g);
 }
 
 int main(int argc, char **argv)
 {
-    const char *out = ".", *figures = ".";
-    double constant[2] = {0, 0};
-    int full = 0;
-    const option_spec specs[] = {{"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
-                                 {"figures", "folder of the figures' data", OPTION_TEXT, &figures, 0, 0},
-                                 {"full", "64 x 64 particles in addition", OPTION_FLAG, &full, 0, 0},
-                                 THREADS_OPTION};
     static report r;
+    const gas_options o = gas_begin(argc, argv, &r, "gas_gresho", "Gresho's vortex, by one switch of the viscosity after the other.",
+                                    "64 x 64 particles in addition");
+    double constant[2] = {0, 0};
     size_t k;
-    options_parse(argc, argv, "Gresho's vortex, by one switch of the viscosity after the other.", specs, 4);
-    report_open(&r, "gas_gresho", out);
-    figure_folder(figures, "gas_gresho");
     for (k = 0; k < sizeof trials / sizeof trials[0]; k++) {
-        vortex(&r, figures, &trials[k], 32, &constant[0]);
-        if (full) vortex(&r, figures, &trials[k], 64, &constant[1]);
+        vortex(&r, o.figures, &trials[k], 32, &constant[0]);
+        if (o.full) vortex(&r, o.figures, &trials[k], 64, &constant[1]);
     }
     return report_close(&r) ? 1 : 0;
 }

@@ -12,9 +12,7 @@
  * largest, and where, outside, the radial v has fallen to half of its largest value. The largest rho is that of a
  * particle; behind the exact front it is 6. The figures to be met are those of an independent trial.
  */
-#include "../common/figure.h"
-#include "../common/options.h"
-#include "gas.h"
+#include "gas_cases.h"
 
 enum { SHELLS = 100 };
 typedef struct trial {
@@ -30,7 +28,7 @@ static void blast(report *r, const char *figures, const trial *t)
     const double dx = 1.0 / t->side, h = 1.2 * dx, end = 0.04, front = pow(end * end / (t->dim == 2 ? 0.98406 : 0.85107), 1.0 / (t->dim + 2));
     const int three = t->dim == 3;
     gas g = gas_new(t->dim, t->side * t->side * (three ? t->side : 1), 1.4);
-    double rho[SHELLS] = {0}, v[SHELLS] = {0}, push[3] = {0, 0, 0}, heat = 0, fast = 0, most = 0, top = 0, half = 0, radius = 0, before;
+    double rho[SHELLS] = {0}, v[SHELLS] = {0}, heat = 0, fast = 0, most = 0, top = 0, half = 0, radius = 0, before;
     int in[SHELLS] = {0}, k;
     char setting[32], name[64];
     FILE *data;
@@ -49,8 +47,8 @@ static void blast(report *r, const char *figures, const trial *t)
         heat += g.a[M][i] * g.a[U][i];
     }
     for (i = 0; i < g.n; i++) g.a[U][i] = g.a[U][i] / heat + 1e-5;
-    before = gas_energy(&g);
     gas_start(&g);
+    before = gas_measure(&g).total;
     gas_run(&g, end, 0.15);
     snprintf(name, sizeof name, "gas_sedov_%s", t->file);
     data = figure_open(figures, name);
@@ -59,7 +57,6 @@ static void blast(report *r, const char *figures, const trial *t)
         const double x = g.a[X][i] - 0.5, y = g.a[Y][i] - 0.5, z = three ? g.a[Z][i] - 0.5 : 0, q = sqrt(x * x + y * y + z * z),
                      out = (g.a[VX][i] * x + g.a[VY][i] * y + g.a[VZ][i] * z) / q;
         const int s = (int)(q / 0.005);
-        for (k = 0; k < 3; k++) push[k] += g.a[M][i] * g.a[VX + k][i];
         top = fmax(top, g.a[RHO][i]);
         if (s >= SHELLS) continue;
         rho[s] += g.a[RHO][i];
@@ -96,9 +93,8 @@ static void blast(report *r, const char *figures, const trial *t)
         else report_relative(report_beside(r, REPORT_REGRESSION), t->name, setting, "half of v at r", t->half, half, 0.02);
         report_relative(report_beside(r, REPORT_REGRESSION), t->name, setting, "largest rho", t->rho, top, 0.03);
     } else report_info(r, t->name, setting, "largest rho", top);
-    report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "change of the energy", 0, gas_energy(&g) / before - 1, 5e-4);
-    report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "momentum", 0, sqrt(push[0] * push[0] + push[1] * push[1] + push[2] * push[2]),
-                    1e-12);
+    report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "change of the energy", 0, gas_measure(&g).total / before - 1, 5e-4);
+    report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "momentum", 0, gas_measure(&g).momentum, 1e-12);
     gas_close(&g);
 }
 
@@ -112,18 +108,11 @@ int main(int argc, char **argv)
         {"Price, Phantom", "phantom_64", 2, 64, SPH_CONDUCTIVITY_PRICE, GAS_PHANTOM, 1, .2025, .2180, 3.00},
         {"no conductivity", "none_3d", 3, 32, SPH_CONDUCTIVITY_NONE, GAS_CONSTANT, 1, 0, 0, 0},
         {"Price", "price_3d", 3, 32, SPH_CONDUCTIVITY_PRICE, GAS_CONSTANT, 1, 0, 0, 0}};
-    const char *out = ".", *figures = ".";
-    int full = 0;
-    const option_spec specs[] = {{"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
-                                 {"figures", "folder of the figures' data", OPTION_TEXT, &figures, 0, 0},
-                                 {"full", "64^2 with the switches, and 32^3, in addition", OPTION_FLAG, &full, 0, 0},
-                                 THREADS_OPTION};
     static report r;
+    const gas_options o = gas_begin(argc, argv, &r, "gas_sedov", "Sedov's blast wave, with and without conductivity.",
+                                    "64^2 with the switches, and 32^3, in addition");
     size_t k;
-    options_parse(argc, argv, "Sedov's blast wave, with and without conductivity.", specs, 4);
-    report_open(&r, "gas_sedov", out);
-    figure_folder(figures, "gas_sedov");
     for (k = 0; k < sizeof trials / sizeof trials[0]; k++)
-        if (full || (trials[k].dim == 2 && trials[k].side == 48)) blast(&r, figures, &trials[k]);
+        if (o.full || (trials[k].dim == 2 && trials[k].side == 48)) blast(&r, o.figures, &trials[k]);
     return report_close(&r) ? 1 : 0;
 }

@@ -12,14 +12,10 @@
  * wave's own velocity gives the speed. N = 16, 32; -full: 64. Judged is the order with a field, 2 for the Alfven wave;
  * an independent trial, whose set-up is not known, stands beside.
  */
-#include "../common/figure.h"
-#include "../common/options.h"
 #define GAS_KERNEL SPH_QUINTIC_SPLINE /* by the cubic spline the speed of sound is wrong by 1.7 %, at any N */
-#define GAS_ETA 1.2
-#include "gas.h"
+#include "gas_cases.h"
 
 #define TURN 6.28318530717958647693
-enum { BX, BY, BZ, QX, QY, QZ, RATE_BX, RATE_BY, RATE_BZ, ZERO, FIELDS };
 static const double GAMMA = 5.0 / 3, SIZE = 1e-4;
 
 typedef struct wave {
@@ -28,73 +24,6 @@ typedef struct wave {
     double speed;
     double error[3]; /* of an independent trial for N = 16, 32, 64; 0: none is known */
 } wave;
-typedef struct magnet { /* a gas, B, B predicted, dB/dt and zeros */
-    gas g;
-    double *b[FIELDS];
-} magnet;
-
-static long magnet_rates_part(void *data, long first, long last)
-{
-    const magnet *const q = (const magnet *)data;
-    const gas *const g = &q->g;
-    const sph_kernel k = GAS_KERNEL;
-    const sph_scalars none = sph_scalars_array(q->b[ZERO]);
-    const sph_mhd s = {.medium = {gas_field(g, M), gas_field(g, RHO), gas_field(g, OMEGA)},
-                       .p = gas_field(g, P),
-                       .u = gas_field(g, PU),
-                       .cs = gas_field(g, CS),
-                       .alpha = none,
-                       .alpha_B = none,
-                       .v = vectors_of(g->a + PX, 3),
-                       .field = vectors_of(q->b + QX, 3),
-                       .beta = 2,
-                       .tensile = 1};
-    const sph_mhd_out out = {
-        .acceleration = vectors_into(g->a + AX, 3), .rate_B = vectors_into(q->b + RATE_BX, 3), .rate_u = g->a[RATE_U], .v_sig = g->a[V_SIG]};
-    return WITH_DIM_1_2_3(sph_mhd_rates, k, g->dim, gas_cloud(g, first, last), s, out);
-}
-static void magnet_rates(magnet *q)
-{
-    gas_density(&q->g, q->g.n);
-    gas_pressure(&q->g);
-    expect_all((sph_index)threads_each(q->g.n, magnet_rates_part, q));
-}
-/* kick, drift, kick with v, u and B predicted, as gas_run */
-static void magnet_run(magnet *q, double end, double courant)
-{
-    gas *const g = &q->g;
-    sph_index i;
-    int k;
-    memcpy(g->a[PX], g->a[VX], 3 * (size_t)g->n * sizeof(double));
-    memcpy(g->a[PU], g->a[U], (size_t)g->n * sizeof(double));
-    memcpy(q->b[QX], q->b[BX], 3 * (size_t)g->n * sizeof(double));
-    magnet_rates(q);
-    while (g->t < end) {
-        double dt = end - g->t;
-        for (i = 0; i < g->n; i++) dt = fmin(dt, courant * g->a[H][i] / g->a[V_SIG][i]);
-        for (i = 0; i < g->n; i++) {
-            for (k = 0; k < 3; k++) {
-                g->a[PX + k][i] = g->a[VX + k][i] + dt * g->a[AX + k][i];
-                g->a[VX + k][i] += 0.5 * dt * g->a[AX + k][i];
-                if (k < g->dim) g->a[X + k][i] += dt * g->a[VX + k][i];
-                q->b[QX + k][i] = q->b[BX + k][i] + dt * q->b[RATE_BX + k][i];
-                q->b[BX + k][i] += 0.5 * dt * q->b[RATE_BX + k][i];
-            }
-            g->a[PU][i] = g->a[U][i] + dt * g->a[RATE_U][i];
-            g->a[U][i] += 0.5 * dt * g->a[RATE_U][i];
-        }
-        magnet_rates(q);
-        for (i = 0; i < g->n; i++) {
-            for (k = 0; k < 3; k++) {
-                g->a[VX + k][i] += 0.5 * dt * g->a[AX + k][i];
-                q->b[BX + k][i] += 0.5 * dt * q->b[RATE_BX + k][i];
-            }
-            g->a[U][i] += 0.5 * dt * g->a[RATE_U][i];
-        }
-        g->t += dt;
-    }
-}
-
 /* |measured speed / exact - 1|; amplitude: that of the end over that of the start */
 static double run(const wave *w, int N, double *amplitude)
 {
@@ -102,16 +31,14 @@ static double run(const wave *w, int N, double *amplitude)
     const int alfven = w->magnetised && c == 1;
     /* along the wave and across it in the plane and out of it: v, B of size 1, by the linear equations */
     double v[3] = {1, 0, 0}, b[3] = {0, 0, 0}, phase[2], size[2];
-    magnet q;
-    gas *const g = &q.g;
+    gas g = gas_new(2, 2 * N * N, GAMMA);
     sph_index i;
     int k, end;
-    q.g = gas_new(2, 2 * N * N, GAMMA);
-    g->box[0] = sqrt(5);
-    g->box[1] = sqrt(5) / 2;
-    g->alpha[1] = 0;
-    q.b[0] = (double *)need_zeros((size_t)FIELDS * (size_t)g->n, sizeof(double));
-    for (k = 1; k < FIELDS; k++) q.b[k] = q.b[0] + (size_t)k * (size_t)g->n;
+    if (w->magnetised) gas_magnetise(&g);
+    g.how = GAS_CONSTANT;
+    g.alpha[1] = g.alpha_u = 0;
+    g.box[0] = sqrt(5);
+    g.box[1] = sqrt(5) / 2;
     if (alfven) {
         v[0] = 0;
         v[1] = -across[1] / 1.5;
@@ -122,45 +49,41 @@ static double run(const wave *w, int N, double *amplitude)
             b[k] = across[k - 1] * c / (c * c - 1);
             v[k] = -b[k] / c;
         }
-    for (i = 0; i < g->n; i++) {
+    for (i = 0; i < g.n; i++) {
         const double x = (i % (2 * N) + 0.5) * dx, y = (i / (2 * N) + 0.5) * dx, s = TURN * (x * nx + y * ny);
         const double shift = -SIZE * v[0] / c / TURN * sin(s), now = SIZE * cos(s + TURN * shift); /* rho' = rho v / c */
-        g->a[X][i] = x + shift * nx;
-        g->a[Y][i] = y + shift * ny;
-        g->a[M][i] = dx * dx;
-        g->a[H][i] = GAS_ETA * dx;
-        g->a[VX][i] = now * (v[0] * nx - v[1] * ny);
-        g->a[VY][i] = now * (v[0] * ny + v[1] * nx);
-        g->a[VZ][i] = now * v[2];
-        g->a[U][i] = 1 / GAMMA / (GAMMA - 1) + v[0] * now / c / GAMMA;
+        g.a[X][i] = x + shift * nx;
+        g.a[Y][i] = y + shift * ny;
+        g.a[M][i] = dx * dx;
+        g.a[H][i] = GAS_ETA * dx;
+        g.a[VX][i] = now * (v[0] * nx - v[1] * ny);
+        g.a[VY][i] = now * (v[0] * ny + v[1] * nx);
+        g.a[VZ][i] = now * v[2];
+        g.a[U][i] = 1 / GAMMA / (GAMMA - 1) + v[0] * now / c / GAMMA;
         if (w->magnetised) {
             const double B[3] = {1, across[0] + now * b[1], across[1] + now * b[2]};
-            q.b[BX][i] = B[0] * nx - B[1] * ny;
-            q.b[BY][i] = B[0] * ny + B[1] * nx;
-            q.b[BZ][i] = B[2];
+            g.a[BX][i] = B[0] * nx - B[1] * ny;
+            g.a[BY][i] = B[0] * ny + B[1] * nx;
+            g.a[BZ][i] = B[2];
         }
     }
     for (end = 0; end < 2; end++) {
         double re = 0, im = 0;
-        for (i = 0; i < g->n; i++) {
-            const double s = TURN * (g->a[X][i] * nx + g->a[Y][i] * ny), along = g->a[VX][i] * nx + g->a[VY][i] * ny,
-                         side = g->a[VY][i] * nx - g->a[VX][i] * ny, own = along * v[0] + side * v[1] + g->a[VZ][i] * v[2];
+        for (i = 0; i < g.n; i++) {
+            const double s = TURN * (g.a[X][i] * nx + g.a[Y][i] * ny), along = g.a[VX][i] * nx + g.a[VY][i] * ny,
+                         side = g.a[VY][i] * nx - g.a[VX][i] * ny, own = along * v[0] + side * v[1] + g.a[VZ][i] * v[2];
             re += own * cos(s);
             im += own * sin(s);
         }
         phase[end] = atan2(im, re);
         size[end] = hypot(re, im);
-        if (end == 0 && w->magnetised) {
-            gas_density(g, g->n);
-            magnet_run(&q, 1 / c, 0.3);
-        } else if (end == 0) {
-            gas_start(g);
-            gas_run(g, 1 / c, 0.3);
+        if (end == 0) {
+            gas_start(&g);
+            gas_run(&g, 1 / c, 0.3);
         }
     }
     *amplitude = size[1] / size[0];
-    free(q.b[0]);
-    gas_close(g);
+    gas_close(&g);
     return fabs(phase[1] - phase[0]) / TURN;
 }
 
@@ -170,24 +93,18 @@ int main(int argc, char **argv)
                                  {"Alfven", 1, 1, 1, {3.7e-2, 9.5e-3, 3.1e-3}},
                                  {"fast", 1, 0, 2, {2.0e-2, 3.3e-3, 1.4e-4}},
                                  {"slow", 1, 0, 0.5, {6.1e-2, 1.5e-2, 3.4e-3}}};
-    const char *out = ".", *figures = ".";
-    int full = 0, k;
-    FILE *data;
-    const option_spec specs[] = {{"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
-                                 {"figures", "folder of the figures' data", OPTION_TEXT, &figures, 0, 0},
-                                 {"full", "128 x 64 particles in addition", OPTION_FLAG, &full, 0, 0},
-                                 THREADS_OPTION};
     static report r;
-    options_parse(argc, argv, "Linear waves of a gas and of a magnetised gas: the error of the speed.", specs, 4);
-    report_open(&r, "gas_waves", out);
-    figure_folder(figures, "gas_waves");
-    data = figure_open(figures, "gas_waves");
+    const gas_options o = gas_begin(argc, argv, &r, "gas_waves", "Linear waves of a gas and of a magnetised gas: the error of the speed.",
+                                    "128 x 64 particles in addition");
+    FILE *data;
+    int k;
+    data = figure_open(o.figures, "gas_waves_errors");
     fprintf(data, "wave,N,error\n");
     for (k = 0; k < 4; k++) {
         double before = 0;
         int level;
         report_section(&r, waves[k].name);
-        for (level = 0; level < (full ? 3 : 2); level++) {
+        for (level = 0; level < (o.full ? 3 : 2); level++) {
             char setting[32];
             double amplitude;
             const double error = run(&waves[k], 16 << level, &amplitude);

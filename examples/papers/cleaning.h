@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * cleaning.h - what the drivers of the divergence-cleaning paper (Tricco & Price 2012, 7th SPHERIC workshop)
- * with a free boundary share: the disc of 1976 particles, an end with a name for a state that is no number any
- * more, and rows for the values of an independent trial.
+ * with a free boundary share: the disc of 1976 particles, and rows for the values of an independent trial.
  */
 #ifndef CLEANING_H
 #define CLEANING_H
@@ -19,26 +18,6 @@
 
 #define CLEANING_SPACING 0.04 /* of the lattice: the unit disc then has 1976 particles */
 #define CLEANING_ETA 1.2      /* h in spacings */
-
-/* expect_all in a run, at the time t: the first particle whose value is no number is named. state: arrays of
-   x.n values, with their names. */
-static inline void cleaning_well(sph_index answer, const char *run, double t, double *const *state,
-                                 const char *const *name, int arrays, sph_points x)
-{
-    sph_index i;
-    int a;
-    if (answer == 0) return;
-    fflush(stdout);
-    fprintf(stderr, "\n%s, t = %g: the run stops\n", run, t);
-    for (a = 0; a < arrays; a++)
-        for (i = 0; i < x.n; i++)
-            if (!isfinite(state[a][i])) {
-                fprintf(stderr, "%s of particle %ld at (%g, %g) is %g\n", name[a], (long)i, x.x[i], x.y[i],
-                        state[a][i]);
-                exit(1);
-            }
-    expect_all(answer);
-}
 
 /* The nodes of a lattice, in the middle of its cells, within the unit disc or sphere; counts only where p[0] is null. */
 static inline int cleaning_ball(int dim, double dx, double *const p[3])

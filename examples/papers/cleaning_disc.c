@@ -200,7 +200,7 @@ static void rates(state *s)
     static const char *const name[FIELDS] = {"Bx", "By", "Bz", "psi"};
     const sph_index answer = s->k == SPH_QUINTIC_SPLINE ? rates_in(SPH_QUINTIC_SPLINE, 2, s)
                                                         : WITH_DIM_2_3(rates_in, SPH_CUBIC_SPLINE, s->dim, s);
-    cleaning_well(answer, s->run, s->t, s->a + BX, name, FIELDS, points(s));
+    expect_finite(answer, s->run, s->t, s->a + BX, name, FIELDS, points(s));
 }
 
 static double largest_divergence(const state *s)

@@ -36,7 +36,7 @@ static sph_points points(const drop *d) { return sph_points_separate(d->n, d->a[
 static void well(const drop *d, sph_index answer)
 {
     static const char *const name[] = {"x", "y", "vx", "vy", "density", "psi", "pressure"};
-    cleaning_well(answer, d->run, d->t, d->a, name, P + 1, points(d));
+    expect_finite(answer, d->run, d->t, d->a, name, P + 1, points(d));
 }
 
 /* New lists where particles have moved by half of the skin */

@@ -2,7 +2,7 @@
  *
  * collapse.h - self-gravitating magnetised gas in a periodic box, with a sink particle: the host code of the benchmark in section IV-C of the paper on divergence cleaning (Tricco & Price 2012).
  *
- * The operators are those of the headers; tree, steps, sink and restart are the host's: collapse_tree.h, collapse_sink.h and this file. Units: G = 1, mu_0 = 1; the rest is the caller's.
+ * The operators are those of the headers; tree, steps, sink and restart are the host's: tree.h, collapse_sink.h and this file. Units: G = 1, mu_0 = 1; the rest is the caller's.
  * Gas: m the same for all; density and h by sph_density_adaptive, sph_mhd_rates, gravity softened by the kernel with the term of an h that follows the density. The hydrodynamics is periodic, gravity is
  * isolated. Steps: one for all, leapfrog with one evaluation of the rates, everything but positions predicted by Euler's rule and corrected by the trapezoidal one.
  * Particles are stored in the order of the tree, which changes with every step: ID says who is who.
@@ -15,8 +15,8 @@
 #include <time.h>
 
 #include "../common/restart.h"
+#include "../common/tree.h"
 #include "collapse_sink.h"
-#include "collapse_tree.h"
 
 #define COLLAPSE_KERNEL SPH_CUBIC_SPLINE
 #define COLLAPSE_ETA 1.2

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * collapse_tree.h - a tree of particles in three dimensions, for gravity and for neighbours whose smoothing lengths differ by orders of magnitude. The host's side of the collapse of a cloud core.
+ * tree.h - a tree of particles in three dimensions, for gravity and for neighbours whose smoothing lengths differ by orders of magnitude. The host's side of self-gravitating gas.
  *
  * A balanced k-d tree: a node is a run of particles, halved at the median along the longest side of its bounds, until a run has at most TREE_LEAF of them. The particles are stored in the order of the
  * tree (tree_order says which goes where; the host permutes its arrays), so that a node needs no list of its members. The children of node k are 2 k + 1 and 2 k + 2.
@@ -8,12 +8,12 @@
  * the bound of Salmon & Warren 1994, J. Comput. Phys. 111, 136, for a leaf of targets at once), and that is out of reach of both softenings, where the force is Newton's. Else its halves; from leaf to
  * leaf all pairs: Newton's, or those of a list by sph_gravity_pair. Forces of nodes are not antisymmetric: momentum is conserved to their error only.
  */
-#ifndef COLLAPSE_TREE_H
-#define COLLAPSE_TREE_H
+#ifndef TREE_H
+#define TREE_H
 
 #include <math.h>
 
-#include "../common/host.h"
+#include "host.h"
 
 enum { TREE_LEAF = 8, TREE_DEPTH = 26 };
 
