@@ -1,0 +1,379 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sample.h - the clouds on which the atlas measures operators.
+ *
+ * A cloud is made once, in units of its spacing, and then zoomed: sample_zoom(s, dx) gives it the spacing dx.
+ * Errors against the spacing so cost the same at every spacing, and the neighbours stay the same.
+ *
+ * The domain is a box. On its low sides (x = 0, y = 0, z = 0) particles lie on the boundary and have half a
+ * volume there: a wall. On its high sides the outermost particles are half a spacing away from it and have
+ * whole volumes: a free surface. Regions by what is cut off from the support R of a particle:
+ *     inside   nothing within 2 R (corrections of a neighbour reach further than its kernel)
+ *     wall     one low side closer than R, no other side
+ *     surface  one high side closer than R, no other side
+ *     corner   two or more sides closer than R
+ * Of each region some particles are the targets, which come first; all are sources.
+ */
+#ifndef ATLAS_SAMPLE_H
+#define ATLAS_SAMPLE_H
+
+#include "../common/host.h"
+#include "../common/random.h"
+
+#include <math.h>
+
+enum sample_kind { SAMPLE_LATTICE, SAMPLE_JITTER, SAMPLE_RELAXED, SAMPLE_POISSON, SAMPLE_RANDOM, SAMPLE_KINDS };
+enum sample_region { REGION_INSIDE, REGION_WALL, REGION_SURFACE, REGION_CORNER, REGIONS, REGION_BETWEEN = REGIONS };
+static inline const char *sample_kind_name(int kind)
+{
+    static const char *const name[SAMPLE_KINDS] = {"lattice", "jittered", "relaxed", "Poisson disc", "random"};
+    return name[kind];
+}
+static inline const char *sample_region_name(int region)
+{
+    static const char *const name[REGIONS] = {"inside", "wall", "surface", "corner"};
+    return name[region];
+}
+
+enum { SAMPLE_CORRECTIONS = 16 + 6 }; /* arrays of reproducing kernels, and of IAD */
+typedef struct sample {
+    sph_kernel k;
+    int dim, kind, side;
+    double h_dx, spacing; /* h / dx, and dx */
+    sph_index n, targets; /* the first ones are those that errors are measured at */
+    double *unit[3], *unit_volume; /* in spacings */
+    double *x[3], *volume, h;      /* zoomed */
+    double *mobility;              /* of the elliptic operators */
+    double *correction[SAMPLE_CORRECTIONS];    /* of reproducing kernels, and C of IAD */
+    unsigned char *region, *status;
+    double *conditioning;
+    double *scratch[3];
+    double *row; /* one weight for each entry of the lists */
+    search_grid grid;
+    search_lists lists, with_self; /* without the particle itself, and with it */
+    sph_cloud cloud;
+} sample;
+
+/* The particle that is the nearest to the middle of the domain. */
+static inline sph_index sample_middle(const sample *s)
+{
+    double nearest = HUGE_VAL;
+    sph_index middle = 0;
+    for (sph_index i = 0; i < s->n; i++) {
+        double r2 = 0.0;
+        for (int a = 0; a < s->dim; a++) r2 += s->x[a][i] * s->x[a][i];
+        if (r2 < nearest) nearest = r2, middle = i;
+    }
+    return middle;
+}
+
+/* The radius of the support, in spacings. */
+static inline double sample_reach(const sample *s) { return (double)sph_kernel_support_ratio(s->k) * s->h_dx; }
+
+static inline double *numbers(sph_index n) { return (double *)need_zeros((size_t)n, sizeof(double)); }
+
+static inline void sample_alloc(sample *s, sph_index n)
+{
+    s->n = n;
+    for (int a = 0; a < 3; a++) {
+        s->unit[a] = numbers(n);
+        s->x[a] = numbers(n);
+        s->scratch[a] = numbers(n);
+    }
+    s->unit_volume = numbers(n);
+    s->volume = numbers(n);
+    s->mobility = numbers(n);
+    s->conditioning = numbers(n);
+    for (int c = 0; c < SAMPLE_CORRECTIONS; c++) s->correction[c] = numbers(n);
+    s->region = (unsigned char *)need_zeros((size_t)n, 1);
+    s->status = (unsigned char *)need_zeros((size_t)n, 1);
+}
+
+static inline void sample_free(sample *s)
+{
+    for (int a = 0; a < 3; a++) {
+        free(s->unit[a]);
+        free(s->x[a]);
+        free(s->scratch[a]);
+    }
+    for (int c = 0; c < SAMPLE_CORRECTIONS; c++) free(s->correction[c]);
+    free(s->unit_volume);
+    free(s->volume);
+    free(s->mobility);
+    free(s->conditioning);
+    free(s->region);
+    free(s->status);
+    free(s->row);
+    search_grid_close(&s->grid);
+    search_lists_close(&s->lists);
+    search_lists_close(&s->with_self);
+}
+
+/* The lists of the unit positions, for any zoom. */
+static inline void sample_lists(sample *s)
+{
+    const double radius = sample_reach(s) * 1.001;
+    const sph_points points = sph_points_separate(s->n, s->unit[0], s->unit[1], s->unit[2]);
+    const sph_real reach = SPH_R(radius);
+    search_grid_build(&s->grid, s->dim, points, radius);
+    search_lists_find(&s->lists, s->dim, &s->grid, sph_query_of(points, SPH_GATHER, sph_scalars_same(&reach), 0));
+    search_lists_find(&s->with_self, s->dim, &s->grid, sph_query_of(points, SPH_GATHER, sph_scalars_same(&reach), SPH_LIST_SELF));
+    free(s->row);
+    s->row = numbers(s->lists.start[s->n]);
+}
+
+/* Corrections that some operators take from all particles. */
+static inline sph_rk_out sample_rk_out(const sample *s)
+{
+    double *const *const c = s->correction;
+    sph_rk_out o = {c[0], NULL, 1, {c[1], c[2], c[3], 1}, {c[4], c[5], c[6], 1}, {{c[7], c[8], c[9], 1}, {c[10], c[11], c[12], 1}, {c[13], c[14], c[15], 1}}, NULL};
+    return o;
+}
+
+static inline void sample_corrections(sample *s)
+{
+    double *const *const c = s->correction + 16;
+    const sph_correction_out iad = {{{c[0], c[1], c[2], 1}, {c[1], c[3], c[4], 1}, {c[2], c[4], c[5], 1}}, NULL, 1, NULL};
+    expect(sph_rk_correction(s->k, s->dim, s->cloud, sample_rk_out(s)));
+    expect(sph_gradient_correction_iad(s->k, s->dim, s->cloud, iad));
+}
+
+/* From here on the spacing is dx, and positions are relative to the middle of the domain. */
+static inline void sample_zoom(sample *s, double dx)
+{
+    const double middle = 0.5 * (s->side - 0.5), volume = pow(dx, s->dim);
+    s->spacing = dx;
+    s->h = s->h_dx * dx;
+    for (sph_index i = 0; i < s->n; i++) {
+        for (int a = 0; a < 3; a++) s->x[a][i] = a < s->dim ? dx * (s->unit[a][i] - middle) : 0.0;
+        s->volume[i] = volume * s->unit_volume[i];
+    }
+    s->cloud = sph_cloud_of(sph_points_separate(s->n, s->x[0], s->x[1], s->x[2]), search_list(&s->lists), sph_scalars_same(&s->h), sph_scalars_array(s->volume));
+    s->cloud = sph_cloud_checked(s->dim, s->cloud);
+    sample_corrections(s);
+    s->cloud = sph_cloud_range(s->cloud, 0, s->targets);
+}
+
+/* A particle is next to a side that cuts off a part of its support. */
+static inline void sample_regions(sample *s)
+{
+    const double reach = sample_reach(s), top = s->side - 1.0;
+    for (sph_index i = 0; i < s->n; i++) {
+        int low = 0, high = 0, far_from_all = 1;
+        for (int a = 0; a < s->dim; a++) {
+            const double to_low = s->unit[a][i], to_high = top - s->unit[a][i];
+            low += to_low < reach;
+            high += to_high < reach;
+            far_from_all &= to_low >= 2.0 * reach && to_high >= 2.0 * reach;
+        }
+        s->region[i] = (unsigned char)(low + high > 1 ? REGION_CORNER : low ? REGION_WALL : high ? REGION_SURFACE : far_from_all ? REGION_INSIDE : REGION_BETWEEN);
+    }
+}
+
+/* Volumes of the cells of points that are nearest to a particle, by a fine lattice of points: those of Voronoi's cells. */
+static inline void sample_voronoi(sample *s)
+{
+    const int fine = s->dim == 2 ? 12 : 5, cells = s->side;
+    const sph_index bins = (sph_index)pow(cells, s->dim);
+    sph_index *const first = (sph_index *)need_zeros((size_t)bins + 1, sizeof *first), *const next = (sph_index *)need_zeros((size_t)s->n + 1, sizeof *next);
+    for (sph_index b = 0; b <= bins; b++) first[b] = -1;
+    for (sph_index i = 0; i < s->n; i++) {
+        sph_index b = 0;
+        for (int a = s->dim; a-- > 0;) {
+            int c = (int)floor(s->unit[a][i]);
+            c = c < 0 ? 0 : c >= cells ? cells - 1 : c;
+            b = b * cells + c;
+        }
+        next[i] = first[b];
+        first[b] = i;
+        s->unit_volume[i] = 0.0;
+    }
+    const int points = (int)((s->side - 0.5) * fine);
+    const double cell = (s->side - 0.5) / points;
+    const sph_index all = (sph_index)pow(points, s->dim);
+    for (sph_index q = 0; q < all; q++) {
+        double at[3] = {0.0, 0.0, 0.0}, nearest = HUGE_VAL;
+        sph_index rest = q, best = 0;
+        for (int a = 0; a < s->dim; a++) {
+            at[a] = ((double)(rest % points) + 0.5) * cell;
+            rest /= points;
+        }
+        for (int width = 2;; width += 2) { /* bins within so many of the point's own */
+            int lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0};
+            for (int a = 0; a < s->dim; a++) {
+                const int c = (int)at[a];
+                lo[a] = c - width < 0 ? 0 : c - width;
+                hi[a] = c + width >= cells ? cells - 1 : c + width;
+            }
+            for (int z = lo[2]; z <= hi[2]; z++)
+                for (int y = lo[1]; y <= hi[1]; y++)
+                    for (int x = lo[0]; x <= hi[0]; x++)
+                        for (sph_index i = first[x + (sph_index)cells * (y + (s->dim > 2 ? (sph_index)cells * z : 0))]; i >= 0; i = next[i]) {
+                            double r2 = 0.0;
+                            for (int a = 0; a < s->dim; a++) r2 += (s->unit[a][i] - at[a]) * (s->unit[a][i] - at[a]);
+                            if (r2 < nearest) nearest = r2, best = i;
+                        }
+            if (nearest <= (width - 1.0) * (width - 1.0) || width > cells) break;
+        }
+        s->unit_volume[best] += pow(cell, s->dim);
+    }
+    for (sph_index i = 0; i < s->n; i++) /* a particle whose cell no point lies in */
+        if (s->unit_volume[i] <= 0.0) s->unit_volume[i] = 0.1 * pow(cell, s->dim);
+    free(first);
+    free(next);
+}
+
+/* Moves the particles that are not on a wall to where particles are few. Lattices outside of the box hold them in it. */
+static inline void sample_relax(sample *s, double strength, int steps)
+{
+    const int frame = (int)ceil(sample_reach(s)) + 1, wide = s->side + 2 * frame;
+    const sph_index all = (sph_index)pow(wide, s->dim);
+    double *x[3], *to[3];
+    sph_index n = s->n;
+    for (int a = 0; a < 3; a++) {
+        x[a] = numbers(s->n + all);
+        to[a] = numbers(s->n + all);
+        memcpy(x[a], s->unit[a], (size_t)s->n * sizeof(double));
+    }
+    for (sph_index q = 0; q < all; q++) {
+        sph_index rest = q;
+        int outside = 0;
+        for (int a = 0; a < s->dim; a++) {
+            const int c = (int)(rest % wide) - frame;
+            outside |= c < 0 || c >= s->side;
+            x[a][n] = c;
+            rest /= wide;
+        }
+        n += outside;
+    }
+    search near_by = {0};
+    const sph_real radius = SPH_R(sample_reach(s)), h = SPH_R(s->h_dx), one = SPH_R(1), push = SPH_R(strength);
+    for (int step = 0; step < steps; step++) {
+        const sph_points points = sph_points_separate(n, x[0], x[1], x[2]);
+        sph_shift shift;
+        memset(&shift, 0, sizeof shift);
+        shift.strength = sph_scalars_same(&push);
+        search_all(&near_by, s->dim, points, sph_scalars_same(&radius), SPH_GATHER);
+        const sph_cloud cloud = sph_cloud_of(points, near_by.found.list, sph_scalars_same(&h), sph_scalars_same(&one));
+        expect(sph_shift_displacement(s->k, s->dim, sph_cloud_range(cloud, 0, s->n), shift, vectors_into(to, s->dim)));
+        for (int a = 0; a < s->dim; a++)
+            for (sph_index i = 0; i < s->n; i++)
+                if (x[a][i] > 0.0 && x[a][i] < s->side - 1.0) x[a][i] += to[a][i];
+    }
+    for (int a = 0; a < 3; a++) {
+        memcpy(s->unit[a], x[a], (size_t)s->n * sizeof(double));
+        free(x[a]);
+        free(to[a]);
+    }
+    search_close(&near_by);
+}
+
+/* Particles of a Poisson disc or by chance: those on the walls, then those in between. */
+static inline void sample_scatter(sample *s, pcg32 *g)
+{
+    const double length = s->side - 0.5, apart = s->kind == SAMPLE_POISSON ? (s->dim == 2 ? 0.82 : 0.88) : 0.0;
+    const sph_index most = (sph_index)pow(s->side, s->dim);
+    double *at[3];
+    sph_index n = 0;
+    for (int a = 0; a < 3; a++) at[a] = numbers(most + 1);
+    long tries = 0;
+    for (tries = 0; n < most && tries < 60L * most; tries++) {
+        for (int a = 0; a < s->dim; a++) {
+            at[a][n] = pcg32_uniform(g) * (length + 0.5) - 0.5; /* half a spacing of them goes to the wall */
+            if (at[a][n] < 0.0) at[a][n] = 0.0;
+        }
+        sph_index i = 0;
+        for (; apart > 0.0 && i < n; i++) {
+            double r2 = 0.0;
+            for (int a = 0; a < s->dim; a++) r2 += (at[a][i] - at[a][n]) * (at[a][i] - at[a][n]);
+            if (r2 < apart * apart) break;
+        }
+        n += apart == 0.0 || i == n;
+    }
+    sample_alloc(s, n);
+    for (int a = 0; a < 3; a++) {
+        memcpy(s->unit[a], at[a], (size_t)n * sizeof(double));
+        free(at[a]);
+    }
+}
+
+/* Puts some particles of each region first, by chance. */
+static inline void sample_choose(sample *s, int targets, pcg32 *g)
+{
+    sph_index *const order = (sph_index *)need_zeros((size_t)s->n, sizeof *order);
+    double *const old = numbers(s->n);
+    int count[REGIONS + 1] = {0};
+    sph_index first = 0, last = s->n;
+    for (sph_index i = 0; i < s->n; i++) order[i] = i;
+    for (sph_index i = s->n - 1; i > 0; i--) { /* shuffle */
+        const sph_index other = (sph_index)(pcg32_uniform(g) * (double)(i + 1)), keep = order[i];
+        order[i] = order[other];
+        order[other] = keep;
+    }
+    while (first < last) { /* those that are not wanted go to the end */
+        const int region = s->region[order[first]];
+        if (region < REGIONS && count[region] < targets) {
+            count[region]++;
+            first++;
+        } else {
+            const sph_index keep = order[--last];
+            order[last] = order[first];
+            order[first] = keep;
+        }
+    }
+    s->targets = first;
+    for (int a = 0; a < 4; a++) {
+        double *const values = a < 3 ? s->unit[a] : s->unit_volume;
+        memcpy(old, values, (size_t)s->n * sizeof *old);
+        for (sph_index i = 0; i < s->n; i++) values[i] = old[order[i]];
+    }
+    free(order);
+    free(old);
+    sample_regions(s);
+}
+
+/* targets: of each region; 0: all particles, in their order. particles: of an edge, or 0: as many as give each region
+   some particles. jitter: largest displacement along an axis, in spacings; particles on walls slide along them. */
+typedef struct sample_wish {
+    int kind, targets, particles;
+    double jitter;
+    uint64_t seed;
+} sample_wish;
+static inline sample sample_make(sph_kernel k, int dim, double h_dx, sample_wish wish)
+{
+    sample s;
+    pcg32 g;
+    memset(&s, 0, sizeof s);
+    const int kind = wish.kind;
+    const double jitter = wish.jitter;
+    pcg32_seed(&g, wish.seed, (uint64_t)(17 + kind));
+    s.k = k;
+    s.dim = dim;
+    s.h_dx = h_dx;
+    s.kind = kind;
+    s.side = wish.particles ? wish.particles : (int)ceil(4.0 * sample_reach(&s)) + (dim == 2 ? 6 : 3);
+    if (kind == SAMPLE_POISSON || kind == SAMPLE_RANDOM) {
+        sample_scatter(&s, &g);
+        sample_voronoi(&s);
+    } else {
+        sample_alloc(&s, (sph_index)pow(s.side, dim));
+        for (sph_index i = 0; i < s.n; i++) {
+            sph_index rest = i;
+            s.unit_volume[i] = 1.0;
+            for (int a = 0; a < dim; a++) {
+                const double cell = (double)(rest % s.side), way = kind == SAMPLE_LATTICE ? 0.0 : jitter * (2.0 * pcg32_uniform(&g) - 1.0);
+                s.unit[a][i] = cell > 0.0 ? cell + way : 0.0;
+                if (cell == 0.0) s.unit_volume[i] *= 0.5;
+                rest /= s.side;
+            }
+        }
+        if (kind == SAMPLE_RELAXED) sample_relax(&s, 0.4 * h_dx * h_dx, 40);
+    }
+    sample_regions(&s);
+    s.targets = s.n;
+    if (wish.targets) sample_choose(&s, wish.targets, &g);
+    sample_lists(&s);
+    return s;
+}
+
+#endif
