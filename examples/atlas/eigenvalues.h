@@ -1,83 +1,113 @@
 /* SPDX-License-Identifier: MIT
  *
  * eigenvalues.h - the eigenvalues of a real matrix, by the complex QR method: reduction to Hessenberg form by
- * Householder's reflections, then steps with Wilkinson's shift and Givens' rotations. Golub & Van Loan, Matrix
- * Computations, chapter 7. For small matrices: some 10 n^3 operations.
+ * elimination, then steps with Wilkinson's shift and Givens' rotations. Golub & Van Loan, Matrix Computations,
+ * chapter 7. For small matrices: some 10 n^3 operations. Complex numbers are pairs, because not every compiler of
+ * C99 has them.
  */
 #ifndef ATLAS_EIGENVALUES_H
 #define ATLAS_EIGENVALUES_H
 
-#include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 
-/* a: n x n by rows. Returns 1, or 0 if it did not converge or there was no memory. */
-static inline int eigenvalues(int n, const double *a, double complex *value)
+typedef struct pair {
+    double re, im;
+} pair;
+static inline pair pair_of(double re, double im)
 {
-    double complex *const h = (double complex *)malloc((size_t)n * (size_t)n * sizeof *h), *const v = (double complex *)malloc((size_t)n * sizeof *v);
-    int ok = h != NULL && v != NULL, top = n - 1, tries = 0;
-    for (int q = 0; ok && q < n * n; q++) h[q] = a[q];
-    for (int c = 0; ok && c < n - 2; c++) { /* h = (1 - 2 v v^H) h (1 - 2 v v^H) */
-        double size = 0.0, rest = 0.0;
-        for (int r = c + 1; r < n; r++) size += creal(h[r * n + c] * conj(h[r * n + c]));
-        size = sqrt(size);
-        if (size == 0.0) continue;
-        for (int r = c + 1; r < n; r++) v[r] = h[r * n + c];
-        v[c + 1] += cabs(v[c + 1]) > 0.0 ? v[c + 1] / cabs(v[c + 1]) * size : size;
-        for (int r = c + 1; r < n; r++) rest += creal(v[r] * conj(v[r]));
-        rest = sqrt(rest);
-        for (int r = c + 1; r < n; r++) v[r] /= rest;
-        for (int q = 0; q < n; q++) {
-            double complex sum = 0.0;
-            for (int r = c + 1; r < n; r++) sum += conj(v[r]) * h[r * n + q];
-            for (int r = c + 1; r < n; r++) h[r * n + q] -= 2.0 * v[r] * sum;
+    pair p;
+    p.re = re;
+    p.im = im;
+    return p;
+}
+static inline pair pair_plus(pair a, pair b) { return pair_of(a.re + b.re, a.im + b.im); }
+static inline pair pair_minus(pair a, pair b) { return pair_of(a.re - b.re, a.im - b.im); }
+static inline pair pair_times(pair a, pair b) { return pair_of(a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re); }
+static inline pair pair_conjugate(pair a) { return pair_of(a.re, -a.im); }
+static inline double pair_size(pair a) { return hypot(a.re, a.im); }
+static inline pair pair_root(pair a)
+{
+    const double size = pair_size(a), re = sqrt(0.5 * (size + fabs(a.re)));
+    if (re == 0.0) return pair_of(0.0, 0.0);
+    return a.re >= 0.0 ? pair_of(re, 0.5 * a.im / re) : pair_of(0.5 * fabs(a.im) / re, a.im < 0.0 ? -re : re);
+}
+
+/* Both eigenvalues of the last 2 x 2 block; the one that is closer to its last entry. */
+static inline pair eigenvalues_shift(pair p, pair q, pair r, pair s)
+{
+    const pair half_sum = pair_of(0.5 * (p.re + s.re), 0.5 * (p.im + s.im)), half_gap = pair_of(0.5 * (p.re - s.re), 0.5 * (p.im - s.im));
+    const pair root = pair_root(pair_plus(pair_times(half_gap, half_gap), pair_times(q, r)));
+    const pair one = pair_plus(half_sum, root), two = pair_minus(half_sum, root);
+    return pair_size(pair_minus(one, s)) < pair_size(pair_minus(two, s)) ? one : two;
+}
+
+/* a: n x n by rows. Returns 1, or 0 if it did not converge or there was no memory. */
+static inline int eigenvalues(int n, double *a, pair *value)
+{
+    pair *const h = (pair *)calloc((size_t)n * (size_t)n + 1, sizeof *h), *const rotation = (pair *)calloc((size_t)n + 1, sizeof *rotation);
+    int ok = h != NULL && rotation != NULL, top = n - 1, tries = 0;
+    for (int c = 0; ok && c < n - 2; c++) { /* column c has zeros below row c + 1 */
+        int best = c + 1;
+        for (int r = c + 2; r < n; r++)
+            if (fabs(a[r * n + c]) > fabs(a[best * n + c])) best = r;
+        if (a[best * n + c] == 0.0) continue;
+        for (int q = 0; q < n && best != c + 1; q++) {
+            const double keep = a[best * n + q];
+            a[best * n + q] = a[(c + 1) * n + q];
+            a[(c + 1) * n + q] = keep;
         }
-        for (int q = 0; q < n; q++) {
-            double complex sum = 0.0;
-            for (int r = c + 1; r < n; r++) sum += h[q * n + r] * v[r];
-            for (int r = c + 1; r < n; r++) h[q * n + r] -= 2.0 * sum * conj(v[r]);
+        for (int q = 0; q < n && best != c + 1; q++) {
+            const double keep = a[q * n + best];
+            a[q * n + best] = a[q * n + c + 1];
+            a[q * n + c + 1] = keep;
+        }
+        for (int r = c + 2; r < n; r++) {
+            const double factor = a[r * n + c] / a[(c + 1) * n + c];
+            for (int q = c; q < n; q++) a[r * n + q] -= factor * a[(c + 1) * n + q];
+            for (int q = 0; q < n; q++) a[q * n + c + 1] += factor * a[q * n + r];
         }
     }
+    for (int q = 0; ok && q < n * n; q++) h[q] = pair_of(q / n > q % n + 1 ? 0.0 : a[q], 0.0);
     while (ok && top >= 0) {
         int low = top;
-        while (low > 0 && cabs(h[low * n + low - 1]) > 1e-15 * (cabs(h[low * n + low]) + cabs(h[(low - 1) * n + low - 1]))) low--;
+        while (low > 0 && pair_size(h[low * n + low - 1]) > 1e-15 * (pair_size(h[low * n + low]) + pair_size(h[(low - 1) * n + low - 1]))) low--;
         if (low == top) {
             value[top] = h[top * n + top];
             top--;
             tries = 0;
             continue;
         }
-        if (++tries > 60) ok = 0;
-        const double complex p = h[(top - 1) * n + top - 1], q = h[(top - 1) * n + top], r = h[top * n + top - 1], s = h[top * n + top],
-                             root = csqrt(0.25 * (p - s) * (p - s) + q * r), one = 0.5 * (p + s) + root, two = 0.5 * (p + s) - root;
-        const double complex shift = tries % 11 == 10 ? s + cabs(r) : cabs(one - s) < cabs(two - s) ? one : two;
-        for (int c = low; c <= top; c++) h[c * n + c] -= shift;
-        /* R of QR by rotations of two rows, which are kept in v and in place of the zeros they make */
-        for (int c = low; c < top; c++) {
-            const double complex x = h[c * n + c], y = h[(c + 1) * n + c];
-            const double size = sqrt(creal(x * conj(x)) + creal(y * conj(y)));
-            const double complex cosine = size > 0.0 ? x / size : 1.0, sine = size > 0.0 ? y / size : 0.0;
+        if (++tries > 90) ok = 0;
+        const pair last = h[top * n + top], under = h[top * n + top - 1];
+        const pair shift = tries % 11 == 10 ? pair_plus(last, pair_of(pair_size(under), 0.0))
+                                            : eigenvalues_shift(h[(top - 1) * n + top - 1], h[(top - 1) * n + top], under, last);
+        for (int c = low; c <= top; c++) h[c * n + c] = pair_minus(h[c * n + c], shift);
+        for (int c = low; c < top; c++) { /* R of QR; the sines are kept in the place of the zeros that they make */
+            const pair x = h[c * n + c], y = h[(c + 1) * n + c];
+            const double size = hypot(pair_size(x), pair_size(y));
+            const pair cosine = size > 0.0 ? pair_of(x.re / size, x.im / size) : pair_of(1.0, 0.0), sine = size > 0.0 ? pair_of(y.re / size, y.im / size) : pair_of(0.0, 0.0);
             for (int j = c; j <= top; j++) {
-                const double complex upper = h[c * n + j], lower = h[(c + 1) * n + j];
-                h[c * n + j] = conj(cosine) * upper + conj(sine) * lower;
-                h[(c + 1) * n + j] = cosine * lower - sine * upper;
+                const pair upper = h[c * n + j], lower = h[(c + 1) * n + j];
+                h[c * n + j] = pair_plus(pair_times(pair_conjugate(cosine), upper), pair_times(pair_conjugate(sine), lower));
+                h[(c + 1) * n + j] = pair_minus(pair_times(cosine, lower), pair_times(sine, upper));
             }
-            v[c] = cosine;
+            rotation[c] = cosine;
             h[(c + 1) * n + c] = sine;
         }
         for (int c = low; c < top; c++) { /* R Q */
-            const double complex cosine = v[c], sine = h[(c + 1) * n + c];
-            h[(c + 1) * n + c] = 0.0;
+            const pair cosine = rotation[c], sine = h[(c + 1) * n + c];
+            h[(c + 1) * n + c] = pair_of(0.0, 0.0);
             for (int i = low; i <= c + 1; i++) {
-                const double complex left = h[i * n + c], right = h[i * n + c + 1];
-                h[i * n + c] = cosine * left + sine * right;
-                h[i * n + c + 1] = conj(cosine) * right - conj(sine) * left;
+                const pair left = h[i * n + c], right = h[i * n + c + 1];
+                h[i * n + c] = pair_plus(pair_times(cosine, left), pair_times(sine, right));
+                h[i * n + c + 1] = pair_minus(pair_times(pair_conjugate(cosine), right), pair_times(pair_conjugate(sine), left));
             }
         }
-        for (int c = low; c <= top; c++) h[c * n + c] += shift;
+        for (int c = low; c <= top; c++) h[c * n + c] = pair_plus(h[c * n + c], shift);
     }
     free(h);
-    free(v);
+    free(rotation);
     return ok;
 }
 

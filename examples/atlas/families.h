@@ -15,13 +15,13 @@
 #define ATLAS_FAMILIES(X) \
     X(VALUE, "Interpolation and density", "value", 0, 0, 0) \
     X(GRADIENT, "Gradients", "gradient", 0, 1, 1) \
-    X(PRESSURE, "Gradients that conserve: forces of pressure", "acceleration", 0, 1, 1) \
+    X(PRESSURE, "Gradients that conserve: forces of pressure", "gradient", 0, 1, 1) \
     X(DIVERGENCE, "Divergences", "divergence", 1, 0, 1) \
     X(CURL, "Curls", "curl", 1, 2, 1) \
     X(LAPLACIAN, "Laplacians", "Laplacian", 0, 0, 2) \
     X(HESSIAN, "Second derivatives", "Hessian", 0, 3, 2) \
-    X(ELLIPTIC, "div(m grad u)", "elliptic", 0, 0, 2) \
-    X(VISCOSITY, "Physical viscosity", "viscosity", 1, 1, 2)
+    X(ELLIPTIC, "div(m grad u)", "div(m grad u)", 0, 0, 2) \
+    X(VISCOSITY, "Physical viscosity and resistivity", "Laplacian", 1, 1, 2)
 
 #define FAMILY_ENUM(name, heading, word, in, out, powers) name,
 enum family { ATLAS_FAMILIES(FAMILY_ENUM) FAMILIES };

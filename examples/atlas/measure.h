@@ -11,8 +11,6 @@
 #include "families.h"
 #include "operators.h"
 
-#include <complex.h>
-
 typedef struct op {
     const char *id, *function;
     int family, list;
@@ -20,9 +18,10 @@ typedef struct op {
     sph_index (*call)(sph_kernel k, int dim, const sample *s, double *const *in, double *const *out);
 } op;
 
-/* Spacings 1/8, 1/16, ...: the waves are some 2 long. */
-enum { LEVELS = 6, INPUTS = 3, OUTPUTS = 6, WAVES = 24, DISTANCES = 40, JITTERS = 7, STATUSES = 8, BOTH = 2 };
-static inline double level_spacing(int level) { return ldexp(1.0, -3 - level); }
+/* Spacings 1/16, 1/32, ... 1/512: the waves are some 2 long. */
+/* SHOWN: the level of tables, 1/64 */
+enum { LEVELS = 6, INPUTS = 3, OUTPUTS = 6, SHOWN = 2, WAVES = 24, DISTANCES = 40, JITTERS = 7, STATUSES = 8, BOTH = 2 };
+static inline double level_spacing(int level) { return ldexp(1.0, -4 - level); }
 static const double atlas_jitter[JITTERS] = {0.0, 0.01, 0.03, 0.1, 0.2, 0.3, 0.45};
 static const double atlas_default_jitter = 0.2;
 
@@ -37,7 +36,7 @@ typedef struct config {
 typedef struct errors {
     double rms[SAMPLE_KINDS][REGIONS][LEVELS], worst[SAMPLE_KINDS][REGIONS][LEVELS];
     double status[SAMPLE_KINDS][REGIONS][STATUSES]; /* shares of particles */
-    double worst_conditioning[SAMPLE_KINDS];   /* of the particle whose error is the largest, at the fourth spacing */
+    double worst_conditioning[SAMPLE_KINDS];   /* of the particle whose error is the largest, at the level of tables */
     double worst_rank[SAMPLE_KINDS];           /* share of particles whose conditioning is lower */
     double worst_error[SAMPLE_KINDS];
 } errors;
@@ -47,14 +46,14 @@ typedef struct portrait {
     int exact, exact_lattice;                  /* degrees: -1 nothing, 0 constants, 1 linear ... */
     double at_distance[BOTH][DISTANCES];       /* error against the distance from wall and surface, in half spacings */
     double at_jitter[JITTERS];
-    double complex transfer[BOTH][WAVES];      /* along an axis and a diagonal, k dx = pi (w + 1) / WAVES */
+    pair transfer[BOTH][WAVES];                /* along an axis and a diagonal, k dx = pi (w + 1) / WAVES */
     double monotone_inside, monotone_all;      /* share of rows whose other weights have one sign */
     double row_sum;                            /* the largest, in units of the sum of absolute values */
     double symmetry;                           /* |V_i L_ij - V_j L_ji| / |V_i L_ij|, root mean squares */
     double momentum, angular, energy;          /* sum V L f, sum V x cross L f, and max sum V f L f, relative */
     double rotation;                           /* what a rotation of everything changes, relative */
     double re_most, re_least, im_most, condition; /* eigenvalues times dx^2 */
-    double complex *eigenvalue;
+    pair *eigenvalue;
     int eigenvalues;
 } portrait;
 
@@ -160,7 +159,7 @@ static inline void measure_errors(const op *o, sample *s, int level, errors *e)
     family_waves(o->family, s->dim, f);
     errors_of(o, s, &a, f, o->family == ELLIPTIC, family_scale(o->family), error);
     for (int region = 0; region < REGIONS; region++) e->rms[s->kind][region][level] = region_rms(s, error, region, &e->worst[s->kind][region][level]);
-    if (level == 3) {
+    if (level == SHOWN) {
         sph_index worst = 0;
         long lower = 0, count[REGIONS] = {0};
         for (sph_index i = 0; i < s->targets; i++) count[s->region[i]]++;
@@ -263,10 +262,14 @@ static inline void measure_jitter(const op *o, sample *s, double *at)
 /* ---- the response to a wave ---- */
 
 /* For exp(i k x) the factor that a derivative should have: 1, i k, -k^2; the response is what is found divided by it. */
-static inline double complex family_symbol(int which, int powers, double k)
+static inline pair family_response(int which, double k, double re, double im)
 {
-    const double complex ik = which == PRESSURE ? -I * k : I * k;
-    return powers == 0 ? 1.0 : powers == 1 ? ik : -k * k;
+    const double power = which == PRESSURE ? -k : k;
+    switch (family(which).powers) {
+    case 0: return pair_of(re, im);
+    case 1: return pair_of(im / power, -re / power);
+    default: return pair_of(-re / (k * k), -im / (k * k));
+    }
 }
 static inline void measure_transfer(const op *o, sample *s, portrait *p)
 {
@@ -300,7 +303,7 @@ static inline void measure_transfer(const op *o, sample *s, portrait *p)
                 default: found[part] = a.out[0][middle];
                 }
             }
-            p->transfer[diagonal][w] = (found[0] + I * found[1]) / family_symbol(o->family, family(o->family).powers, k);
+            p->transfer[diagonal][w] = family_response(o->family, k, found[0], found[1]);
         }
     s->cloud = sph_cloud_range(s->cloud, 0, s->targets);
     arrays_free(&a);
@@ -367,16 +370,16 @@ static inline void measure_matrix(const op *o, sample *s, portrait *p)
             double *const block = (double *)need_zeros((size_t)m * (size_t)m, sizeof *block);
             for (int r = 0; r < m; r++)
                 for (int c = 0; c < m; c++) block[r * m + c] = matrix[keep[r] * n + keep[c]];
-            p->eigenvalue = (double complex *)need_zeros((size_t)m, sizeof *p->eigenvalue);
+            p->eigenvalue = (pair *)need_zeros((size_t)m, sizeof *p->eigenvalue);
             p->eigenvalues = eigenvalues(m, block, p->eigenvalue) ? m : 0;
             double least = HUGE_VAL, most = 0.0;
             p->re_most = -HUGE_VAL;
             p->re_least = HUGE_VAL;
             for (int r = 0; r < p->eigenvalues; r++) {
-                const double size_of = cabs(p->eigenvalue[r]);
-                p->re_most = fmax(p->re_most, creal(p->eigenvalue[r]));
-                p->re_least = fmin(p->re_least, creal(p->eigenvalue[r]));
-                p->im_most = fmax(p->im_most, fabs(cimag(p->eigenvalue[r])));
+                const double size_of = pair_size(p->eigenvalue[r]);
+                p->re_most = fmax(p->re_most, p->eigenvalue[r].re);
+                p->re_least = fmin(p->re_least, p->eigenvalue[r].re);
+                p->im_most = fmax(p->im_most, fabs(p->eigenvalue[r].im));
                 least = fmin(least, size_of);
                 most = fmax(most, size_of);
             }
@@ -493,7 +496,7 @@ static inline void measure_portraits(const op *o, int count, const config *c, in
         measure_rotation(&o[q], &jittered, &turned, PORTRAIT(q));
         measure_transfer(&o[q], &lattice, PORTRAIT(q));
     }
-    sample_zoom(&lattice, level_spacing(2));
+    sample_zoom(&lattice, level_spacing(SHOWN - 1));
     for (int q = 0; q < count; q++) measure_distance(&o[q], &lattice, PORTRAIT(q));
     sample_free(&jittered);
     sample_free(&turned);
@@ -501,7 +504,7 @@ static inline void measure_portraits(const op *o, int count, const config *c, in
     for (int j = 0; j < JITTERS; j++) {
         const sample_wish by = {SAMPLE_JITTER, targets, 0, atlas_jitter[j], 11};
         sample s = sample_make(c->k, c->dim, c->h_dx, by);
-        sample_zoom(&s, level_spacing(2));
+        sample_zoom(&s, level_spacing(SHOWN - 1));
         for (int q = 0; q < count; q++) measure_jitter(&o[q], &s, &PORTRAIT(q)->at_jitter[j]);
         sample_free(&s);
     }

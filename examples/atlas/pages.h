@@ -6,6 +6,7 @@
 #ifndef ATLAS_PAGES_H
 #define ATLAS_PAGES_H
 
+#include "../common/part_file.h"
 #include "header.h"
 #include "mathml.h"
 #include "measure.h"
@@ -36,29 +37,35 @@ static inline void html_text(FILE *to, const char *from, size_t length)
         else if (from[q] == '&') fputs("&amp;", to);
         else putc(from[q], to);
 }
-static inline FILE *page_open(const atlas *a, const char *name, const char *title)
+static inline part_file page_file(const atlas *a, const char *name, const char *ending)
 {
-    char path[1024];
-    snprintf(path, sizeof path, "%s/%s.html", a->folder, name);
-    FILE *const to = fopen(path, "w");
-    if (!to) {
-        fprintf(stderr, "atlas: cannot write %s: create the folder first\n", path);
+    part_file page;
+    if (!part_file_open(&page, a->folder, name, ending)) {
+        fprintf(stderr, "atlas: cannot write %s: create the folder first\n", page.part);
         exit(2);
     }
-    fprintf(to, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                "<title>%s - atlas of sph.h</title>\n<link rel=\"stylesheet\" href=\"atlas.css\">\n</head>\n<body>\n"
-                "<nav aria-label=\"pages\"><a href=\"index.html\">All operators</a> <a href=\"choose.html\">Which one?</a></nav>\n<main>\n<h1>%s</h1>\n",
-            title, title);
-    return to;
+    return page;
 }
-static inline void page_close(const atlas *a, FILE *to)
+static inline void page_done(part_file *page)
 {
-    fprintf(to, "</main>\n<footer><p>Written by examples/atlas of sph.h %d.%d.%d, a %s run. All figures are measured by it; what is said of an operator is read from sph_ops.h.</p></footer>\n</body>\n</html>\n",
+    if (part_file_close(page)) return;
+    fprintf(stderr, "atlas: %s could not be written: is the disk full?\n", page->path);
+    exit(2);
+}
+static inline part_file page_open(const atlas *a, const char *name, const char *title)
+{
+    const part_file page = page_file(a, name, "html");
+    fprintf(page.to, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                     "<title>%s - atlas of sph.h</title>\n<link rel=\"stylesheet\" href=\"atlas.css\">\n</head>\n<body>\n"
+                     "<nav aria-label=\"pages\"><a href=\"index.html\">All operators</a> <a href=\"choose.html\">Which one?</a></nav>\n<main>\n<h1>%s</h1>\n",
+            title, title);
+    return page;
+}
+static inline void page_close(const atlas *a, part_file *page)
+{
+    fprintf(page->to, "</main>\n<footer><p>Written by examples/atlas of sph.h %d.%d.%d, a %s run. All figures are measured by it; what is said of an operator is read from sph_ops.h.</p></footer>\n</body>\n</html>\n",
             SPH_VERSION_MAJOR, SPH_VERSION_MINOR, SPH_VERSION_PATCH, a->full ? "full" : "quick");
-    if (fclose(to) != 0) {
-        fprintf(stderr, "atlas: a page could not be written: is the disk full?\n");
-        exit(2);
-    }
+    page_done(page);
 }
 /* An error: two digits; rounding is called 0. */
 static inline const char *error_text(char text[32], double error)
@@ -98,13 +105,8 @@ static inline void measured_orders(const errors *e, double *order)
 
 static inline void page_style(const atlas *a)
 {
-    char path[1024];
-    snprintf(path, sizeof path, "%s/atlas.css", a->folder);
-    FILE *const to = fopen(path, "w");
-    if (!to) {
-        fprintf(stderr, "atlas: cannot write %s: create the folder first\n", path);
-        exit(2);
-    }
+    part_file page = page_file(a, "atlas", "css");
+    FILE *const to = page.to;
     fputs(":root{color-scheme:light dark;--ground:#fff;--ink:#1a1a1a;--faint:#5b6066;--line:#d5d9de;--box:#f4f6f8;--link:#0b5cad;--c0:#0b5cad;--c1:#c2410c;--c2:#15803d;--c3:#9333ea;--c4:#a16207;--c5:#be123c;--c6:#0e7490;--c7:#4d4d4d}\n"
           "@media(prefers-color-scheme:dark){:root{--ground:#15181c;--ink:#e8eaed;--faint:#a3aab2;--line:#3a4149;--box:#1f242a;--link:#7db7ff;--c0:#7db7ff;--c1:#ff9a5c;--c2:#5fd68a;--c3:#cf9bff;--c4:#f0c24b;--c5:#ff8096;--c6:#5ad1e6;--c7:#c0c0c0}}\n"
           "*{box-sizing:border-box}body{margin:0 auto;padding:1rem;max-width:110rem;background:var(--ground);color:var(--ink);font:16px/1.5 system-ui,sans-serif}\n"
@@ -121,7 +123,7 @@ static inline void page_style(const atlas *a)
     static const char *const dash[SVG_SERIES] = {"none", "7 3", "2 3", "9 3 2 3", "none", "5 5", "1 4", "12 4"};
     for (int s = 0; s < SVG_SERIES; s++) fprintf(to, ".s%d{stroke:var(--c%d);stroke-width:2;fill:none;stroke-dasharray:%s}.m%d{fill:var(--c%d)}\n", s, s, dash[s], s, s);
     fputs("@media print{nav,form{display:none}body{font-size:10pt;max-width:none}figure,tr{break-inside:avoid}:root{--ground:#fff;--ink:#000;--line:#bbb;--box:#f4f4f4}}\n", to);
-    if (fclose(to) != 0) exit(2);
+    page_done(&page);
 }
 
 static const char *const atlas_script =
@@ -161,7 +163,8 @@ static inline void family_select(FILE *to)
 
 static inline void page_index(const atlas *a)
 {
-    FILE *const to = page_open(a, "index", "Atlas of operators");
+    part_file page = page_open(a, "index", "Atlas of operators");
+    FILE *const to = page.to;
     char text[32];
     static const char *const column[] = {"operator", "exact for", "order inside lattices", "order in disorder", "order at boundaries", "error, lattice", "error, jittered", "error, random",
                                          "error, wall", "error, corner", "momentum", "one sign", "cost 2D", "cost 3D"};
@@ -184,8 +187,8 @@ static inline void page_index(const atlas *a)
         fprintf(to, "<tr data-family=\"%d\" data-good=\"\"><td class=\"left\"><a href=\"%s.html\">%s</a></td>", o->family, o->id, o->id);
         cell(to, r->of[0].exact, degree_text(r->of[0].exact));
         for (int c = 0; c < 3; c++) cell(to, order[c], order_text(text, order[c]));
-        const double error[5] = {e->rms[SAMPLE_LATTICE][REGION_INSIDE][3], e->rms[SAMPLE_JITTER][REGION_INSIDE][3], e->rms[SAMPLE_RANDOM][REGION_INSIDE][3],
-                                 worse(e->rms[SAMPLE_LATTICE][REGION_WALL][3], e->rms[SAMPLE_LATTICE][REGION_SURFACE][3]), e->rms[SAMPLE_LATTICE][REGION_CORNER][3]};
+        const double error[5] = {e->rms[SAMPLE_LATTICE][REGION_INSIDE][SHOWN], e->rms[SAMPLE_JITTER][REGION_INSIDE][SHOWN], e->rms[SAMPLE_RANDOM][REGION_INSIDE][SHOWN],
+                                 worse(e->rms[SAMPLE_LATTICE][REGION_WALL][SHOWN], e->rms[SAMPLE_LATTICE][REGION_SURFACE][SHOWN]), e->rms[SAMPLE_LATTICE][REGION_CORNER][SHOWN]};
         for (int c = 0; c < 5; c++) cell(to, error[c], error_text(text, error[c]));
         cell(to, r->of[0].momentum, r->of[0].momentum < 1e-10 ? "kept" : "not kept");
         if (has_rows(o)) cell(to, 1.0 - r->of[0].monotone_all, (snprintf(text, sizeof text, "%.0f %%", 100.0 * r->of[0].monotone_all), text));
@@ -195,7 +198,7 @@ static inline void page_index(const atlas *a)
     }
     fputs("</tbody></table></div>\n", to);
     fputs(atlas_script, to);
-    page_close(a, to);
+    page_close(a, &page);
 }
 
 /* ---- an operator's page ---- */
@@ -210,7 +213,7 @@ static inline void page_numbers(FILE *to, const atlas *a, const errors *e, const
     for (int kind = 0; kind < SAMPLE_KINDS; kind++) {
         fprintf(to, "<tr><th scope=\"row\">%s</th>", sample_kind_name(kind));
         for (int region = 0; region < REGIONS; region++) {
-            fprintf(to, "<td>%s ", error_text(text, e->rms[kind][region][3]));
+            fprintf(to, "<td>%s ", error_text(text, e->rms[kind][region][SHOWN]));
             fprintf(to, "(%s)</td>", order_text(text, order_of(e->rms[kind][region])));
         }
         fprintf(to, "<td>%s</td><td>%.2g (rank %.0f %%)</td></tr>\n", error_text(text, e->worst_error[kind]), e->worst_conditioning[kind], 100.0 * e->worst_rank[kind]);
@@ -237,7 +240,8 @@ static inline void page_operator(const atlas *a, int q)
     const op *const o = &a->operators[q];
     const result *const r = &a->results[q];
     const portrait *const p = &r->of[0];
-    FILE *const to = page_open(a, o->id, o->id);
+    part_file page = page_open(a, o->id, o->id);
+    FILE *const to = page.to;
     char text[32];
     passage comment, signature;
     fprintf(to, "<p>%s. <code>%s</code> of <code>sph_ops.h</code>.</p>\n<div class=\"equation\">", family(o->family).heading, o->function);
@@ -305,7 +309,7 @@ static inline void page_operator(const atlas *a, int q)
         svg_plot plot = {"Response to a wave, as a share of the true one", "k dx", "share", 0, 0, 0, -0.5, 1.6, 0, {{0}}};
         for (int w = 0; w < WAVES; w++) {
             waves[w] = acos(-1.0) * (w + 1) / WAVES;
-            for (int d = 0; d < 2; d++) part[2 * d][w] = creal(p->transfer[d][w]), part[2 * d + 1][w] = cimag(p->transfer[d][w]);
+            for (int d = 0; d < 2; d++) part[2 * d][w] = p->transfer[d][w].re, part[2 * d + 1][w] = p->transfer[d][w].im;
         }
         svg_add(&plot, "axis, real", waves, part[0], WAVES);
         svg_add(&plot, "axis, imaginary", waves, part[1], WAVES);
@@ -315,7 +319,7 @@ static inline void page_operator(const atlas *a, int q)
     }
     if (p->eigenvalues) {
         double *const re = numbers(p->eigenvalues), *const im = numbers(p->eigenvalues);
-        for (int v = 0; v < p->eigenvalues; v++) re[v] = creal(p->eigenvalue[v]), im[v] = cimag(p->eigenvalue[v]);
+        for (int v = 0; v < p->eigenvalues; v++) re[v] = p->eigenvalue[v].re, im[v] = p->eigenvalue[v].im;
         svg_plot plot = {"Eigenvalues times dx&#178;, jittered, values given at the edge", "real part", "imaginary part", 0, 0, 1, 0.0, 0.0, 0, {{0}}};
         svg_add(&plot, "eigenvalue", re, im, p->eigenvalues);
         svg_write(to, &plot);
@@ -336,7 +340,7 @@ static inline void page_operator(const atlas *a, int q)
         if (is_laplacian(o) || o->family == VISCOSITY) fprintf(to, "<dt>Energy</dt><dd>the sum of V f L f was %s for random fields</dd>\n", p->energy < 0.0 ? "always negative: it damps" : "not always negative");
     }
     fprintf(to, "<dt>Rotation</dt><dd>turning everything changes the result by %s of its size</dd>\n</dl>\n", error_text(text, p->rotation));
-    page_close(a, to);
+    page_close(a, &page);
 }
 
 /* ---- choose.html ---- */
@@ -370,7 +374,8 @@ static inline void page_choose(const atlas *a)
                                                 "The sum over all particles (momentum, heat) must be kept to rounding", "The matrix must have weights of one sign (maxima do not grow, solvers converge)",
                                                 "It must be cheap: not above the middle of its family"};
     static const char *const what[QUESTIONS] = {"at boundaries", "in disorder", "keeps the sum", "one sign", "cost"};
-    FILE *const to = page_open(a, "choose", "Which operator shall I take?");
+    part_file page = page_open(a, "choose", "Which operator shall I take?");
+    FILE *const to = page.to;
     char word[32];
     fputs("<p>Five questions. Mark what you need; what is left has it, by what was measured (2D). No operator has all: what conserves is inconsistent in disorder, and what is exact there does not conserve. "
           "Where nothing is left, give up the need that costs you least.</p>\n<form>\n", to);
@@ -400,7 +405,7 @@ static inline void page_choose(const atlas *a)
     }
     fputs("</tbody></table></div>\n", to);
     fputs(atlas_script, to);
-    page_close(a, to);
+    page_close(a, &page);
 }
 
 static inline void pages_write(const atlas *a)
