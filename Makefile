@@ -31,15 +31,15 @@ HEADERS = sph.h sph_ops.h sph_kernels.h
 # The groups of drivers: the papers, all in examples/papers, and subjects, each in a folder of its name. A driver's
 # name starts with its group's, and GROUP.gp beside it draws the group's figures.
 PAPERS = icspm elliptic clustering cleaning
-SUBJECTS = fluids solids gas
+SUBJECTS = fluids solids gas atlas
 GROUPS = $(PAPERS) $(SUBJECTS)
 FOLDERS = $(addprefix examples/,papers $(SUBJECTS))
 COMMON = $(wildcard $(addsuffix /*.h,examples/common $(FOLDERS)))
 drivers_in = $(notdir $(basename $(wildcard $(addsuffix /$(1)_*.c,$(FOLDERS)))))
 DRIVERS = $(foreach g,$(GROUPS),$(call drivers_in,$(g)))
 # what takes longest starts first, so that nothing long is left alone at the end
-LONG_RUNS = clustering_shaft cleaning_collapse clustering_cavity elliptic_boundary_values cleaning_orszag_tang icspm_random clustering_box cleaning_disc fluids_vortices fluids_dam fluids_tank clustering_dam cleaning_drop gas_gresho
-LONG_COMPILES = elliptic_operators elliptic_clouds elliptic_boundary_values elliptic_uses icspm_dimensions cleaning_disc clustering_flows fluids_drop
+LONG_RUNS = clustering_shaft cleaning_collapse clustering_cavity elliptic_boundary_values cleaning_orszag_tang icspm_random clustering_box cleaning_disc fluids_vortices atlas_operators fluids_dam fluids_tank clustering_dam cleaning_drop gas_gresho
+LONG_COMPILES = atlas_cost elliptic_operators elliptic_clouds elliptic_boundary_values elliptic_uses icspm_dimensions cleaning_disc clustering_flows fluids_drop
 THREADED := $(notdir $(basename $(shell grep -l -e THREADS_OPTION -e '[A-Z]_OPTIONS' $(addsuffix /*.c,$(FOLDERS)))))
 # those whose long runs leave restarts, and go on from them; and the tables of long runs that are kept
 RESTARTED := $(notdir $(basename $(shell grep -l -e '"continue"' $(addsuffix /*.c,$(FOLDERS)))))
@@ -59,6 +59,7 @@ help:
 	@echo "make reproduce-GROUP  those of a paper ($(PAPERS)) or of a subject ($(SUBJECTS))"
 	@echo "make reproduce-full   with more realisations and finer clouds, some at the published size: a day, in any number of"
 	@echo "                      pieces (Ctrl-C, and again); compared with the tables of $(KEPT)"
+	@echo "make atlas            pages that show what each operator does, measured: $(BUILD)/atlas/index.html (OPTIONS=-full: all kernels)"
 	@echo "make test             the tests; the last line is 'N passed, N failed'"
 	@echo "make test-sanitize    the tests under the address and undefined-behaviour sanitizers"
 	@echo "make check-hosts      C++, Fortran, Python, WebAssembly, OpenCL, CUDA: the hosts whose tools are installed"
@@ -139,6 +140,13 @@ vpath %.c $(FOLDERS)
 $(BUILD)/examples/%: %.c $(BUILD)/common/host_search.o $(COMMON) $(HEADERS)
 	@mkdir -p $(@D)
 	$(CC) $(WARN) $(CFLAGS) $(SIMD) $(PTHREADS) -DHOST_LINKED=1 -o $@ $< $(BUILD)/common/host_search.o $(LDLIBS)
+
+# pages of what each operator does; they need no tool but a browser. What it costs comes first, because the pages tell it
+atlas: $(BUILD)/examples/atlas_cost $(BUILD)/examples/atlas_operators
+	@mkdir -p "$(BUILD)/atlas"
+	$(BUILD)/examples/atlas_cost -out "$(BUILD)/atlas" -figures "$(BUILD)/atlas" $(OPTIONS)
+	$(BUILD)/examples/atlas_operators -out "$(BUILD)/atlas" -figures "$(BUILD)/atlas" -pages "$(BUILD)/atlas" $(OPTIONS)
+	@echo "atlas: $(BUILD)/atlas/index.html"
 
 # the pictures that are checked in have gone through pngquant, to 64 colours
 GALLERY = $(patsubst examples/%.c,%,$(wildcard examples/*.c))
@@ -234,4 +242,4 @@ dist:
 clean: # what a link leads to as well
 	rm -rf $(BUILD)/* $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures gallery test test-sanitize fuzz check-matrix check-hosts check-mpi check-embedded version install uninstall dist check-packages docs coverage lint mutation bench bench-flags bench-compile bench-gpu clean
+.PHONY: help reproduce reproduce-full figures atlas gallery test test-sanitize fuzz check-matrix check-hosts check-mpi check-embedded version install uninstall dist check-packages docs coverage lint mutation bench bench-flags bench-compile bench-gpu clean

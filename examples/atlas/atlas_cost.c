@@ -13,6 +13,22 @@
 #include <time.h>
 
 #define COST_KERNEL SPH_WENDLAND_C2
+
+/* Sweeps that are in several lines of the table, and take seconds to compile: one copy of each. */
+#define COST_ONCE(name) \
+    static sph_index once_##name(int dim, sph_cloud cloud, sph_scalars f, sph_derivatives_options options, sph_derivatives_out out) \
+    { \
+        return WITH_DIM_2_3(sph_derivatives_##name, COST_KERNEL, dim, cloud, f, options, out); \
+    }
+COST_ONCE(cspm)
+COST_ONCE(icspm)
+COST_ONCE(fatehi_manzari)
+COST_ONCE(wls)
+#define sph_derivatives_cspm(k, dim, ...) ((void)(k), once_cspm(dim, __VA_ARGS__))
+#define sph_derivatives_icspm(k, dim, ...) ((void)(k), once_icspm(dim, __VA_ARGS__))
+#define sph_derivatives_fatehi_manzari(k, dim, ...) ((void)(k), once_fatehi_manzari(dim, __VA_ARGS__))
+#define sph_derivatives_wls(k, dim, ...) ((void)(k), once_wls(dim, __VA_ARGS__))
+
 /* the names that the expressions of the table use */
 #define COST_CALLS(id, function, family, list, formula, source, note, expression) \
     static sph_index call_2_##id(views a) \
@@ -55,11 +71,11 @@ int main(int argc, char **argv)
     part_file csv;
     report r;
     options_parse(argc, argv, "The atlas: what each operator costs beside a density.", specs, (int)(sizeof specs / sizeof specs[0]));
+    report_open(&r, "atlas_cost", out);
     if (!part_file_open(&csv, figures, "atlas_cost", "csv")) {
         fprintf(stderr, "atlas_cost: cannot write %s: create the folder first\n", csv.part);
         return 2;
     }
-    report_open(&r, "atlas_cost", out);
     fprintf(csv.to, "operator,dim,ratio,ns\n");
     for (int dim = 2; dim <= 3; dim++) {
         const sample_wish wish = {SAMPLE_JITTER, 0, dim == 2 ? 72 : 20, 0.2, 1};

@@ -157,8 +157,8 @@ int main(int argc, char **argv)
     part_file csv;
     for (int o = 0; o < (int)OPERATORS; o++)
         if (strstr(all_operators[o].id, only)) operators[wanted++] = all_operators[o];
-    if (!part_file_open(&csv, figures, "atlas_errors", "csv")) failed_to_write(csv.part);
     report_open(&r, "atlas_operators", out);
+    if (!part_file_open(&csv, figures, "atlas_errors", "csv")) failed_to_write(csv.part);
     progress_begin(&bar, "atlas", quiet);
     for (int c = 0; c < configurations; c++) {
         for (int kind = 0; kind < SAMPLE_KINDS; kind++) {

@@ -44,7 +44,8 @@ typedef struct sample {
     double *unit[3], *unit_volume; /* in spacings */
     double *x[3], *volume, h;      /* zoomed */
     double *mobility;              /* of the elliptic operators */
-    double *correction[SAMPLE_CORRECTIONS];    /* of reproducing kernels, and C of IAD */
+    double *correction[SAMPLE_CORRECTIONS], corrected_at; /* the spacing they were made for, 0: not yet */
+       /* of reproducing kernels, and C of IAD */
     unsigned char *region, *status;
     double *conditioning;
     double *scratch[3];
@@ -136,6 +137,15 @@ static inline void sample_corrections(sample *s)
     const sph_correction_out iad = {{{c[0], c[1], c[2], 1}, {c[1], c[3], c[4], 1}, {c[2], c[4], c[5], 1}}, NULL, 1, NULL};
     expect(sph_rk_correction(s->k, s->dim, s->cloud, sample_rk_out(s)));
     expect(sph_gradient_correction_iad(s->k, s->dim, s->cloud, iad));
+    s->corrected_at = s->spacing;
+}
+/* A is a number; B and the gradient of A are of 1 / length; the gradient of B and C of 1 / length^2. */
+static inline void sample_rescale(sample *s)
+{
+    const double once = s->corrected_at / s->spacing;
+    for (int c = 1; c < SAMPLE_CORRECTIONS; c++)
+        for (sph_index i = 0; i < s->n; i++) s->correction[c][i] *= c < 7 ? once : once * once;
+    s->corrected_at = s->spacing;
 }
 
 /* From here on the spacing is dx, and positions are relative to the middle of the domain. */
@@ -150,7 +160,8 @@ static inline void sample_zoom(sample *s, double dx)
     }
     s->cloud = sph_cloud_of(sph_points_separate(s->n, s->x[0], s->x[1], s->x[2]), search_list(&s->lists), sph_scalars_same(&s->h), sph_scalars_array(s->volume));
     s->cloud = sph_cloud_checked(s->dim, s->cloud);
-    sample_corrections(s);
+    if (s->corrected_at > 0.0) sample_rescale(s);
+    else sample_corrections(s);
     s->cloud = sph_cloud_range(s->cloud, 0, s->targets);
 }
 
@@ -198,7 +209,7 @@ static inline void sample_voronoi(sample *s)
             at[a] = ((double)(rest % points) + 0.5) * cell;
             rest /= points;
         }
-        for (int width = 2;; width += 2) { /* bins within so many of the point's own */
+        for (int width = 1;; width++) { /* bins within so many of the point's own */
             int lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0};
             for (int a = 0; a < s->dim; a++) {
                 const int c = (int)at[a];
@@ -213,7 +224,7 @@ static inline void sample_voronoi(sample *s)
                             for (int a = 0; a < s->dim; a++) r2 += (s->unit[a][i] - at[a]) * (s->unit[a][i] - at[a]);
                             if (r2 < nearest) nearest = r2, best = i;
                         }
-            if (nearest <= (width - 1.0) * (width - 1.0) || width > cells) break;
+            if (nearest <= (double)width * width || width > cells) break;
         }
         s->unit_volume[best] += pow(cell, s->dim);
     }
@@ -268,33 +279,45 @@ static inline void sample_relax(sample *s, double strength, int steps)
     search_close(&near_by);
 }
 
-/* Particles of a Poisson disc or by chance: those on the walls, then those in between. */
+/* Particles by chance, half a spacing of them on the walls; those of a Poisson disc only where no other is within
+   `apart`, which is less than the width of a bin. */
 static inline void sample_scatter(sample *s, pcg32 *g)
 {
     const double length = s->side - 0.5, apart = s->kind == SAMPLE_POISSON ? (s->dim == 2 ? 0.82 : 0.88) : 0.0;
-    const sph_index most = (sph_index)pow(s->side, s->dim);
+    const int side = s->side;
+    const sph_index most = (sph_index)pow(side, s->dim);
+    sph_index *const first = (sph_index *)need_zeros((size_t)most, sizeof *first), *const next = (sph_index *)need_zeros((size_t)most + 1, sizeof *next);
     double *at[3];
     sph_index n = 0;
     for (int a = 0; a < 3; a++) at[a] = numbers(most + 1);
-    long tries = 0;
-    for (tries = 0; n < most && tries < 60L * most; tries++) {
+    for (sph_index b = 0; b < most; b++) first[b] = -1;
+    for (long tries = 0; n < most && tries < 60L * most; tries++) {
+        int cell[3] = {0, 0, 0}, free_there = 1;
         for (int a = 0; a < s->dim; a++) {
-            at[a][n] = pcg32_uniform(g) * (length + 0.5) - 0.5; /* half a spacing of them goes to the wall */
-            if (at[a][n] < 0.0) at[a][n] = 0.0;
+            at[a][n] = fmax(0.0, pcg32_uniform(g) * (length + 0.5) - 0.5);
+            cell[a] = (int)at[a][n];
         }
-        sph_index i = 0;
-        for (; apart > 0.0 && i < n; i++) {
-            double r2 = 0.0;
-            for (int a = 0; a < s->dim; a++) r2 += (at[a][i] - at[a][n]) * (at[a][i] - at[a][n]);
-            if (r2 < apart * apart) break;
+        for (int q = 0; q < (s->dim > 2 ? 27 : 9) && free_there && apart > 0.0; q++) {
+            const int x = cell[0] + q % 3 - 1, y = cell[1] + q / 3 % 3 - 1, z = s->dim > 2 ? cell[2] + q / 9 - 1 : 0;
+            if (x < 0 || y < 0 || z < 0 || x >= side || y >= side || z >= side) continue;
+            for (sph_index i = first[x + (sph_index)side * (y + (sph_index)side * z)]; i >= 0; i = next[i]) {
+                double r2 = 0.0;
+                for (int a = 0; a < s->dim; a++) r2 += (at[a][i] - at[a][n]) * (at[a][i] - at[a][n]);
+                if (r2 < apart * apart) free_there = 0;
+            }
         }
-        n += apart == 0.0 || i == n;
+        if (!free_there) continue;
+        const sph_index bin = cell[0] + (sph_index)side * (cell[1] + (sph_index)side * cell[2]);
+        next[n] = first[bin];
+        first[bin] = n++;
     }
     sample_alloc(s, n);
     for (int a = 0; a < 3; a++) {
         memcpy(s->unit[a], at[a], (size_t)n * sizeof(double));
         free(at[a]);
     }
+    free(first);
+    free(next);
 }
 
 /* Puts some particles of each region first, by chance. */
@@ -367,7 +390,7 @@ static inline sample sample_make(sph_kernel k, int dim, double h_dx, sample_wish
                 rest /= s.side;
             }
         }
-        if (kind == SAMPLE_RELAXED) sample_relax(&s, 0.4 * h_dx * h_dx, 40);
+        if (kind == SAMPLE_RELAXED) sample_relax(&s, 0.4 * h_dx * h_dx, dim == 2 ? 40 : 20);
     }
     sample_regions(&s);
     s.targets = s.n;
