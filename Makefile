@@ -51,7 +51,7 @@ TESTS_OPTIONAL = gsl
 TESTS = $(filter-out $(TESTS_DOUBLE) $(TESTS_OPTIONAL),$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))
 TESTS_FLOAT = $(TESTS)
 TEST_PROGRAMS = $(TESTS:%=$(BUILD)/tests/%) $(TESTS_FLOAT:%=$(BUILD)/tests/%-float) $(TESTS_DOUBLE:%=$(BUILD)/tests/%)
-TEST_SCRIPTS = tests/index.sh tests/signatures.sh tests/hosts/generated.sh tests/readme.sh tests/docs.sh tests/compile/matrix.sh tests/compile/names.sh tests/compile/options.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/threads.sh tests/restarts.sh tests/files.sh tests/faults.sh tests/single.sh tests/bare.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
+TEST_SCRIPTS = tests/index.sh tests/signatures.sh tests/hosts/generated.sh tests/readme.sh tests/docs.sh tests/compile/matrix.sh tests/compile/names.sh tests/compile/options.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/atlas.sh tests/threads.sh tests/restarts.sh tests/files.sh tests/faults.sh tests/single.sh tests/bare.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
 
 help:
 	@echo "make reproduce        run the drivers of papers and subjects, published beside measured values, and print a scoreboard;"

@@ -41,7 +41,10 @@ static inline const char *mathml_index(FILE *to, const char *at)
     }
     int length = 0;
     while (isalnum((unsigned char)at[length])) length++;
-    mathml_name(to, at, length);
+    if (length == 2 && islower((unsigned char)at[0]) && islower((unsigned char)at[1])) { /* two indices */
+        mathml_name(to, at, 1);
+        mathml_name(to, at + 1, 1);
+    } else mathml_name(to, at, length);
     fputs("</mrow>", to);
     return at + length;
 }
@@ -83,7 +86,10 @@ static inline void mathml_write(FILE *to, const char *formula)
         else if (*at == '<' && at[1] != ' ') fputs("<mo stretchy=\"false\">&#10216;</mo>", to);
         else if (*at == '>' && at > formula && at[-1] != ' ' && at[1] != '=') fputs("<mo stretchy=\"false\">&#10217;</mo>", to);
         else if (*at == '-') fputs("<mo>&#8722;</mo>", to);
-        else if (*at == '.' && at[1] == '.') fputs("<mo>.</mo>", to);
+        else if (strncmp(at, "...", 3) == 0) {
+            fputs("<mo>&#8230;</mo>", to);
+            at += 2;
+        }
         else if (*at == '.') fputs("<mo>&#8901;</mo>", to);
         else if (*at == '&') fputs("<mo>&amp;</mo>", to);
         else if (*at == '<') fputs("<mo>&lt;</mo>", to);

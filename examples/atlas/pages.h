@@ -57,7 +57,7 @@ static inline part_file page_open(const atlas *a, const char *name, const char *
     const part_file page = page_file(a, name, "html");
     fprintf(page.to, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                      "<title>%s - atlas of sph.h</title>\n<link rel=\"stylesheet\" href=\"atlas.css\">\n</head>\n<body>\n"
-                     "<nav aria-label=\"pages\"><a href=\"index.html\">All operators</a> <a href=\"choose.html\">Which one?</a></nav>\n<main>\n<h1>%s</h1>\n",
+                     "<nav aria-label=\"pages\"><a href=\"index.html\">All operators</a> <a href=\"choose.html\">Which one?</a> <a href=\"kernels.html\">Kernels</a></nav>\n<main>\n<h1>%s</h1>\n",
             title, title);
     return page;
 }
@@ -114,7 +114,7 @@ static inline void page_style(const atlas *a)
           ".scroll{overflow-x:auto;max-width:100%}table{border-collapse:collapse;font-size:.9rem}caption{text-align:left;padding:.3rem 0;color:var(--faint)}th,td{border-bottom:1px solid var(--line);padding:.25rem .6rem;text-align:right;white-space:nowrap}\n"
           "th:first-child,td:first-child{text-align:left}thead th{background:var(--box);vertical-align:bottom}th button{font:inherit;font-weight:bold;color:inherit;background:none;border:0;padding:.3rem 0;cursor:pointer;text-align:inherit;white-space:normal}\n"
           "th[aria-sort=ascending] button::after{content:' \\25B2'}th[aria-sort=descending] button::after{content:' \\25BC'}button:focus-visible,a:focus-visible,input:focus-visible,select:focus-visible{outline:3px solid var(--link);outline-offset:2px}\n"
-          "tbody tr:hover{background:var(--box)}td.left{text-align:left}form{display:flex;flex-wrap:wrap;gap:.6rem 1.5rem;margin:1rem 0}label{display:inline-block}input,select{font:inherit;padding:.2rem .4rem;background:var(--ground);color:var(--ink);border:1px solid var(--faint);border-radius:3px}\n"
+          "tbody tr:hover{background:var(--box)}td.left{text-align:left}td.note{white-space:normal;min-width:18rem;text-align:left}form{display:flex;flex-wrap:wrap;gap:.6rem 1.5rem;margin:1rem 0}label{display:inline-block}input,select{font:inherit;padding:.2rem .4rem;background:var(--ground);color:var(--ink);border:1px solid var(--faint);border-radius:3px}\n"
           "pre{background:var(--box);padding:.8rem;overflow-x:auto;font-size:.85rem}.equation{overflow-x:auto;padding:.5rem;background:var(--box)}math{font-size:1.2rem}\n"
           ".plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,27rem),1fr));gap:1rem}figure{margin:0;border:1px solid var(--line);padding:.5rem}figcaption{font-weight:bold}figure>svg{width:100%;height:auto}\n"
           ".legend{list-style:none;margin:0;padding:0;display:flex;flex-wrap:wrap;gap:0 1rem;font-size:.85rem}.legend svg{vertical-align:middle}.grid{stroke:var(--line);fill:none}.t{fill:var(--ink);font-size:13px}\n"
@@ -167,7 +167,7 @@ static inline void page_index(const atlas *a)
     FILE *const to = page.to;
     char text[32];
     static const char *const column[] = {"operator", "exact for", "order inside lattices", "order in disorder", "order at boundaries", "error, lattice", "error, jittered", "error, random",
-                                         "error, wall", "error, corner", "momentum", "one sign", "cost 2D", "cost 3D"};
+                                         "error, wall", "error, corner", "sum over all", "one sign", "cost 2D", "cost 3D"};
     fprintf(to, "<p>What each operator does to particles, measured by one program: on lattices, in disorder, at walls, free surfaces and corners. "
                 "Errors are root mean squares, in units of the size of the answer, at 64 particles for a length of one (a wave of the field that is looked at is two and a half long); here in 2D with %s and h = %.1f dx. "
                 "Orders are those against the spacing, for h / dx fixed: 0 means that more particles do not help. "
@@ -190,7 +190,8 @@ static inline void page_index(const atlas *a)
         const double error[5] = {e->rms[SAMPLE_LATTICE][REGION_INSIDE][SHOWN], e->rms[SAMPLE_JITTER][REGION_INSIDE][SHOWN], e->rms[SAMPLE_RANDOM][REGION_INSIDE][SHOWN],
                                  worse(e->rms[SAMPLE_LATTICE][REGION_WALL][SHOWN], e->rms[SAMPLE_LATTICE][REGION_SURFACE][SHOWN]), e->rms[SAMPLE_LATTICE][REGION_CORNER][SHOWN]};
         for (int c = 0; c < 5; c++) cell(to, error[c], error_text(text, error[c]));
-        cell(to, r->of[0].momentum, r->of[0].momentum < 1e-10 ? "kept" : "not kept");
+        if (o->family == VALUE) cell(to, (double)NAN, "-");
+        else cell(to, r->of[0].momentum, r->of[0].momentum < 1e-10 ? "kept" : "not kept");
         if (has_rows(o)) cell(to, 1.0 - r->of[0].monotone_all, (snprintf(text, sizeof text, "%.0f %%", 100.0 * r->of[0].monotone_all), text));
         else cell(to, (double)NAN, "-");
         for (int d = 0; d < 2; d++) cell(to, r->cost[d], isnan(r->cost[d]) ? "-" : (snprintf(text, sizeof text, "%.1f", r->cost[d]), text));
@@ -216,7 +217,9 @@ static inline void page_numbers(FILE *to, const atlas *a, const errors *e, const
             fprintf(to, "<td>%s ", error_text(text, e->rms[kind][region][SHOWN]));
             fprintf(to, "(%s)</td>", order_text(text, order_of(e->rms[kind][region])));
         }
-        fprintf(to, "<td>%s</td><td>%.2g (rank %.0f %%)</td></tr>\n", error_text(text, e->worst_error[kind]), e->worst_conditioning[kind], 100.0 * e->worst_rank[kind]);
+        fprintf(to, "<td>%s</td>", error_text(text, e->worst_error[kind]));
+        if (e->worst_conditioning[kind] == 1.0) fputs("<td>not told</td></tr>\n", to);
+        else fprintf(to, "<td>%.2g (lower: %.0f %%)</td></tr>\n", e->worst_conditioning[kind], 100.0 * e->worst_rank[kind]);
     }
     fputs("</tbody></table></div>\n", to);
 }
@@ -280,12 +283,12 @@ static inline void page_operator(const atlas *a, int q)
     for (int level = 0; level < LEVELS; level++) spacing[level] = level_spacing(level);
     for (int d = 0; d < DISTANCES; d++) away[d] = 0.5 * d;
     {
-        svg_plot plot = {"Error inside", "spacing dx", "error", 1, 1, 0, 0.0, 0.0, 0, {{0}}};
+        svg_plot plot = {"Error inside", "spacing dx", "error", 1, 1, 0, 0.0, 0.0, 0, {{0}}, 0};
         for (int kind = 0; kind < SAMPLE_KINDS; kind++) svg_add(&plot, sample_kind_name(kind), spacing, r->at[0].rms[kind][REGION_INSIDE], LEVELS);
         svg_write(to, &plot);
     }
     {
-        svg_plot plot = {"Error at boundaries", "spacing dx", "error", 1, 1, 0, 0.0, 0.0, 0, {{0}}};
+        svg_plot plot = {"Error at boundaries", "spacing dx", "error", 1, 1, 0, 0.0, 0.0, 0, {{0}}, 0};
         svg_add(&plot, "lattice, wall", spacing, r->at[0].rms[SAMPLE_LATTICE][REGION_WALL], LEVELS);
         svg_add(&plot, "lattice, free surface", spacing, r->at[0].rms[SAMPLE_LATTICE][REGION_SURFACE], LEVELS);
         svg_add(&plot, "lattice, corner", spacing, r->at[0].rms[SAMPLE_LATTICE][REGION_CORNER], LEVELS);
@@ -294,19 +297,19 @@ static inline void page_operator(const atlas *a, int q)
         svg_write(to, &plot);
     }
     {
-        svg_plot plot = {"Error against the distance from a boundary, lattice, dx = 1/32", "distance / dx", "error", 0, 1, 0, 0.0, 0.0, 0, {{0}}};
+        svg_plot plot = {"Error against the distance from a boundary, lattice, dx = 1/32", "distance / dx", "error", 0, 1, 0, 0.0, 0.0, 0, {{0}}, 0};
         svg_add(&plot, "wall", away, p->at_distance[0], DISTANCES);
         svg_add(&plot, "free surface", away, p->at_distance[1], DISTANCES);
         svg_write(to, &plot);
     }
     {
-        svg_plot plot = {"Error against jitter, inside, dx = 1/32", "largest displacement / dx", "error", 0, 1, 0, 0.0, 0.0, 0, {{0}}};
+        svg_plot plot = {"Error against jitter, inside, dx = 1/32", "largest displacement / dx", "error", 0, 1, 0, 0.0, 0.0, 0, {{0}}, 0};
         svg_add(&plot, "2D", atlas_jitter, p->at_jitter, JITTERS);
         svg_add(&plot, "3D", atlas_jitter, r->of[1].at_jitter, JITTERS);
         svg_write(to, &plot);
     }
     {
-        svg_plot plot = {"Response to a wave, as a share of the true one", "k dx", "share", 0, 0, 0, -0.5, 1.6, 0, {{0}}};
+        svg_plot plot = {"Response to a wave, as a share of the true one", "k dx", "share", 0, 0, 0, -0.5, 1.6, 0, {{0}}, 0};
         for (int w = 0; w < WAVES; w++) {
             waves[w] = acos(-1.0) * (w + 1) / WAVES;
             for (int d = 0; d < 2; d++) part[2 * d][w] = p->transfer[d][w].re, part[2 * d + 1][w] = p->transfer[d][w].im;
@@ -320,7 +323,7 @@ static inline void page_operator(const atlas *a, int q)
     if (p->eigenvalues) {
         double *const re = numbers(p->eigenvalues), *const im = numbers(p->eigenvalues);
         for (int v = 0; v < p->eigenvalues; v++) re[v] = p->eigenvalue[v].re, im[v] = p->eigenvalue[v].im;
-        svg_plot plot = {"Eigenvalues times dx&#178;, jittered, values given at the edge", "real part", "imaginary part", 0, 0, 1, 0.0, 0.0, 0, {{0}}};
+        svg_plot plot = {"Eigenvalues times dx&#178;, jittered, values given at the edge", "real part", "imaginary part", 0, 0, 1, 0.0, 0.0, 0, {{0}}, 0};
         svg_add(&plot, "eigenvalue", re, im, p->eigenvalues);
         svg_write(to, &plot);
         free(re);
@@ -343,6 +346,87 @@ static inline void page_operator(const atlas *a, int q)
     page_close(a, &page);
 }
 
+/* ---- kernels.html ---- */
+
+/* W, -F = -(1/r) dW/dr, and the Fourier transform of W in 3D: 4 pi / k integral of W sin(k r) r dr, by Simpson's rule. */
+enum { KERNEL_POINTS = 61, KERNEL_STEPS = 400, KERNEL_GROUP = 6, KERNEL_GROUPS = (SPH_KERNEL_COUNT + KERNEL_GROUP - 1) / KERNEL_GROUP };
+static inline double kernel_transform(sph_kernel kernel, double k)
+{
+    const double end = (double)sph_kernel_support_ratio(kernel), step = end / KERNEL_STEPS;
+    double sum = 0.0;
+    for (int q = 1; q <= KERNEL_STEPS; q++) {
+        const double r = q * step;
+        sum += (q == KERNEL_STEPS ? 1.0 : q % 2 ? 4.0 : 2.0) * (double)sph_kernel_w(kernel, 3, SPH_R(r), SPH_R(1)) * (k > 0.0 ? sin(k * r) / k : r) * r;
+    }
+    return 4.0 * acos(-1.0) * sum * step / 3.0;
+}
+/* The density that is summed up on a lattice, where 1 is right. */
+static inline double kernel_density(sph_kernel kernel, int dim, double h_dx)
+{
+    const int reach = (int)ceil((double)sph_kernel_support_ratio(kernel) * h_dx);
+    double sum = 0.0;
+    for (int z = dim > 2 ? -reach : 0; z <= (dim > 2 ? reach : 0); z++)
+        for (int y = -reach; y <= reach; y++)
+            for (int x = -reach; x <= reach; x++) sum += (double)sph_kernel_w(kernel, dim, SPH_R(sqrt(x * x + y * y + z * z)), SPH_R(h_dx));
+    return sum;
+}
+static inline void page_kernels(const atlas *a)
+{
+    static double x[KERNEL_POINTS], k[KERNEL_POINTS], length[KERNEL_POINTS], w[SPH_KERNEL_COUNT][KERNEL_POINTS], f[SPH_KERNEL_COUNT][KERNEL_POINTS], transform[SPH_KERNEL_COUNT][KERNEL_POINTS],
+        density[SPH_KERNEL_COUNT][KERNEL_POINTS];
+    part_file page = page_open(a, "kernels", "Kernels");
+    FILE *const to = page.to;
+    for (int q = 0; q < KERNEL_POINTS; q++) {
+        x[q] = (double)q / (KERNEL_POINTS - 1);
+        k[q] = 24.0 * q / (KERNEL_POINTS - 1);
+        length[q] = 1.5 + 3.0 * q / (KERNEL_POINTS - 1);
+        for (int n = 0; n < (int)SPH_KERNEL_COUNT; n++) {
+            const sph_kernel kernel = (sph_kernel)n;
+            const double ratio = (double)sph_kernel_support_ratio(kernel), r = ratio * x[q];
+            w[n][q] = (double)sph_kernel_w(kernel, 3, SPH_R(r), SPH_R(1)) * pow(ratio, 3.0);
+            f[n][q] = q ? -(double)sph_kernel_f(kernel, 3, SPH_R(r), SPH_R(1)) * pow(ratio, 5.0) : (double)NAN;
+            transform[n][q] = kernel_transform(kernel, k[q] / ratio);
+            density[n][q] = kernel_density(kernel, 2, length[q] / ratio) - 1.0;
+        }
+    }
+    fputs("<p>All lengths are in units of the support, so that kernels can be compared at an equal number of neighbours. Where the Fourier transform is negative, particles may pair: "
+          "a wave of that length gains energy (Dehnen &amp; Aly 2012). The density is what a perfect lattice of the density 1 sums up.</p>\n<div class=\"scroll\" role=\"region\" aria-label=\"kernels\" tabindex=\"0\"><table class=\"sort\"><thead><tr>", to);
+    static const char *const column[] = {"kernel", "support / h", "usual h / dx", "density, 2D", "density, 3D", "h = 2 dx, 2D", "h = 2 dx, 3D", "least of the transform", "can pair"};
+    for (size_t c = 0; c < sizeof column / sizeof column[0]; c++) fprintf(to, "<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">%s</button></th>", column[c]);
+    fputs("</tr></thead>\n<tbody>\n", to);
+    for (int n = 0; n < (int)SPH_KERNEL_COUNT; n++) {
+        const sph_kernel kernel = (sph_kernel)n;
+        const double usual = (double)sph_kernel_h_over_dx(kernel);
+        double least = 1.0;
+        for (int q = 0; q < 4 * KERNEL_POINTS; q++) least = fmin(least, kernel_transform(kernel, 40.0 * q / (4 * KERNEL_POINTS) / (double)sph_kernel_support_ratio(kernel)));
+        const double value[7] = {(double)sph_kernel_support_ratio(kernel), usual, kernel_density(kernel, 2, usual), kernel_density(kernel, 3, usual), kernel_density(kernel, 2, 2.0), kernel_density(kernel, 3, 2.0), least};
+        fprintf(to, "<tr><th scope=\"row\">%s</th>", sph_kernel_name(kernel));
+        for (int c = 0; c < 7; c++) fprintf(to, c < 2 ? "<td data-v=\"%.6g\">%.2g</td>" : c < 6 ? "<td data-v=\"%.6g\">%.4f</td>" : "<td data-v=\"%.6g\">%.1e</td>", value[c], fabs(value[c]) < 1e-7 ? 0.0 : value[c]);
+        fprintf(to, "<td>%s</td></tr>\n", yes_no(least < -1e-5));
+    }
+    fputs("</tbody></table></div>\n<h2>Plots</h2>\n<div class=\"plots\">\n", to);
+    for (int group = 0; group < (int)KERNEL_GROUPS; group++) {
+        svg_plot plots[4] = {{"W in 3D", "r / support", "W support&#179;", 0, 0, 0, 0.0, 20.0, 0, {{0}}, 0},
+                             {"&#8722;F = &#8722;(1/r) dW/dr in 3D", "r / support", "&#8722;F support&#8309;", 0, 0, 0, 0.0, 120.0, 0, {{0}}, 0},
+                             {"Fourier transform in 3D", "k support", "transform", 0, 0, 0, 0.0, 0.0, 0, {{0}}, 0},
+                             {"Error of the density on a lattice in 2D", "support / dx", "error", 0, 0, 0, -0.1, 0.2, 0, {{0}}, 0}};
+        for (int n = group * KERNEL_GROUP; n < (group + 1) * KERNEL_GROUP && n < (int)SPH_KERNEL_COUNT; n++) {
+            const char *const name = sph_kernel_name((sph_kernel)n);
+            svg_add(&plots[0], name, x, w[n], KERNEL_POINTS);
+            svg_add(&plots[1], name, x, f[n], KERNEL_POINTS);
+            svg_add(&plots[2], name, k, transform[n], KERNEL_POINTS);
+            svg_add(&plots[3], name, length, density[n], KERNEL_POINTS);
+        }
+        for (int c = 0; c < 4; c++) {
+            plots[c].lines = 1;
+            svg_write(to, &plots[c]);
+        }
+    }
+    fputs("</div>\n", to);
+    fputs(atlas_script, to);
+    page_close(a, &page);
+}
+
 /* ---- choose.html ---- */
 
 /* The five questions: what an operator must have measured. */
@@ -357,7 +441,7 @@ static inline int answers_well(const atlas *a, int q, int question)
     switch (question) {
     case 0: return order[2] > 0.6;
     case 1: return order[1] > 0.6;
-    case 2: return r->of[0].momentum < 1e-10;
+    case 2: return o->family != VALUE && r->of[0].momentum < 1e-10;
     case 3: return has_rows(o) && r->of[0].monotone_all > 0.999;
     default: /* not dearer than the middle one of its family */
         if (isnan(r->cost[0])) return 0;
@@ -399,7 +483,7 @@ static inline void page_choose(const atlas *a)
         if (has_rows(o)) cell(to, 1.0 - r->of[0].monotone_all, (snprintf(word, sizeof word, "%.0f %%", 100.0 * r->of[0].monotone_all), word));
         else cell(to, (double)NAN, "-");
         cell(to, r->cost[0], isnan(r->cost[0]) ? "-" : (snprintf(word, sizeof word, "%.1f", r->cost[0]), word));
-        fputs("<td class=\"left\">", to);
+        fputs("<td class=\"note\">", to);
         html_text(to, o->note, strlen(o->note));
         fputs("</td></tr>\n", to);
     }
@@ -410,6 +494,7 @@ static inline void page_choose(const atlas *a)
 
 static inline void pages_write(const atlas *a)
 {
+    page_kernels(a);
     page_style(a);
     page_index(a);
     page_choose(a);

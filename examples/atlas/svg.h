@@ -21,6 +21,7 @@ typedef struct svg_plot {
     double lowest, highest;   /* of y, if they differ */
     int count;
     svg_series series[SVG_SERIES];
+    int lines; /* lines without marks */
 } svg_plot;
 
 static inline void svg_add(svg_plot *p, const char *name, const double *x, const double *y, int n)
@@ -46,7 +47,7 @@ static inline double svg_step(double length)
 
 static inline void svg_write(FILE *to, const svg_plot *p)
 {
-    const double left = 62.0, right = 488.0, top = 14.0, bottom = 262.0;
+    const double left = 80.0, right = 490.0, top = 14.0, bottom = 262.0;
     double x0 = HUGE_VAL, x1 = -HUGE_VAL, y0 = HUGE_VAL, y1 = -HUGE_VAL;
     for (int s = 0; s < p->count; s++)
         for (int q = 0; q < p->series[s].n; q++) {
@@ -71,7 +72,7 @@ static inline void svg_write(FILE *to, const svg_plot *p)
         y1 += room;
     }
     const double sx = (right - left) / (x1 - x0), sy = (bottom - top) / (y1 - y0);
-    fprintf(to, "<figure><figcaption>%s</figcaption>\n<svg viewBox=\"0 0 500 310\" role=\"img\" aria-label=\"%s: %s against %s\">\n", p->title, p->title, p->y, p->x);
+    fprintf(to, "<figure><figcaption>%s</figcaption>\n<svg viewBox=\"0 0 515 310\" role=\"img\" aria-label=\"%s: %s against %s\">\n", p->title, p->title, p->y, p->x);
     const double step_y = p->log_y ? fmax(1.0, ceil((y1 - y0) / 6.0)) : svg_step(y1 - y0), step_x = p->log_x ? log10(2.0) : svg_step(x1 - x0);
     for (double v = ceil(y0 / step_y - 1e-6) * step_y; v <= y1 + 1e-9; v += step_y) {
         const double y = bottom - (v - y0) * sy;
@@ -93,10 +94,7 @@ static inline void svg_write(FILE *to, const svg_plot *p)
         if (!p->points) {
             fprintf(to, "<path class=\"s%d\" d=\"", s);
             for (int q = 0; q < c->n; q++) {
-                if (!svg_shown(p, c->x[q], c->y[q])) {
-                    open = 0;
-                    continue;
-                }
+                if (!svg_shown(p, c->x[q], c->y[q])) continue;
                 double y = svg_scaled(p->log_y, c->y[q]);
                 y = fmin(y1, fmax(y0, y));
                 fprintf(to, "%c%.1f %.1f", open ? 'L' : 'M', left + (svg_scaled(p->log_x, c->x[q]) - x0) * sx, bottom - (y - y0) * sy);
@@ -105,7 +103,7 @@ static inline void svg_write(FILE *to, const svg_plot *p)
             fputs("\"/>\n", to);
         }
         fprintf(to, "<g class=\"m%d\">", s);
-        for (int q = 0; q < c->n; q++) {
+        for (int q = 0; q < c->n && !p->lines; q++) {
             if (!svg_shown(p, c->x[q], c->y[q])) continue;
             const double x = left + (svg_scaled(p->log_x, c->x[q]) - x0) * sx, y = bottom - (fmin(y1, fmax(y0, svg_scaled(p->log_y, c->y[q]))) - y0) * sy;
             if (p->points || s % 4 == 0) fprintf(to, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"/>", x, y, p->points ? "2" : "3");
