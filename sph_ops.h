@@ -7656,7 +7656,9 @@ SPH_FN int sphi_check_wall(sph_kernel k, int dim, sph_cloud cloud, sph_wall_term
 /* grad f_i = (sum_j V_j f_j grad_i W_ij - f_w grad gamma_i) / gamma_i, the particles of the fluid being all
    sources, with wall.value the f_w of each target. Ferrand et al. 2013. W has the h of the target. For its
    error see above. SPH_ERROR_VALUE for a gamma that is not positive. Returns the number of targets whose
-   result overflowed (it is 0 then), or a negative sph_error. */
+   result overflowed (it is 0 then), or a negative sph_error.
+   Atlas: gradient exact for nothing, inside lattices for constants; order 0 inside lattices, -1 in
+   disorder, -1 at boundaries. */
 SPH_FN sph_index sph_wall_gradient(sph_kernel k, int dim, sph_cloud cloud, sph_wall_terms wall, sph_scalars f,
                                    sph_vector_out out)
 {
@@ -7735,7 +7737,9 @@ SPH_FN sph_index sph_wall_gradient_rows(sph_kernel k, int dim, sph_cloud cloud, 
 /* lap f_i = (sum_j 2 V_j (f_i - f_j) F_ij - 2 g_w . grad gamma_i) / gamma_i, with wall.slope the g_w of each
    target: the gradient of f at the wall, of which the part along the normal counts. Where f_w is given
    instead, at the distance d in front of one wall, g_w = (f_w - f_i) / d n. Macia et al. 2012; Ferrand et al.
-   2013, who take the mean of the gradients on both sides. Errors and answer as above. */
+   2013, who take the mean of the gradients on both sides. Errors and answer as above.
+   Atlas: Laplacian exact for constants, inside lattices for linear fields; order 0 inside lattices, -1 in
+   disorder, -1 at boundaries. */
 SPH_FN sph_index sph_wall_laplacian(sph_kernel k, int dim, sph_cloud cloud, sph_wall_terms wall,
                                     sph_scalars f, sph_scalar_out out)
 {

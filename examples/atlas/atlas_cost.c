@@ -65,14 +65,14 @@ int main(int argc, char **argv)
     int full = 0;
     const option_spec specs[] = {
         {"out", "directory of the table of results", OPTION_TEXT, &out, 0, 0},
-        {"figures", "directory of the measured numbers, atlas_cost.csv", OPTION_TEXT, &figures, 0, 0},
+        {"figures", "directory of the measured numbers, atlas_costs.csv", OPTION_TEXT, &figures, 0, 0},
         {"full", "more repetitions", OPTION_FLAG, &full, 0, 0},
     };
     part_file csv;
     report r;
     options_parse(argc, argv, "The atlas: what each operator costs beside a density.", specs, (int)(sizeof specs / sizeof specs[0]));
     report_open(&r, "atlas_cost", out);
-    if (!part_file_open(&csv, figures, "atlas_cost", "csv")) {
+    if (!part_file_open(&csv, figures, "atlas_costs", "csv")) {
         fprintf(stderr, "atlas_cost: cannot write %s: create the folder first\n", csv.part);
         return 2;
     }

@@ -74,7 +74,7 @@ static void read_costs(const char *figures)
     char path[1024], line[256];
     for (int o = 0; o < wanted; o++)
         for (int d = 0; d < 2; d++) results[o].cost[d] = results[o].cost_ns[d] = (double)NAN;
-    snprintf(path, sizeof path, "%s/atlas_cost.csv", figures);
+    snprintf(path, sizeof path, "%s/atlas_costs.csv", figures);
     FILE *const csv = fopen(path, "rb");
     if (!csv) return;
     while (fgets(line, sizeof line, csv)) {

@@ -116,6 +116,10 @@ static inline void errors_of(const op *o, sample *s, arrays *a, const field *f, 
         position(s, i, x);
         for (int c = 0; c < inputs; c++) a->in[c][i] = field_at(&f[c], x).value;
         s->mobility[i] = mobility_at(s->dim, varied, x).value;
+        for (int c = 0; c < 3; c++) x[c] = s->wall_point[c][i];
+        const jet at_wall = field_at(&f[0], x);
+        s->wall_value[i] = at_wall.value;
+        for (int c = 0; c < 3; c++) s->wall_slope[c][i] = at_wall.d[c];
     }
     apply(o, s, a->in, a->out);
     for (sph_index i = s->cloud.first; i < s->cloud.last; i++) {
@@ -311,6 +315,12 @@ static inline void measure_transfer(const op *o, sample *s, portrait *p)
 
 /* ---- what the matrix of an operator is like: all its weights, by giving 1 to one particle after another ---- */
 
+/* The walls of boundary integrals give nothing: what is left is linear in the particles' values. */
+static inline void walls_zero(sample *s)
+{
+    memset(s->wall_value, 0, (size_t)s->n * sizeof(double));
+    for (int c = 0; c < 3; c++) memset(s->wall_slope[c], 0, (size_t)s->n * sizeof(double));
+}
 /* 1 if nothing is cut off from the support of a particle */
 static inline int uncut(const sample *s, sph_index i)
 {
@@ -325,6 +335,7 @@ static inline void measure_matrix(const op *o, sample *s, portrait *p)
 {
     arrays a = arrays_of(s->n);
     const sph_index n = s->n;
+    walls_zero(s);
     double *const matrix = (double *)need_zeros((size_t)(n * n), sizeof *matrix), *const error = numbers(n);
     const int scalar = family_inputs(o->family, s->dim) == 1 && family_outputs(o->family, s->dim) == 1;
     for (sph_index i = 0; i < n; i++) s->mobility[i] = 1.0;
@@ -437,7 +448,7 @@ static inline void turn(double c, double s, double *x, double *y)
 static const double atlas_angle = 0.5;
 static inline void sample_turn(sample *s)
 {
-    for (sph_index i = 0; i < s->n; i++) turn(cos(atlas_angle), sin(atlas_angle), &s->x[0][i], &s->x[1][i]);
+    for (sph_index i = 0; i < s->n; i++) turn(cos(atlas_angle), sin(atlas_angle), &s->x[0][i], &s->x[1][i]), turn(cos(atlas_angle), sin(atlas_angle), &s->wall_gradient[0][i], &s->wall_gradient[1][i]);
     s->cloud = sph_cloud_range(s->cloud, 0, s->n);
     sample_corrections(s);
     s->cloud = sph_cloud_range(s->cloud, 0, s->targets);
@@ -451,6 +462,8 @@ static inline void measure_rotation(const op *o, sample *s, sample *turned, port
     double worst = 0.0, size = 0.0;
     pcg32 g;
     pcg32_seed(&g, 31, 9);
+    walls_zero(s);
+    walls_zero(turned);
     for (sph_index i = 0; i < s->n; i++) {
         s->mobility[i] = turned->mobility[i] = 1.0;
         for (int q = 0; q < inputs; q++) a.in[q][i] = b.in[q][i] = pcg32_uniform(&g);

@@ -33,6 +33,7 @@ typedef struct views {
     sph_interpolation_out value, slope;
     sph_velocity_gradient_out div_v;
     sph_rk rk;
+    sph_wall_terms wall;
     sph_matrices iad, tensor;
     sph_medium medium;
     sph_fluid pressure, moving; /* p = f at rest; and v without pressure */
@@ -97,6 +98,10 @@ static inline views views_of(const sample *s, double *const *in, double *const *
     a.value.value = out[0];
     a.div_v.div = out[0];
     a.div_v.status = s->status;
+    a.wall.gamma = sph_scalars_array(s->gamma);
+    a.wall.gradient = vectors_of(s->wall_gradient, 3);
+    a.wall.value = sph_scalars_array(s->wall_value);
+    a.wall.slope = vectors_of(s->wall_slope, 3);
     a.rk.scale = sph_scalars_array(c[0]);
     a.rk.slope = vectors_of(c + 1, 3);
     a.rk.scale_gradient = vectors_of(c + 4, 3);
@@ -231,6 +236,10 @@ static inline const char *list_kind_text(int list)
       "df = e . (h grad f) + e_a e_b (h^2/2 d_a d_b f) + ...; g = w = V_j W_ij", "weighted least-squares fit of a quadratic (moving least squares at the particle)", \
       "The gradient of a quadratic fit: second order at boundaries, too, at the price of the fit.", \
       sph_derivatives_wls(k, dim, a.cloud, a.f, a.second, a.gradient)) \
+    X(wall_gradient, sph_wall_gradient, GRADIENT, GATHER, \
+      "grad f = (sum_j V_j f_j grad_i W_ij - f_w grad gamma) / gamma", "Ferrand et al. 2013, IJNMF 71, 446", \
+      "Walls without particles in them; all sides are walls here, and the field is given there. The sum form: compare it with gradient_symmetric.", \
+      sph_wall_gradient(k, dim, a.cloud, a.wall, a.f, a.vector)) \
     X(pressure_monaghan, sph_fluid_rates_monaghan, PRESSURE, MEAN, \
       "a_i = -sum_j m_j (P_ij + Pi_ij) grad_i W_ij", "Monaghan 1992, (3.3)", \
       "Keeps momentum and angular momentum. The forms for jumps of density are the same where there is none, as here.", \
@@ -287,6 +296,10 @@ static inline const char *list_kind_text(int list)
       "df = e . (h grad f) + e_a e_b (h^2/2 d_a d_b f) + ...; g = w = V_j W_ij", "weighted least-squares fit of a quadratic (moving least squares at the particle)", \
       "The most accurate, and not singular where there are enough neighbours.", \
       sph_derivatives_wls(k, dim, a.cloud, a.f, a.second, a.laplacian)) \
+    X(wall_laplacian, sph_wall_laplacian, LAPLACIAN, GATHER, \
+      "lap f = (sum_j 2 V_j (f_i - f_j) F_ij - 2 g_w . grad gamma) / gamma", "Macia et al. 2012, Prog. Theor. Phys. 128, 439", \
+      "Walls without particles in them; all sides are walls here, and the slope of the field is given there. Compare it with laplacian_brookshaw.", \
+      sph_wall_laplacian(k, dim, a.cloud, a.wall, a.f, a.scalar)) \
     X(hessian_cspm, sph_derivatives_cspm, HESSIAN, GATHER, \
       "h^2 hess = M^-1 (sum w e e df - A h grad f)", "Chen, Beraun & Carney 1999, IJNME 46, 231", \
       "Kept because it is published: the others cost as much and are better.", \

@@ -117,7 +117,7 @@ static inline void page_style(const atlas *a)
           "tbody tr:hover{background:var(--box)}td.left{text-align:left}td.note{white-space:normal;min-width:18rem;text-align:left}form{display:flex;flex-wrap:wrap;gap:.6rem 1.5rem;margin:1rem 0}label{display:inline-block}input,select{font:inherit;padding:.2rem .4rem;background:var(--ground);color:var(--ink);border:1px solid var(--faint);border-radius:3px}\n"
           "pre{background:var(--box);padding:.8rem;overflow-x:auto;font-size:.85rem}.equation{overflow-x:auto;padding:.5rem;background:var(--box)}math{font-size:1.2rem}\n"
           ".plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,27rem),1fr));gap:1rem}figure{margin:0;border:1px solid var(--line);padding:.5rem}figcaption{font-weight:bold}figure>svg{width:100%;height:auto}\n"
-          ".legend{list-style:none;margin:0;padding:0;display:flex;flex-wrap:wrap;gap:0 1rem;font-size:.85rem}.legend svg{vertical-align:middle}.grid{stroke:var(--line);fill:none}.t{fill:var(--ink);font-size:13px}\n"
+          ".legend{list-style:none;margin:0;padding:0;display:flex;flex-wrap:wrap;gap:0 1rem;font-size:.85rem}.legend svg{vertical-align:middle}.p{stroke:var(--c0);stroke-width:4;stroke-linecap:round;fill:none}.grid{stroke:var(--line);fill:none}.t{fill:var(--ink);font-size:13px}\n"
           "dt{font-weight:bold;margin-top:.4rem}dd{margin:0 0 0 1rem}footer{margin-top:3rem;color:var(--faint);font-size:.85rem}.no{color:var(--faint)}\n",
           to);
     static const char *const dash[SVG_SERIES] = {"none", "7 3", "2 3", "9 3 2 3", "none", "5 5", "1 4", "12 4"};
@@ -283,12 +283,12 @@ static inline void page_operator(const atlas *a, int q)
     for (int level = 0; level < LEVELS; level++) spacing[level] = level_spacing(level);
     for (int d = 0; d < DISTANCES; d++) away[d] = 0.5 * d;
     {
-        svg_plot plot = {"Error inside", "spacing dx", "error", 1, 1, 0, 0.0, 0.0, 0, {{0}}, 0};
+        svg_plot plot = {"Error inside", "spacing dx", "error", 1, 1, 0, 0.0, 0.0, 0, {{0}}};
         for (int kind = 0; kind < SAMPLE_KINDS; kind++) svg_add(&plot, sample_kind_name(kind), spacing, r->at[0].rms[kind][REGION_INSIDE], LEVELS);
         svg_write(to, &plot);
     }
     {
-        svg_plot plot = {"Error at boundaries", "spacing dx", "error", 1, 1, 0, 0.0, 0.0, 0, {{0}}, 0};
+        svg_plot plot = {"Error at boundaries", "spacing dx", "error", 1, 1, 0, 0.0, 0.0, 0, {{0}}};
         svg_add(&plot, "lattice, wall", spacing, r->at[0].rms[SAMPLE_LATTICE][REGION_WALL], LEVELS);
         svg_add(&plot, "lattice, free surface", spacing, r->at[0].rms[SAMPLE_LATTICE][REGION_SURFACE], LEVELS);
         svg_add(&plot, "lattice, corner", spacing, r->at[0].rms[SAMPLE_LATTICE][REGION_CORNER], LEVELS);
@@ -297,19 +297,19 @@ static inline void page_operator(const atlas *a, int q)
         svg_write(to, &plot);
     }
     {
-        svg_plot plot = {"Error against the distance from a boundary, lattice, dx = 1/32", "distance / dx", "error", 0, 1, 0, 0.0, 0.0, 0, {{0}}, 0};
+        svg_plot plot = {"Error against the distance from a boundary, lattice, dx = 1/32", "distance / dx", "error", 0, 1, 0, 0.0, 0.0, 0, {{0}}};
         svg_add(&plot, "wall", away, p->at_distance[0], DISTANCES);
         svg_add(&plot, "free surface", away, p->at_distance[1], DISTANCES);
         svg_write(to, &plot);
     }
     {
-        svg_plot plot = {"Error against jitter, inside, dx = 1/32", "largest displacement / dx", "error", 0, 1, 0, 0.0, 0.0, 0, {{0}}, 0};
+        svg_plot plot = {"Error against jitter, inside, dx = 1/32", "largest displacement / dx", "error", 0, 1, 0, 0.0, 0.0, 0, {{0}}};
         svg_add(&plot, "2D", atlas_jitter, p->at_jitter, JITTERS);
         svg_add(&plot, "3D", atlas_jitter, r->of[1].at_jitter, JITTERS);
         svg_write(to, &plot);
     }
     {
-        svg_plot plot = {"Response to a wave, as a share of the true one", "k dx", "share", 0, 0, 0, -0.5, 1.6, 0, {{0}}, 0};
+        svg_plot plot = {"Response to a wave, as a share of the true one", "k dx", "share", 0, 0, 0, -0.5, 1.6, 0, {{0}}};
         for (int w = 0; w < WAVES; w++) {
             waves[w] = acos(-1.0) * (w + 1) / WAVES;
             for (int d = 0; d < 2; d++) part[2 * d][w] = p->transfer[d][w].re, part[2 * d + 1][w] = p->transfer[d][w].im;
@@ -323,7 +323,7 @@ static inline void page_operator(const atlas *a, int q)
     if (p->eigenvalues) {
         double *const re = numbers(p->eigenvalues), *const im = numbers(p->eigenvalues);
         for (int v = 0; v < p->eigenvalues; v++) re[v] = p->eigenvalue[v].re, im[v] = p->eigenvalue[v].im;
-        svg_plot plot = {"Eigenvalues times dx&#178;, jittered, values given at the edge", "real part", "imaginary part", 0, 0, 1, 0.0, 0.0, 0, {{0}}, 0};
+        svg_plot plot = {"Eigenvalues times dx&#178;, jittered, values given at the edge", "real part", "imaginary part", 0, 0, 1, 0.0, 0.0, 0, {{0}}};
         svg_add(&plot, "eigenvalue", re, im, p->eigenvalues);
         svg_write(to, &plot);
         free(re);
@@ -406,10 +406,10 @@ static inline void page_kernels(const atlas *a)
     }
     fputs("</tbody></table></div>\n<h2>Plots</h2>\n<div class=\"plots\">\n", to);
     for (int group = 0; group < (int)KERNEL_GROUPS; group++) {
-        svg_plot plots[4] = {{"W in 3D", "r / support", "W support&#179;", 0, 0, 0, 0.0, 20.0, 0, {{0}}, 0},
-                             {"&#8722;F = &#8722;(1/r) dW/dr in 3D", "r / support", "&#8722;F support&#8309;", 0, 0, 0, 0.0, 120.0, 0, {{0}}, 0},
-                             {"Fourier transform in 3D", "k support", "transform", 0, 0, 0, 0.0, 0.0, 0, {{0}}, 0},
-                             {"Error of the density on a lattice in 2D", "support / dx", "error", 0, 0, 0, -0.1, 0.2, 0, {{0}}, 0}};
+        svg_plot plots[4] = {{"W in 3D", "r / support", "W support&#179;", 0, 0, 0, 0.0, 20.0, 0, {{0}}},
+                             {"&#8722;F = &#8722;(1/r) dW/dr in 3D", "r / support", "&#8722;F support&#8309;", 0, 0, 0, 0.0, 120.0, 0, {{0}}},
+                             {"Fourier transform in 3D", "k support", "transform", 0, 0, 0, 0.0, 0.0, 0, {{0}}},
+                             {"Error of the density on a lattice in 2D", "support / dx", "error", 0, 0, 0, -0.1, 0.2, 0, {{0}}}};
         for (int n = group * KERNEL_GROUP; n < (group + 1) * KERNEL_GROUP && n < (int)SPH_KERNEL_COUNT; n++) {
             const char *const name = sph_kernel_name((sph_kernel)n);
             svg_add(&plots[0], name, x, w[n], KERNEL_POINTS);
@@ -417,10 +417,7 @@ static inline void page_kernels(const atlas *a)
             svg_add(&plots[2], name, k, transform[n], KERNEL_POINTS);
             svg_add(&plots[3], name, length, density[n], KERNEL_POINTS);
         }
-        for (int c = 0; c < 4; c++) {
-            plots[c].lines = 1;
-            svg_write(to, &plots[c]);
-        }
+        for (int c = 0; c < 4; c++) svg_write(to, &plots[c]);
     }
     fputs("</div>\n", to);
     fputs(atlas_script, to);

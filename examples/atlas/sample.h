@@ -44,6 +44,9 @@ typedef struct sample {
     double *unit[3], *unit_volume; /* in spacings */
     double *x[3], *volume, h;      /* zoomed */
     double *mobility;              /* of the elliptic operators */
+    /* of operators with boundary integrals, for which all sides are walls: gamma, its gradient, the nearest point of
+       the nearest side, and there the field and its gradient */
+    double *gamma, *wall_gradient[3], *wall_point[3], *wall_value, *wall_slope[3];
     double *correction[SAMPLE_CORRECTIONS], corrected_at; /* the spacing they were made for, 0: not yet */
        /* of reproducing kernels, and C of IAD */
     unsigned char *region, *status;
@@ -80,10 +83,15 @@ static inline void sample_alloc(sample *s, sph_index n)
         s->unit[a] = numbers(n);
         s->x[a] = numbers(n);
         s->scratch[a] = numbers(n);
+        s->wall_gradient[a] = numbers(n);
+        s->wall_point[a] = numbers(n);
+        s->wall_slope[a] = numbers(n);
     }
     s->unit_volume = numbers(n);
     s->volume = numbers(n);
     s->mobility = numbers(n);
+    s->gamma = numbers(n);
+    s->wall_value = numbers(n);
     s->conditioning = numbers(n);
     for (int c = 0; c < SAMPLE_CORRECTIONS; c++) s->correction[c] = numbers(n);
     s->region = (unsigned char *)need_zeros((size_t)n, 1);
@@ -96,11 +104,16 @@ static inline void sample_free(sample *s)
         free(s->unit[a]);
         free(s->x[a]);
         free(s->scratch[a]);
+        free(s->wall_gradient[a]);
+        free(s->wall_point[a]);
+        free(s->wall_slope[a]);
     }
     for (int c = 0; c < SAMPLE_CORRECTIONS; c++) free(s->correction[c]);
     free(s->unit_volume);
     free(s->volume);
     free(s->mobility);
+    free(s->gamma);
+    free(s->wall_value);
     free(s->conditioning);
     free(s->region);
     free(s->status);
@@ -131,6 +144,33 @@ static inline sph_rk_out sample_rk_out(const sample *s)
     return o;
 }
 
+/* gamma and its gradient, of the box of the domain; it is not turned. */
+static inline void sample_walls(sample *s)
+{
+    /* corners of the box that the sides join: their normals point out of it */
+    static const int segment[4][2] = {{0, 1}, {1, 3}, {3, 2}, {2, 0}};
+    static const int square[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    const double half_width = 0.5 * (s->side - 0.5) * s->spacing;
+    double at[3][3][12]; /* corner, component, element */
+    sph_wall_elements walls;
+    sph_wall_gamma_out out;
+    memset(at, 0, sizeof at);
+    memset(&walls, 0, sizeof walls);
+    memset(&out, 0, sizeof out);
+    walls.n = s->dim == 2 ? 4 : 12;
+    for (int e = 0; e < (int)walls.n; e++)
+        for (int c = 0; c < s->dim; c++) {
+            const int corner = s->dim == 2 ? segment[e][c] : square[e / 2][c == 0 ? 0 : c + e % 2];
+            for (int a = 0; a < s->dim; a++) at[c][a][e] = corner >> a & 1 ? half_width : -half_width;
+        }
+    walls.a = sph_vectors_separate(at[0][0], at[0][1], at[0][2]);
+    walls.b = sph_vectors_separate(at[1][0], at[1][1], at[1][2]);
+    walls.c = sph_vectors_separate(at[2][0], at[2][1], at[2][2]);
+    out.gamma = s->gamma;
+    out.gradient = vectors_into(s->wall_gradient, 3);
+    out.stride = 1;
+    expect(sph_wall_gamma(s->k, s->dim, s->cloud, walls, out));
+}
 static inline void sample_corrections(sample *s)
 {
     double *const *const c = s->correction + 16;
@@ -145,6 +185,8 @@ static inline void sample_rescale(sample *s)
     const double once = s->corrected_at / s->spacing;
     for (int c = 1; c < SAMPLE_CORRECTIONS; c++)
         for (sph_index i = 0; i < s->n; i++) s->correction[c][i] *= c < 7 ? once : once * once;
+    for (int a = 0; a < 3; a++)
+        for (sph_index i = 0; i < s->n; i++) s->wall_gradient[a][i] *= once;
     s->corrected_at = s->spacing;
 }
 
@@ -161,7 +203,18 @@ static inline void sample_zoom(sample *s, double dx)
     s->cloud = sph_cloud_of(sph_points_separate(s->n, s->x[0], s->x[1], s->x[2]), search_list(&s->lists), sph_scalars_same(&s->h), sph_scalars_array(s->volume));
     s->cloud = sph_cloud_checked(s->dim, s->cloud);
     if (s->corrected_at > 0.0) sample_rescale(s);
-    else sample_corrections(s);
+    else {
+        sample_corrections(s);
+        sample_walls(s);
+    }
+    for (sph_index i = 0; i < s->n; i++) {
+        const double half_width = 0.5 * (s->side - 0.5) * dx;
+        int nearest = 0;
+        for (int a = 0; a < 3; a++) s->wall_point[a][i] = s->x[a][i];
+        for (int a = 1; a < s->dim; a++)
+            if (fabs(s->x[a][i]) > fabs(s->x[nearest][i])) nearest = a;
+        s->wall_point[nearest][i] = s->x[nearest][i] < 0.0 ? -half_width : half_width;
+    }
     s->cloud = sph_cloud_range(s->cloud, 0, s->targets);
 }
 

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { SVG_SERIES = 8 };
+enum { SVG_SERIES = 8, SVG_MARKED = 12 }; /* longer series are lines without marks */
 typedef struct svg_series {
     const char *name;
     const double *x, *y;
@@ -21,7 +21,6 @@ typedef struct svg_plot {
     double lowest, highest;   /* of y, if they differ */
     int count;
     svg_series series[SVG_SERIES];
-    int lines; /* lines without marks */
 } svg_plot;
 
 static inline void svg_add(svg_plot *p, const char *name, const double *x, const double *y, int n)
@@ -102,11 +101,19 @@ static inline void svg_write(FILE *to, const svg_plot *p)
             }
             fputs("\"/>\n", to);
         }
+        if (p->points) { /* all as one path, of lines without length that have round ends */
+            fprintf(to, "<path class=\"p\" d=\"");
+            for (int q = 0; q < c->n; q++)
+                if (svg_shown(p, c->x[q], c->y[q])) fprintf(to, "M%.1f %.1fh0", left + (svg_scaled(p->log_x, c->x[q]) - x0) * sx, bottom - (fmin(y1, fmax(y0, svg_scaled(p->log_y, c->y[q]))) - y0) * sy);
+            fputs("\"/>\n", to);
+            continue;
+        }
+        if (c->n > SVG_MARKED) continue;
         fprintf(to, "<g class=\"m%d\">", s);
-        for (int q = 0; q < c->n && !p->lines; q++) {
+        for (int q = 0; q < c->n; q++) {
             if (!svg_shown(p, c->x[q], c->y[q])) continue;
             const double x = left + (svg_scaled(p->log_x, c->x[q]) - x0) * sx, y = bottom - (fmin(y1, fmax(y0, svg_scaled(p->log_y, c->y[q]))) - y0) * sy;
-            if (p->points || s % 4 == 0) fprintf(to, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"/>", x, y, p->points ? "2" : "3");
+            if (s % 4 == 0) fprintf(to, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\"/>", x, y);
             else if (s % 4 == 1) fprintf(to, "<path d=\"M%.1f %.1fh6v6h-6z\"/>", x - 3.0, y - 3.0);
             else if (s % 4 == 2) fprintf(to, "<path d=\"M%.1f %.1fl4 7h-8z\"/>", x, y - 4.0);
             else fprintf(to, "<path d=\"M%.1f %.1fl4 4l-4 4l-4-4z\"/>", x, y - 4.0);
@@ -118,7 +125,7 @@ static inline void svg_write(FILE *to, const svg_plot *p)
         static const char *const mark[4] = {"<circle cx=\"15\" cy=\"6\" r=\"3\"/>", "<path d=\"M12 3h6v6h-6z\"/>", "<path d=\"M15 2l4 7h-8z\"/>", "<path d=\"M15 2l4 4l-4 4l-4-4z\"/>"};
         fprintf(to, "<li><svg width=\"30\" height=\"12\" aria-hidden=\"true\">");
         if (!p->points) fprintf(to, "<path class=\"s%d\" d=\"M0 6H30\"/>", s);
-        fprintf(to, "<g class=\"m%d\">%s</g></svg> %s</li>", s, mark[p->points ? 0 : s % 4], p->series[s].name);
+        fprintf(to, "<g class=\"m%d\">%s</g></svg> %s</li>", s, p->points ? mark[0] : p->series[s].n > SVG_MARKED ? "" : mark[s % 4], p->series[s].name);
     }
     fputs("</ul></figure>\n", to);
 }
