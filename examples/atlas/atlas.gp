@@ -17,17 +17,20 @@ if (there("atlas_errors")) {
     set logscale y 10
     set format y "10^{%T}"
     set xlabel "dx"
-    set xtics ("1/8" 0.125, "1/16" 0.0625, "1/32" 0.03125, "1/64" 0.015625, "1/128" 0.0078125, "1/256" 0.00390625) rotate by -45
-    set key bottom right samplen 2 font "sans,10"
+    set xtics ("1/16" 0.0625, "1/32" 0.03125, "1/64" 0.015625, "1/128" 0.0078125, "1/256" 0.00390625, "1/512" 0.001953125) rotate by -45
+    set xrange [0.0017:0.07]
+    set key top left reverse Left samplen 2 font "sans,10"
     array cloud[3] = ["lattice", "random", "lattice"]
     array region[3] = ["inside", "inside", "wall"]
     array what[3] = ["inside a lattice", "inside, random particles", "at a wall, lattice"]
     do for [k = 1:3] {
         set title what[k]
+        if (k > 1) { unset key } else { set key }
         plot for [o in "gradient_difference gradient_symmetric gradient_cspm gradient_iad gradient_rk gradient_wls"] rows(o, cloud[k], region[k]) using 7:8 with linespoints title o[10:*] noenhanced
     }
     do for [k = 1:3] {
         set title what[k]
+        if (k > 1) { unset key } else { set key }
         plot for [o in "laplacian_brookshaw laplacian_cspm laplacian_icspm laplacian_fatehi_manzari laplacian_wls"] rows(o, cloud[k], region[k]) using 7:8 with linespoints title o[11:*] noenhanced
     }
     unset multiplot

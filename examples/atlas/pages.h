@@ -390,7 +390,7 @@ static inline void page_kernels(const atlas *a)
         }
     }
     fputs("<p>All lengths are in units of the support, so that kernels can be compared at an equal number of neighbours. Where the Fourier transform is negative, particles may pair: "
-          "a wave of that length gains energy (Dehnen &amp; Aly 2012). The density is what a perfect lattice of the density 1 sums up.</p>\n<div class=\"scroll\" role=\"region\" aria-label=\"kernels\" tabindex=\"0\"><table class=\"sort\"><thead><tr>", to);
+          "a wave of that length gains energy (Dehnen &amp; Aly 2012); here it counts from &#8722;1e-5 on. The density is what a perfect lattice of the density 1 sums up.</p>\n<div class=\"scroll\" role=\"region\" aria-label=\"kernels\" tabindex=\"0\"><table class=\"sort\"><thead><tr>", to);
     static const char *const column[] = {"kernel", "support / h", "usual h / dx", "density, 2D", "density, 3D", "h = 2 dx, 2D", "h = 2 dx, 3D", "least of the transform", "can pair"};
     for (size_t c = 0; c < sizeof column / sizeof column[0]; c++) fprintf(to, "<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">%s</button></th>", column[c]);
     fputs("</tr></thead>\n<tbody>\n", to);
@@ -448,6 +448,62 @@ static inline int answers_well(const atlas *a, int q, int question)
         return r->cost[0] <= statistics_quantile(usual, count, 0.5);
     }
 }
+/* The figure that answers a question: the smaller the better; and in words. */
+static inline double answer_figure(const atlas *a, int q, int question, char text[96])
+{
+    const result *const r = &a->results[q];
+    const errors *const e = &r->at[0];
+    char one[32], two[32];
+    double order[3];
+    measured_orders(e, order);
+    switch (question) {
+    case 0: {
+        const double error = worse(e->rms[SAMPLE_LATTICE][REGION_WALL][SHOWN], e->rms[SAMPLE_LATTICE][REGION_SURFACE][SHOWN]);
+        snprintf(text, 96, "%s, order %s", error_text(one, error), order_text(two, order[2]));
+        return error;
+    }
+    case 1: {
+        const double error = e->rms[SAMPLE_RANDOM][REGION_INSIDE][SHOWN];
+        snprintf(text, 96, "%s, order %s", error_text(one, error), order_text(two, order[1]));
+        return error;
+    }
+    case 2: snprintf(text, 96, "%s", error_text(one, r->of[0].momentum < 1e-10 ? 0.0 : r->of[0].momentum)); return r->of[0].momentum;
+    case 3: snprintf(text, 96, "%.0f %%", 100.0 * r->of[0].monotone_all); return 1.0 - r->of[0].monotone_all;
+    default: snprintf(text, 96, "%.1f", r->cost[0]); return r->cost[0];
+    }
+}
+/* What follows from a question: of each family the operators that have it, the best first, and those that have not. */
+static inline void answer_section(FILE *to, const atlas *a, int question, const char *heading, const char *follows, const char *figure)
+{
+    fprintf(to, "<h2>%s</h2>\n<p>%s In brackets: %s.</p>\n<ul>\n", heading, follows, figure);
+    for (int f = 0; f < FAMILIES; f++) {
+        int rank[64], count = 0, good_ones = 0;
+        double value[64];
+        char text[96];
+        for (int q = 0; q < a->count && count < 64; q++) {
+            if (a->operators[q].family != f || (question == 3 && !has_rows(&a->operators[q])) || (question == 2 && f == VALUE)) continue;
+            const int good = answers_well(a, q, question);
+            const double figure_of = answer_figure(a, q, question, text) + (good ? 0.0 : 1e100);
+            int place = count++;
+            if (isnan(figure_of)) {
+                count--;
+                continue;
+            }
+            for (; place > 0 && value[place - 1] > figure_of; place--) value[place] = value[place - 1], rank[place] = rank[place - 1];
+            value[place] = figure_of;
+            rank[place] = q;
+            good_ones += good;
+        }
+        if (!count) continue;
+        fprintf(to, "<li>%s: %s", family(f).heading, good_ones ? "" : "none");
+        for (int place = 0; place < count; place++) {
+            answer_figure(a, rank[place], question, text);
+            fprintf(to, "%s<a href=\"%s.html\">%s</a> (%s)", place == good_ones ? (place ? "; but not " : "; not ") : place ? ", " : "", a->operators[rank[place]].id, a->operators[rank[place]].id, text);
+        }
+        fputs("</li>\n", to);
+    }
+    fputs("</ul>\n", to);
+}
 static inline void page_choose(const atlas *a)
 {
     static const char *const name[QUESTIONS] = {"boundary", "disorder", "conservation", "signs", "cost"};
@@ -485,6 +541,15 @@ static inline void page_choose(const atlas *a)
         fputs("</td></tr>\n", to);
     }
     fputs("</tbody></table></div>\n", to);
+    answer_section(to, a, 0, "Boundaries?", "If supports are cut off, take what is renormalised: its error falls there with the spacing. A quadratic fit gains another order for gradients, and is what second derivatives need. "
+                   "Without it, keep the uncorrected form and give it particles or integrals behind the boundary.", "error next to a wall or free surface of a lattice at dx = 1/64, and its order");
+    answer_section(to, a, 1, "Disorder?", "On a lattice nearly all are of second order, down to what h / dx leaves. On particles that move, only what is exact for linear fields (gradients) or quadratic ones (second derivatives) gets better with more of them.",
+                   "error on random particles, inside, at dx = 1/64, and its order");
+    answer_section(to, a, 2, "Conservation?", "Forces and fluxes that must not create momentum or heat are sums over pairs with the same weight from both sides. They are inconsistent pointwise, and their particles order themselves instead.",
+                   "what is left of the sum over all particles, relative");
+    answer_section(to, a, 3, "Signs of the matrix?", "With weights of one sign a maximum does not grow, explicit steps are stable up to a known limit, and simple solvers converge.", "rows with one sign, on a jittered cloud with its edges");
+    answer_section(to, a, 4, "Cost?", "If all else is equal. Corrections that are computed once and used often (sph_rk_correction, sph_gradient_correction_iad) are not counted, rows that are computed once and applied often are cheaper than the sweep.",
+                   "time as a multiple of a density's, in 2D");
     fputs(atlas_script, to);
     page_close(a, &page);
 }

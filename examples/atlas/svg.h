@@ -94,8 +94,11 @@ static inline void svg_write(FILE *to, const svg_plot *p)
             fprintf(to, "<path class=\"s%d\" d=\"", s);
             for (int q = 0; q < c->n; q++) {
                 if (!svg_shown(p, c->x[q], c->y[q])) continue;
-                double y = svg_scaled(p->log_y, c->y[q]);
-                y = fmin(y1, fmax(y0, y));
+                const double y = svg_scaled(p->log_y, c->y[q]);
+                if (y < y0 || y > y1) { /* beyond what is wanted */
+                    open = 0;
+                    continue;
+                }
                 fprintf(to, "%c%.1f %.1f", open ? 'L' : 'M', left + (svg_scaled(p->log_x, c->x[q]) - x0) * sx, bottom - (y - y0) * sy);
                 open = 1;
             }
@@ -104,15 +107,15 @@ static inline void svg_write(FILE *to, const svg_plot *p)
         if (p->points) { /* all as one path, of lines without length that have round ends */
             fprintf(to, "<path class=\"p\" d=\"");
             for (int q = 0; q < c->n; q++)
-                if (svg_shown(p, c->x[q], c->y[q])) fprintf(to, "M%.1f %.1fh0", left + (svg_scaled(p->log_x, c->x[q]) - x0) * sx, bottom - (fmin(y1, fmax(y0, svg_scaled(p->log_y, c->y[q]))) - y0) * sy);
+                if (svg_shown(p, c->x[q], c->y[q])) fprintf(to, "M%.1f %.1fh0", left + (svg_scaled(p->log_x, c->x[q]) - x0) * sx, bottom - (svg_scaled(p->log_y, c->y[q]) - y0) * sy);
             fputs("\"/>\n", to);
             continue;
         }
         if (c->n > SVG_MARKED) continue;
         fprintf(to, "<g class=\"m%d\">", s);
         for (int q = 0; q < c->n; q++) {
-            if (!svg_shown(p, c->x[q], c->y[q])) continue;
-            const double x = left + (svg_scaled(p->log_x, c->x[q]) - x0) * sx, y = bottom - (fmin(y1, fmax(y0, svg_scaled(p->log_y, c->y[q]))) - y0) * sy;
+            if (!svg_shown(p, c->x[q], c->y[q]) || svg_scaled(p->log_y, c->y[q]) < y0 || svg_scaled(p->log_y, c->y[q]) > y1) continue;
+            const double x = left + (svg_scaled(p->log_x, c->x[q]) - x0) * sx, y = bottom - (svg_scaled(p->log_y, c->y[q]) - y0) * sy;
             if (s % 4 == 0) fprintf(to, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\"/>", x, y);
             else if (s % 4 == 1) fprintf(to, "<path d=\"M%.1f %.1fh6v6h-6z\"/>", x - 3.0, y - 3.0);
             else if (s % 4 == 2) fprintf(to, "<path d=\"M%.1f %.1fl4 7h-8z\"/>", x, y - 4.0);
