@@ -31,15 +31,15 @@ HEADERS = sph.h sph_ops.h sph_kernels.h
 # The groups of drivers: the papers, all in examples/papers, and subjects, each in a folder of its name. A driver's
 # name starts with its group's, and GROUP.gp beside it draws the group's figures.
 PAPERS = icspm elliptic clustering cleaning
-SUBJECTS = fluids solids gas
+SUBJECTS = fluids solids gas atlas
 GROUPS = $(PAPERS) $(SUBJECTS)
 FOLDERS = $(addprefix examples/,papers $(SUBJECTS))
 COMMON = $(wildcard $(addsuffix /*.h,examples/common $(FOLDERS)))
 drivers_in = $(notdir $(basename $(wildcard $(addsuffix /$(1)_*.c,$(FOLDERS)))))
 DRIVERS = $(foreach g,$(GROUPS),$(call drivers_in,$(g)))
 # what takes longest starts first, so that nothing long is left alone at the end
-LONG_RUNS = clustering_shaft cleaning_collapse clustering_cavity elliptic_boundary_values cleaning_orszag_tang icspm_random clustering_box cleaning_disc fluids_vortices fluids_dam fluids_tank clustering_dam cleaning_drop gas_gresho
-LONG_COMPILES = elliptic_operators elliptic_clouds elliptic_boundary_values elliptic_uses icspm_dimensions cleaning_disc clustering_flows fluids_drop
+LONG_RUNS = clustering_shaft cleaning_collapse clustering_cavity elliptic_boundary_values cleaning_orszag_tang icspm_random clustering_box cleaning_disc fluids_vortices atlas_operators fluids_dam fluids_tank clustering_dam cleaning_drop gas_gresho
+LONG_COMPILES = atlas_cost elliptic_operators elliptic_clouds elliptic_boundary_values elliptic_uses icspm_dimensions cleaning_disc clustering_flows fluids_drop
 THREADED := $(notdir $(basename $(shell grep -l -e THREADS_OPTION -e '[A-Z]_OPTIONS' -e gas_begin $(addsuffix /*.c,$(FOLDERS)))))
 # those whose long runs leave restarts, and go on from them; and the tables of long runs that are kept
 RESTARTED := $(notdir $(basename $(shell grep -l -e '"continue"' $(addsuffix /*.c,$(FOLDERS)))))
@@ -51,7 +51,7 @@ TESTS_OPTIONAL = gsl
 TESTS = $(filter-out $(TESTS_DOUBLE) $(TESTS_OPTIONAL),$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))
 TESTS_FLOAT = $(TESTS)
 TEST_PROGRAMS = $(TESTS:%=$(BUILD)/tests/%) $(TESTS_FLOAT:%=$(BUILD)/tests/%-float) $(TESTS_DOUBLE:%=$(BUILD)/tests/%)
-TEST_SCRIPTS = tests/index.sh tests/signatures.sh tests/hosts/generated.sh tests/readme.sh tests/docs.sh tests/compile/matrix.sh tests/compile/names.sh tests/compile/options.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/threads.sh tests/restarts.sh tests/files.sh tests/faults.sh tests/single.sh tests/bare.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
+TEST_SCRIPTS = tests/index.sh tests/signatures.sh tests/hosts/generated.sh tests/readme.sh tests/docs.sh tests/compile/matrix.sh tests/compile/names.sh tests/compile/options.sh tests/compile/folding.sh tests/compile/sweeps.sh tests/compile/paths.sh tests/examples.sh tests/atlas.sh tests/threads.sh tests/restarts.sh tests/files.sh tests/faults.sh tests/single.sh tests/bare.sh tests/precision.sh tests/known/derivation.sh tests/gsl.sh tests/petsc.sh
 
 help:
 	@echo "make reproduce        run the drivers of papers and subjects, published beside measured values, and print a scoreboard;"
@@ -60,6 +60,7 @@ help:
 	@echo "make reproduce-GROUP  those of a paper ($(PAPERS)) or of a subject ($(SUBJECTS))"
 	@echo "make reproduce-full   with more realisations and finer clouds, some at the published size: a day, in any number of"
 	@echo "                      pieces (Ctrl-C, and again); compared with the tables of $(KEPT)"
+	@echo "make atlas            pages that show what each operator does, measured: $(BUILD)/atlas/index.html (OPTIONS=-full: all kernels)"
 	@echo "make test             the tests; the last line is 'N passed, N failed'"
 	@echo "make test-sanitize    the tests under the address and undefined-behaviour sanitizers"
 	@echo "make check-hosts      C++, Fortran, Python, WebAssembly, OpenCL, CUDA: the hosts whose tools are installed"
@@ -149,6 +150,12 @@ $(BUILD)/examples/elliptic_spe10: private LDLIBS += $(shell pkg-config --libs $(
 $(BUILD)/examples/elliptic_spe10: $(shell f="$(BUILD)/examples/elliptic_spe10"; [ ! -e "$$f" ] || nm "$$f" 2> /dev/null | grep -q PetscInitialize || rm -f "$$f")
 driver-elliptic_spe10: LAUNCH = mpirun -n $(PETSC)
 endif
+# pages of what each operator does; they need no tool but a browser. What it costs comes first, because the pages tell it
+atlas: $(BUILD)/examples/atlas_cost $(BUILD)/examples/atlas_operators
+	@mkdir -p "$(BUILD)/atlas"
+	$(BUILD)/examples/atlas_cost -out "$(BUILD)/atlas" -figures "$(BUILD)/atlas" $(OPTIONS)
+	$(BUILD)/examples/atlas_operators -out "$(BUILD)/atlas" -figures "$(BUILD)/atlas" -pages "$(BUILD)/atlas" $(OPTIONS)
+	@echo "atlas: $(BUILD)/atlas/index.html"
 
 # the pictures that are checked in have gone through pngquant, to 64 colours
 GALLERY = $(patsubst examples/%.c,%,$(wildcard examples/*.c))
@@ -244,4 +251,4 @@ dist:
 clean: # what a link leads to as well
 	rm -rf $(BUILD)/* $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures gallery test test-sanitize fuzz check-matrix check-hosts check-mpi check-embedded version install uninstall dist check-packages docs coverage lint mutation bench bench-flags bench-compile bench-gpu clean
+.PHONY: help reproduce reproduce-full figures atlas gallery test test-sanitize fuzz check-matrix check-hosts check-mpi check-embedded version install uninstall dist check-packages docs coverage lint mutation bench bench-flags bench-compile bench-gpu clean

@@ -53,6 +53,12 @@
  *
  *   Nothing here allocates memory, and nothing is remembered between calls.
  *
+ * EXACTNESS AND ORDER   A sentence as "Atlas: gradient exact for linear fields; order 2 inside lattices, 1 in
+ *   disorder, 1 at boundaries." says what examples/atlas measures; the atlas fails if it is not so. Exact
+ *   means at every particle that has an answer, in disorder and at boundaries, too. The order is that of the
+ *   root mean square of the error in dx, where h / dx stays as it is: 0 does not fall with more particles, -1
+ *   grows.
+ *
  * SYMBOLS that recur, in calls and in comments
  *   k, dim               kernel and dimension (1, 2 or 3)
  *   i, j                 a target and its neighbour, or the two sides of a pair; m_i belongs to i, v_j to j
@@ -1369,7 +1375,9 @@ SPH_FN sph_index sph_shepard_sum(sph_kernel k, int dim, sph_cloud cloud, sph_sca
 /* f_i = sum_j V_j f_j W_ij / sum_j V_j W_ij, the particle itself included. It is exact for constants; the
    error is O(h^2) in the interior of a regular cloud, and O(h) in disorder and at a boundary. Shepard 1968. A
    target of volume 0 is a probe. The result is 0 where the sum of weights is not positive (SPH_TOO_FEW) or a
-   sum overflows (SPH_NOT_FINITE). */
+   sum overflows (SPH_NOT_FINITE).
+   Atlas: value exact for constants, inside lattices for linear fields; order 2 inside lattices, 1 in
+   disorder, 1 at boundaries. */
 SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                          sph_scalar_out out)
 {
@@ -1405,8 +1413,10 @@ SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_cloud cloud,
 /* -------- density: sweeps */
 
 /* rho_i = sum_j m_j W_ij(h_i), the particle itself included (a probe has the mass 0). The error is O(h^2) in
-   the interior of a regular cloud, and about rho / 2 at a free surface. h is given here; sph_density_adaptive
-   finds an h that follows rho. Where the sum overflows, the result is 0 and SPH_NOT_FINITE. */
+   the interior of a regular cloud, down to what h / dx leaves (0.1 % for wendland-c2 and h = 2 dx in 2D), and
+   about rho / 2 at a free surface. h is given here; sph_density_adaptive
+   finds an h that follows rho. Where the sum overflows, the result is 0 and SPH_NOT_FINITE.
+   Atlas: value exact for nothing; order 0 inside lattices, 0 in disorder, 0 at boundaries. */
 SPH_FN sph_index sph_density_summation(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                        sph_scalar_out out)
 {
@@ -1638,8 +1648,9 @@ SPH_FN sph_index sph_density_adaptive(sph_kernel k, int dim, sph_cloud cloud, sp
  */
 
 /* V_j (f_j - f_i) grad_i W_ij, where df = f_j - f_i: a pair's part of grad f_i. The sum is exact for
-   constants. Its error is O(h^2) in the interior where the particles are regular, and O(1) at a boundary.
-   Source: Monaghan 1992, ARA&A 30, 543, in difference form. */
+   constants. Its error is O(h^2) in the interior where the particles are regular, down to what h / dx leaves
+   (0.1 % for wendland-c2 and h = 2 dx in 2D), and O(1) at a boundary and in disorder. Source: Monaghan 1992,
+   ARA&A 30, 543, in difference form. */
 SPH_FN sph_vec sph_gradient_pair_difference(sph_kernel k, int dim, sph_real V_j, sph_real df, sph_vec x_ij,
                                             sph_real r, sph_real h)
 {
@@ -1648,8 +1659,9 @@ SPH_FN sph_vec sph_gradient_pair_difference(sph_kernel k, int dim, sph_real V_j,
 
 /* The weight of (f_j - f_i) in Brookshaw's Laplacian: -2 V_j F_ij >= 0, so that
        L f_i = sum_j weight (f_j - f_i) = sum_j 2 V_j (f_i - f_j) F_ij.
-   It is exact for constants. The error is O(h^2) in the interior of a regular cloud, O(1/h) at a boundary,
-   and O(1) or worse in disorder. Source: Brookshaw 1985, Proc. ASA 6, 207. */
+   It is exact for constants. The error is O(h^2) in the interior of a regular cloud, down to what h / dx
+   leaves (0.1 % for wendland-c2 and h = 2 dx in 2D), and O(1/h) at a boundary and in disorder. Source:
+   Brookshaw 1985, Proc. ASA 6, 207. */
 SPH_FN sph_real sph_laplacian_weight_brookshaw(sph_kernel k, int dim, sph_real r, sph_real h, sph_real V_j)
 {
     return SPH_R(-2) * V_j * sph_kernel_f(k, dim, r, h);
@@ -1710,7 +1722,8 @@ SPH_FN int sph_solve_gradient(int dim, sph_sym moment, sph_sym *inverse, sph_rea
 
 /* grad f_i = sum_j V_j (f_j - f_i) grad_i W_ij, without correction. Exact for constants; for source and
    errors see sph_gradient_pair_difference. Where a component overflows, the gradient is 0 and the target
-   counts as failed. */
+   counts as failed.
+   Atlas: gradient exact for constants; order 0 inside lattices, 0 in disorder, 0 at boundaries. */
 SPH_FN sph_index sph_gradient_difference(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                          sph_vector_out out)
 {
@@ -1896,7 +1909,9 @@ SPH_FN sph_index sphi_gradient_correction(int method, sph_kernel k, int dim, sph
    conditioning is the smallest pivot of K scaled to a unit diagonal, in [0, 1]. A target needs dim neighbours
    inside its support; in 2D not all may be on one line with it, in 3D not all in one plane with it. Else the
    gradient is 0, with SPH_TOO_FEW or SPH_SINGULAR. Where a component overflows, it is 0 with
-   SPH_NOT_FINITE. */
+   SPH_NOT_FINITE.
+   Atlas: gradient exact for linear fields, inside lattices for quadratic fields; order 2 inside lattices, 1
+   in disorder, 1 at boundaries. */
 SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                    sph_derivatives_out out)
 {
@@ -1905,7 +1920,9 @@ SPH_FN sph_index sph_gradient_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_s
 /* grad f_i = C sum_j V_j W_ij e (f_j - f_i) with C^-1 = sum_j V_j W_ij e e^T and e = x_j - x_i: the integral
    approach to derivatives (IAD). Exact for linear fields at any particle, and of the errors of
    sph_gradient_cspm; it needs no derivative of the kernel, and near neighbours count less. Garcia-Senz,
-   Cabezon & Escartin 2012, A&A 538, A9. Outputs and statuses are those of sph_gradient_cspm. */
+   Cabezon & Escartin 2012, A&A 538, A9. Outputs and statuses are those of sph_gradient_cspm.
+   Atlas: gradient exact for linear fields, inside lattices for quadratic fields; order 2 inside lattices, 1
+   in disorder, 1 at boundaries. */
 SPH_FN sph_index sph_gradient_iad(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                   sph_derivatives_out out)
 {
@@ -1955,7 +1972,9 @@ SPH_FN sph_real sphi_brookshaw_sum(sph_kernel k, int dim, sph_cloud cloud, sph_s
     return sum;
 }
 /* L f_i = sum_j 2 V_j (f_i - f_j) F_ij. For source and errors see sph_laplacian_weight_brookshaw. Where the
-   sum overflows, the result is 0 and SPH_NOT_FINITE. */
+   sum overflows, the result is 0 and SPH_NOT_FINITE.
+   Atlas: Laplacian exact for constants, inside lattices for linear fields; order 0 inside lattices, -1 in
+   disorder, -1 at boundaries. */
 SPH_FN sph_index sph_laplacian_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                          sph_scalar_out out)
 {
@@ -2792,7 +2811,11 @@ SPH_FN sph_index sphi_derivatives(int method, sph_kernel k, int dim, sph_cloud c
    1D it is kappa f'' instead of f''. conditioning is the smallest pivot of the scaled matrices, in [0, 1]. A
    target below conditioning_min is SPH_ILL_CONDITIONED and keeps its values.
    All values are 0 where the neighbours do not determine them (SPH_TOO_FEW if the support holds fewer than 1,
-   3 or 6 neighbours in 1D, 2D or 3D, else SPH_SINGULAR), and where one overflows (SPH_NOT_FINITE). */
+   3 or 6 neighbours in 1D, 2D or 3D, else SPH_SINGULAR), and where one overflows (SPH_NOT_FINITE).
+   Atlas: Laplacian exact for linear fields, inside lattices for cubic fields; order 2 inside lattices, 0 in
+   disorder, 0 at boundaries.
+   Atlas: Hessian exact for linear fields, inside lattices for cubic fields; order 2 inside lattices, 0 in
+   disorder, 0 at boundaries. */
 SPH_FN sph_index sph_derivatives_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                       sph_derivatives_options options, sph_derivatives_out out)
 {
@@ -2805,7 +2828,12 @@ SPH_FN sph_index sph_derivatives_cspm(sph_kernel k, int dim, sph_cloud cloud, sp
    SPH_ILL_CONDITIONED and keeps its values. Where there are boundaries and disorder, 0.2 is a good
    conditioning_min in 1D, and 0.02 in 2D and 3D; 0 is the published method. With fallback_wls = 1, targets
    that are ill-conditioned or singular get the values of WLS and are SPH_FELL_BACK.
-   Where there is no answer, the values and the status are as for CSPM, but with 2, 5 or 9 neighbours. */
+   Where there is no answer, the values and the status are as for CSPM, but with 2, 5 or 9 neighbours.
+   Atlas: gradient exact for quadratic fields; order 2 inside lattices, 2 in disorder, 2 at boundaries.
+   Atlas: Laplacian exact for quadratic fields, inside lattices for cubic fields; order 2 inside lattices, 1
+   in disorder, 1 at boundaries.
+   Atlas: Hessian exact for quadratic fields, inside lattices for cubic fields; order 2 inside lattices, 1
+   in disorder, 1 at boundaries. */
 SPH_FN sph_index sph_derivatives_icspm(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                        sph_derivatives_options options, sph_derivatives_out out)
 {
@@ -2821,7 +2849,11 @@ SPH_FN sph_index sph_derivatives_icspm(sph_kernel k, int dim, sph_cloud cloud, s
    Laplacian only). Exact for quadratic fields. In disordered clouds it is as accurate in the interior as WLS
    and keeps the signs of the weights, which ICSPM does not; at a boundary single particles come near
    det(kappa) = 0. conditioning, conditioning_min, fallback_wls and the status are as for ICSPM: with
-   conditioning_min = 0 a particle with a large error there is SPH_OK. */
+   conditioning_min = 0 a particle with a large error there is SPH_OK.
+   Atlas: Laplacian exact for quadratic fields, inside lattices for cubic fields; order 2 inside lattices, 1
+   in disorder, 1 at boundaries.
+   Atlas: Hessian exact for quadratic fields, inside lattices for cubic fields; order 2 inside lattices, 1
+   in disorder, 1 at boundaries. */
 SPH_FN sph_index sph_derivatives_fatehi_manzari(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                                 sph_derivatives_options options, sph_derivatives_out out)
 {
@@ -2831,7 +2863,12 @@ SPH_FN sph_index sph_derivatives_fatehi_manzari(sph_kernel k, int dim, sph_cloud
 /* Gradient, Hessian and Laplacian by weighted least squares, the robust sibling of ICSPM. They are exact for
    quadratic fields. Where kernel and volumes are not negative, the matrix is definite wherever the neighbours
    determine a quadratic field, and conditioning, which is that of ICSPM, is in [0, 1]. conditioning_min, and
-   the values and the status where there is no answer, are as for ICSPM; there is no fallback. */
+   the values and the status where there is no answer, are as for ICSPM; there is no fallback.
+   Atlas: gradient exact for quadratic fields; order 2 inside lattices, 2 in disorder, 2 at boundaries.
+   Atlas: Laplacian exact for quadratic fields, inside lattices for cubic fields; order 2 inside lattices, 1
+   in disorder, 1 at boundaries.
+   Atlas: Hessian exact for quadratic fields, inside lattices for cubic fields; order 2 inside lattices, 1
+   in disorder, 1 at boundaries. */
 SPH_FN sph_index sph_derivatives_wls(sph_kernel k, int dim, sph_cloud cloud, sph_scalars f,
                                      sph_derivatives_options options, sph_derivatives_out out)
 {
@@ -3368,7 +3405,10 @@ SPH_FN sph_index sphi_interpolate(int method, sph_kernel k, int dim, sph_cloud t
    one value for each source. The box is that of the sources. conditioning is that of sph_solve_fit. The
    states of targets are SPH_OK, SPH_FELL_BACK (Shepard's mean, gradient 0), SPH_TOO_FEW (nothing inside the
    support) and SPH_NOT_FINITE; for the last two all is 0. Returns the number of targets that are not SPH_OK,
-   or a negative sph_error. */
+   or a negative sph_error.
+   Atlas: value exact for linear fields; order 2 inside lattices, 2 in disorder, 2 at boundaries.
+   Atlas: gradient exact for linear fields, inside lattices for quadratic fields; order 2 inside lattices, 1
+   in disorder, 1 at boundaries. */
 SPH_FN sph_index sph_interpolate_mls(sph_kernel k, int dim, sph_cloud targets_of, sph_sources sources,
                                      sph_scalars f, sph_interpolation_options options,
                                      sph_interpolation_out out)
@@ -3377,7 +3417,8 @@ SPH_FN sph_index sph_interpolate_mls(sph_kernel k, int dim, sph_cloud targets_of
 }
 /* The same by Liu & Liu's test functions W and grad W, as walls by mirror points (mDBC) do it: the targets
    are the mirror points, and sph_fit_extend carries value and gradient from there to the wall particles. mDBC
-   falls back where the determinant is below 0.001: its conditioning_min. */
+   falls back where the determinant is below 0.001: its conditioning_min.
+   Atlas: value exact for linear fields; order 2 inside lattices, 2 in disorder, 2 at boundaries. */
 SPH_FN sph_index sph_interpolate_liu(sph_kernel k, int dim, sph_cloud targets_of, sph_sources sources,
                                      sph_scalars f, sph_interpolation_options options,
                                      sph_interpolation_out out)
@@ -3491,9 +3532,8 @@ SPH_FN sph_index sph_interpolate_rows_liu(sph_kernel k, int dim, sph_cloud targe
  *   Schwaiger, M-SPH     with constant m: linear fields at every particle, for any positions and volumes;
  *                        in the interior of lattices also xx, xy, yy and cubic fields.
  *   Basic-Degiuli-Ban    the same, and |x|^2 at every particle.
- * Only the trace of the second derivatives is normalised (nearly: see options.trace). In disorder, the
- * pointwise errors of all five are therefore O(1). At a boundary they are O(1) for the last three and O(1/h)
- * for the first two.
+ * Only the trace of the second derivatives is normalised (nearly: see options.trace). In disorder and at a
+ * boundary, the pointwise errors are therefore O(1) for the last three, and O(1/h) for the first two.
  * Signs: no eigenvalue of L has a positive real part where all T >= 0, that is, where 1 - xi . e > 0 ((92),
  * (93); sph_elliptic_diagnose tells). The equation (1) of the paper is -L u - g.
  *
@@ -4113,26 +4153,34 @@ SPH_FN sph_index sphi_elliptic_rows(int scheme, sph_kernel k, int dim, sph_cloud
                                 trace is too small).
      SPH_ILL_CONDITIONED        computed, but the conditioning is below conditioning_min. It is the
                                 smallest pivot of the scaled Gamma (1 good, 0 singular).
-   Coincident neighbours have the radial weight of r = 0. */
+   Coincident neighbours have the radial weight of r = 0.
+   Atlas: div(m grad u) exact for constants, inside lattices for linear fields; order 0 inside lattices, -1
+   in disorder, -1 at boundaries. */
 SPH_FN sph_index sph_elliptic_brookshaw(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                         sph_elliptic_options options, sph_scalars u, sph_scalar_out out)
 {
     return sphi_elliptic_sweep(SPHI_ELLIPTIC_BROOKSHAW, k, dim, cloud, m, options, u, out);
 }
-/* The same by (51): Brookshaw's scheme times tr K^-1 / dim. */
+/* The same by (51): Brookshaw's scheme times tr K^-1 / dim.
+   Atlas: div(m grad u) exact for constants, inside lattices for cubic fields; order 2 inside lattices, -1
+   in disorder, -1 at boundaries. */
 SPH_FN sph_index sph_elliptic_brookshaw_corrected(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                                   sph_elliptic_options options, sph_scalars u,
                                                   sph_scalar_out out)
 {
     return sphi_elliptic_sweep(SPHI_ELLIPTIC_CORRECTED, k, dim, cloud, m, options, u, out);
 }
-/* The same by (52), Schwaiger's scheme: exact for linear u where m is constant. */
+/* The same by (52), Schwaiger's scheme: exact for linear u where m is constant.
+   Atlas: div(m grad u) exact for linear fields, inside lattices for cubic fields; order 2 inside lattices,
+   0 in disorder, 0 at boundaries. */
 SPH_FN sph_index sph_elliptic_schwaiger(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                         sph_elliptic_options options, sph_scalars u, sph_scalar_out out)
 {
     return sphi_elliptic_sweep(SPHI_ELLIPTIC_SCHWAIGER, k, dim, cloud, m, options, u, out);
 }
-/* The same by (69), M-SPH: for radial gradients the same numbers as Schwaiger's scheme. */
+/* The same by (69), M-SPH: for radial gradients the same numbers as Schwaiger's scheme.
+   Atlas: div(m grad u) exact for linear fields, inside lattices for cubic fields; order 2 inside lattices,
+   0 in disorder, 0 at boundaries. */
 SPH_FN sph_index sph_elliptic_msph(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                    sph_elliptic_options options, sph_scalars u, sph_scalar_out out)
 {
@@ -4142,7 +4190,9 @@ SPH_FN sph_index sph_elliptic_msph(sph_kernel k, int dim, sph_cloud cloud, sph_s
    and for no other quadratic field at a boundary. It needs no derivative of the kernel. options.gradient,
    gamma_star and trace are not read: the scale is always dim / tr Gamma*. Where tr Gamma* is below a tenth of
    tr Gamma, as at one-sided particles, their denominator is small or negative; the scale is then
-   tr Gamma^-1 / dim, and the particle is SPH_FELL_BACK. */
+   tr Gamma^-1 / dim, and the particle is SPH_FELL_BACK.
+   Atlas: div(m grad u) exact for linear fields, inside lattices for cubic fields; order 2 inside lattices,
+   0 in disorder, 0 at boundaries. */
 SPH_FN sph_index sph_elliptic_basic_degiuli_ban(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                                 sph_elliptic_options options, sph_scalars u,
                                                 sph_scalar_out out)
@@ -4298,7 +4348,9 @@ SPH_FN sph_vec sphi_diagonal_sum(int dim, sph_diagonal mobility, sph_index i, sp
    The gradient is (15), means are arithmetic, a pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). A row is
    0 where the state is SPH_TOO_FEW or SPH_SINGULAR: K or T is singular. T is so where neighbours lie in
    fewer directions than there are axes. Returns the number of targets that are not SPH_OK, or a
-   negative sph_error. */
+   negative sph_error.
+   Atlas: div(m grad u) exact for linear fields, inside lattices for cubic fields; order 2 inside lattices,
+   0 in disorder, 0 at boundaries. */
 SPH_FN sph_index sph_elliptic_rows_anisotropic(sph_kernel k, int dim, sph_cloud cloud, sph_diagonal mobility,
                                                sph_rows_out out)
 {
@@ -4538,7 +4590,9 @@ SPH_FN sph_index sphi_elliptic_tensor(sph_kernel k, int dim, sph_cloud cloud, sp
    The gradient is (15), means are arithmetic, a pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). The result is
    0 where the state is SPH_TOO_FEW or SPH_SINGULAR: K or T is singular, as it is where the neighbours lie in
    fewer directions than a quadratic form has coefficients (four neighbours on the axes do not see xy).
-   Returns the number of targets that are not SPH_OK, or a negative sph_error. */
+   Returns the number of targets that are not SPH_OK, or a negative sph_error.
+   Atlas: div(m grad u) exact for quadratic fields, inside lattices for cubic fields; order 2 inside
+   lattices, 1 in disorder, 1 at boundaries. */
 SPH_FN sph_index sph_elliptic_tensor(sph_kernel k, int dim, sph_cloud cloud, sph_matrices mobility,
                                      sph_scalars u, sph_scalar_out out)
 {
@@ -5275,7 +5329,8 @@ SPH_FN sph_real sph_time_step_viscous_nu(sph_real h, sph_real nu)
 /* rho_i = m_i sum_j W_ij(h_i) with the particle itself: the number density times the particle's own mass,
    so that a light particle beside heavy ones keeps its density. V_i = m_i / rho_i is then 1 / sum_j W_ij.
    Hu & Adams 2006, JCP 213, 844, (15). Only the m of the targets is read.
-   Returns the number of targets whose density overflowed (it is 0 then), or a negative sph_error. */
+   Returns the number of targets whose density overflowed (it is 0 then), or a negative sph_error.
+   Atlas: value exact for nothing; order 0 inside lattices, 0 in disorder, 0 at boundaries. */
 SPH_FN sph_index sph_density_number(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m, sph_scalar_out out)
 {
     int error = sphi_check_weights(k, dim, cloud, "m", m, cloud.last);
@@ -5435,7 +5490,9 @@ SPH_FN sph_index sphi_fluid_rates(int form, sph_kernel k, int dim, sph_cloud clo
    are not contained. out.rate is that of the velocities given: see the order of a step above. out.rate and
    out.heating may be null. Pairs closer than 1e-12 h exert no force on each other (sph_coincident_count finds
    them). Returns the number of targets of which a result overflowed (it is 0 then), or a negative sph_error:
-   SPH_ERROR_VALUE also for densities and masses that are not positive, and sound speeds that are negative. */
+   SPH_ERROR_VALUE also for densities and masses that are not positive, and sound speeds that are negative.
+   Atlas: gradient exact for nothing, inside lattices for constants; order 0 inside lattices, -1 in
+   disorder, -1 at boundaries. */
 SPH_FN sph_index sph_fluid_rates_monaghan(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                           sph_fluid_out out)
 {
@@ -5537,7 +5594,9 @@ SPH_FN sph_shear_bulk sphi_shear_alone(sph_scalars mu)
 /* a_i = (1 / rho) div(mu grad v), physical viscosity by sph_viscosity_mu_pair_morris. mu is the dynamic
    viscosity (nu rho) of each particle, and not negative. Of fluid, the members m, rho, v and eta are read.
    Pairs closer than 1e-12 h exert no force on each other. Returns the number of targets whose result
-   overflowed (it is 0 then), or a negative sph_error. */
+   overflowed (it is 0 then), or a negative sph_error.
+   Atlas: Laplacian exact for constants, inside lattices for linear fields; order 0 inside lattices, -1 in
+   disorder, -1 at boundaries. */
 SPH_FN sph_index sph_viscosity_mu_morris(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                          sph_scalars mu, sph_vector_out acceleration)
 {
@@ -5548,14 +5607,18 @@ SPH_FN sph_index sph_viscosity_mu_morris(sph_kernel k, int dim, sph_cloud cloud,
    shear wave is damped as by
        0.79 mu along an axis and 1.17 mu along the diagonal,
    where Morris's form has 0.98 mu. A longer h and disorder make the difference smaller, and a hexagonal
-   lattice has none: see the table of examples/OPERATORS.md. */
+   lattice has none: see the table of examples/OPERATORS.md.
+   Atlas: Laplacian exact for constants, inside lattices for linear fields; order 0 inside lattices, -1 in
+   disorder, -1 at boundaries. */
 SPH_FN sph_index sph_viscosity_mu_monaghan_cleary(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                                   sph_scalars mu, sph_vector_out acceleration)
 {
     return sphi_viscous(SPHI_MONAGHAN_CLEARY, k, dim, cloud, fluid, sphi_shear_alone(mu), acceleration);
 }
 /* The acceleration by shear and bulk viscosity, by sph_viscosity_mu_pair_espanol_revenga: see there for the
-   stress tensor, and for which zeta the kinetic energy can only fall. Else as the two above. */
+   stress tensor, and for which zeta the kinetic energy can only fall. Else as the two above.
+   Atlas: Laplacian exact for constants, inside lattices for linear fields; order 0 inside lattices, -1 in
+   disorder, -1 at boundaries. */
 SPH_FN sph_index sph_viscosity_mu_espanol_revenga(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                                   sph_shear_bulk mu, sph_vector_out acceleration)
 {
@@ -7603,7 +7666,9 @@ SPH_FN int sphi_check_wall(sph_kernel k, int dim, sph_cloud cloud, sph_wall_term
 /* grad f_i = (sum_j V_j f_j grad_i W_ij - f_w grad gamma_i) / gamma_i, the particles of the fluid being all
    sources, with wall.value the f_w of each target. Ferrand et al. 2013. W has the h of the target. For its
    error see above. SPH_ERROR_VALUE for a gamma that is not positive. Returns the number of targets whose
-   result overflowed (it is 0 then), or a negative sph_error. */
+   result overflowed (it is 0 then), or a negative sph_error.
+   Atlas: gradient exact for nothing, inside lattices for constants; order 0 inside lattices, -1 in
+   disorder, -1 at boundaries. */
 SPH_FN sph_index sph_wall_gradient(sph_kernel k, int dim, sph_cloud cloud, sph_wall_terms wall, sph_scalars f,
                                    sph_vector_out out)
 {
@@ -7682,7 +7747,9 @@ SPH_FN sph_index sph_wall_gradient_rows(sph_kernel k, int dim, sph_cloud cloud, 
 /* lap f_i = (sum_j 2 V_j (f_i - f_j) F_ij - 2 g_w . grad gamma_i) / gamma_i, with wall.slope the g_w of each
    target: the gradient of f at the wall, of which the part along the normal counts. Where f_w is given
    instead, at the distance d in front of one wall, g_w = (f_w - f_i) / d n. Macia et al. 2012; Ferrand et al.
-   2013, who take the mean of the gradients on both sides. Errors and answer as above. */
+   2013, who take the mean of the gradients on both sides. Errors and answer as above.
+   Atlas: Laplacian exact for constants, inside lattices for linear fields; order 0 inside lattices, -1 in
+   disorder, -1 at boundaries. */
 SPH_FN sph_index sph_wall_laplacian(sph_kernel k, int dim, sph_cloud cloud, sph_wall_terms wall,
                                     sph_scalars f, sph_scalar_out out)
 {
@@ -8583,8 +8650,8 @@ SPH_FN sph_vec sphi_medium_differences(sph_medium_side i, sph_vec sum)
 }
 /* grad v in difference form, (1 / (Omega_i rho_i)) sum_j m_j (v_j - v_i)_a grad_i W_ij(h_i) for the component
    a, and div v, |curl v|, S : S and tr((grad v)^2) from it. div is that of sph_gas_rates. Exact for constant
-   v; the error is O(h^2) in the interior where the particles are regular, and does not fall in disorder.
-   Price 2012. */
+   v; the error is O(h^2) in the interior where the particles are regular, down to what h / dx leaves, and
+   does not fall in disorder. Price 2012. */
 SPH_FN sph_index sph_velocity_gradient_difference(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
                                                   sph_vectors v, sph_velocity_gradient_out out)
 {
@@ -8611,7 +8678,9 @@ SPH_FN sph_index sph_velocity_gradient_difference(sph_kernel k, int dim, sph_clo
    v at any particle. The cloud's volumes m / rho are read. A target needs dim neighbours inside its support,
    in 2D not all on one line with it, in 3D not all in one plane: else its results are 0, with SPH_TOO_FEW or
    SPH_SINGULAR. Cullen & Dehnen 2010 take this one. Returns the number of targets that are not SPH_OK, or a
-   negative sph_error. */
+   negative sph_error.
+   Atlas: divergence exact for linear fields, inside lattices for quadratic fields; order 2 inside lattices,
+   1 in disorder, 1 at boundaries. */
 SPH_FN sph_index sph_velocity_gradient_cspm(sph_kernel k, int dim, sph_cloud cloud, sph_vectors v,
                                             sph_velocity_gradient_out out)
 {
@@ -9002,7 +9071,8 @@ SPH_FN sph_cleaning_wave sphi_cleaning_wave(sph_real ch, sph_real sigma, sph_rea
 SPH_FN int sphi_components(int dim, sph_vectors v) { return v.z.p ? 3 : dim; }
 
 /* div A_i = -(1 / (Omega_i rho_i)) sum_j m_j (A_i - A_j) . grad_i W_ij(h_i), the difference form (20).
-   Exact for constants. For A = v it is -(drho/dt) / rho. */
+   Exact for constants. For A = v it is -(drho/dt) / rho.
+   Atlas: divergence exact for constants; order 0 inside lattices, 0 in disorder, 0 at boundaries. */
 SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
                                            sph_vectors field, sph_scalar_out out)
 {
@@ -9027,7 +9097,9 @@ SPH_FN sph_index sph_divergence_difference(sph_kernel k, int dim, sph_cloud clou
     return failed;
 }
 /* div A_i = rho_i sum_j m_j (A_i g_i + A_j g_j) . x_ij, the symmetric form, which (9) subtracts. It also
-   measures the disorder of the particles, and is not 0 for constant A. */
+   measures the disorder of the particles, and is not 0 for constant A.
+   Atlas: divergence exact for nothing, inside lattices for constants; order 0 inside lattices, -1 in
+   disorder, -1 at boundaries. */
 SPH_FN sph_index sph_divergence_symmetric(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
                                           sph_vectors field, sph_scalar_out out)
 {
@@ -9053,7 +9125,9 @@ SPH_FN sph_index sph_divergence_symmetric(sph_kernel k, int dim, sph_cloud cloud
     return failed;
 }
 /* grad f_i = rho_i sum_j m_j (f_i g_i + f_j g_j) x_ij, the symmetric form (23). It is the conjugate of the
-   difference form of the divergence, and not 0 for constant f. */
+   difference form of the divergence, and not 0 for constant f.
+   Atlas: gradient exact for nothing, inside lattices for constants; order 0 inside lattices, -1 in
+   disorder, -1 at boundaries. */
 SPH_FN sph_index sph_gradient_symmetric(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
                                         sph_scalars f, sph_vector_out out)
 {
@@ -9088,7 +9162,8 @@ SPH_FN sph_index sph_gradient_symmetric(sph_kernel k, int dim, sph_cloud cloud, 
 }
 /* curl A_i = (1 / (Omega_i rho_i)) sum_j m_j (A_i - A_j) x grad_i W_ij(h_i), the difference form. Exact
    for constants. Price 2012, (79). The result has three components, of which only the third is not 0 in 2D
-   if A has two components; `out` must have three arrays. */
+   if A has two components; `out` must have three arrays.
+   Atlas: curl exact for constants; order 0 inside lattices, 0 in disorder, 0 at boundaries. */
 SPH_FN sph_index sph_curl_difference(sph_kernel k, int dim, sph_cloud cloud, sph_medium medium,
                                      sph_vectors field, sph_vector_out out)
 {
@@ -9143,7 +9218,10 @@ typedef struct sph_cleaning_out {
    if the time step is divided by this factor). sigma is usually sph_cleaning_sigma(dim).
    Cleaning conserves sum m (B^2 + psi^2/ch^2) / (2 rho) for any h and Omega, except for the damping, which
    only takes energy away. Where rho changes, the term with div v is needed for this. It also conserves sum
-   m B / rho, to round-off. */
+   m B / rho, to round-off.
+   Atlas: gradient exact for nothing, inside lattices for constants; order 0 inside lattices, -1 in
+   disorder, -1 at boundaries.
+   Atlas: divergence exact for constants; order 0 inside lattices, 0 in disorder, 0 at boundaries. */
 SPH_FN sph_index sph_cleaning_rates(sph_kernel k, int dim, sph_cloud cloud, sph_cleaning state,
                                     sph_cleaning_out out)
 {
@@ -9252,7 +9330,9 @@ SPH_FN sph_index sphi_ohmic_range(int parts, sph_kernel k, int dim, sph_cloud cl
 /* dB/dt and du/dt by physical resistivity, (11): the sums of sph_resistivity_pair_ohmic and its heat, to be
    added to those of sph_mhd_rates, whose resistivity is artificial. For constant eta it is eta lap B. Heat is
    never negative; sum m B / rho, and sum m (u + B^2 / (2 rho)) with it, do not change, to round-off, for any
-   h and Omega. Explicit steps are limited by sph_time_step_resistivity. */
+   h and Omega. Explicit steps are limited by sph_time_step_resistivity.
+   Atlas: Laplacian exact for constants, inside lattices for linear fields; order 0 inside lattices, -1 in
+   disorder, -1 at boundaries. */
 SPH_FN sph_index sph_resistivity_ohmic(sph_kernel k, int dim, sph_cloud cloud, sph_ohmic state,
                                        sph_ohmic_out out)
 {
@@ -9854,7 +9934,8 @@ SPH_FN sph_index sph_rk_correction(sph_kernel k, int dim, sph_cloud cloud, sph_r
 /* f_i = sum_j V_j f_j W^R_ij, the particle itself included: exact for linear fields, error O(h^2), at
    boundaries, too. rk holds what sph_rk_correction wrote for the targets, of which A and B are read; those of
    the other sources are not. The result is 0 where A is 0 (SPH_TOO_FEW) or the sum overflows
-   (SPH_NOT_FINITE). */
+   (SPH_NOT_FINITE).
+   Atlas: value exact for linear fields; order 2 inside lattices, 2 in disorder, 2 at boundaries. */
 SPH_FN sph_index sph_interpolate_rk(sph_kernel k, int dim, sph_cloud cloud, sph_rk rk, sph_scalars f,
                                     sph_scalar_out out)
 {
@@ -9916,7 +9997,9 @@ SPH_FN sph_index sph_interpolate_rows_rk(sph_kernel k, int dim, sph_cloud cloud,
 }
 /* grad f_i = sum_j V_j (f_j - f_i) grad W^R_ij: exact for linear fields, error O(h^2) in the interior of a
    regular cloud and O(h) elsewhere. f_i drops out, because sum_j V_j grad W^R = 0. rk: as for
-   sph_interpolate_rk. Where a component overflows, the gradient is 0 and the target counts as failed. */
+   sph_interpolate_rk. Where a component overflows, the gradient is 0 and the target counts as failed.
+   Atlas: gradient exact for linear fields, inside lattices for quadratic fields; order 2 inside lattices, 1
+   in disorder, 1 at boundaries. */
 SPH_FN sph_index sph_gradient_rk(sph_kernel k, int dim, sph_cloud cloud, sph_rk rk, sph_scalars f,
                                  sph_vector_out out)
 {
@@ -10074,7 +10157,9 @@ SPH_FN sph_index sphi_corrected_range(int iad, int uniform, sph_kernel k, int di
    and rk holds its results for all sources. Lists hold all pairs with r < support ratio * max(h_i, h_j)
    (SPH_LARGER). out.rate_u and out.status may be null. Returns the number of targets of which a result
    overflowed (it is 0 then), or a negative sph_error: SPH_ERROR_VALUE also for masses, densities and volumes
-   that are not positive. */
+   that are not positive.
+   Atlas: gradient exact for nothing, inside lattices for quadratic fields; order 2 inside lattices, -1 in
+   disorder, -1 at boundaries. */
 SPH_FN sph_index sph_gas_rates_crk(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid, sph_rk rk,
                                    sph_corrected_out out)
 {
@@ -10089,7 +10174,9 @@ SPH_FN sph_index sph_gas_rates_crk(sph_kernel k, int dim, sph_cloud cloud, sph_f
 /* The same by the integral approach (IAD): the sums of sph_gas_pair_iad. Garcia-Senz, Cabezon & Escartin
    2012, A&A 538, A9. inverse: C of all sources, by sph_gradient_correction_iad. With h that follows the
    density, give p / Omega for the pressure (the papers on IAD set Omega aside). Volumes are not read. On
-   particles without order its error is larger than that of plain SPH. */
+   particles without order its error is larger than that of plain SPH.
+   Atlas: gradient exact for nothing, inside lattices for quadratic fields; order 2 inside lattices, -1 in
+   disorder, -1 at boundaries. */
 SPH_FN sph_index sph_gas_rates_iad(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                    sph_matrices inverse, sph_corrected_out out)
 {

@@ -3,7 +3,7 @@
 # The complete programs of README.md, examples/USING.md and examples/hosts/BEYOND.md compile without a warning and
 # print what the pages say; every function and file that the pages name exists.
 . tests/check.sh
-pages="README.md examples/README.md examples/USING.md examples/OPERATORS.md examples/papers/README.md examples/fluids/README.md examples/solids/README.md examples/gas/README.md examples/hosts/BEYOND.md tests/README.md tests/PLATFORMS.md CONTRIBUTING.md tests/VERIFICATION.md"
+pages="README.md examples/README.md examples/USING.md examples/OPERATORS.md examples/papers/README.md examples/fluids/README.md examples/solids/README.md examples/gas/README.md examples/atlas/README.md examples/hosts/BEYOND.md tests/README.md tests/PLATFORMS.md CONTRIBUTING.md tests/VERIFICATION.md"
 program() { # PAGE TEXT: the page's only program, and what it must print
     awk '/^```c$/ { on = 1; next } /^```$/ { on = 0 } on' "$1" > "$scratch/program.c"
     check "the program of $1 compiles" $CC -std=c99 -Wall -Wextra -Wpedantic -Werror -O2 -I. -o "$scratch/program" "$scratch/program.c" -lm

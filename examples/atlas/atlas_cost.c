@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The atlas: what the operators cost, as multiples of a density by summation, with kernel and dimension as
+ * constants, as in a user's program. atlas_operators reads the table. Times are the least of several, and a
+ * density is timed beside each: a busy machine changes both.
+ */
+#include "../common/options.h"
+#include "../common/report.h"
+#include "../common/statistics.h"
+#include "families.h"
+#include "operators.h"
+
+#include <time.h>
+
+#define COST_KERNEL SPH_WENDLAND_C2
+
+/* Sweeps that are in several lines of the table, and take seconds to compile: one copy of each. */
+#define COST_ONCE(name) \
+    static sph_index once_##name(int dim, sph_cloud cloud, sph_scalars f, sph_derivatives_options options, sph_derivatives_out out) \
+    { \
+        return WITH_DIM_2_3(sph_derivatives_##name, COST_KERNEL, dim, cloud, f, options, out); \
+    }
+COST_ONCE(cspm)
+COST_ONCE(icspm)
+COST_ONCE(fatehi_manzari)
+COST_ONCE(wls)
+#define sph_derivatives_cspm(k, dim, ...) ((void)(k), once_cspm(dim, __VA_ARGS__))
+#define sph_derivatives_icspm(k, dim, ...) ((void)(k), once_icspm(dim, __VA_ARGS__))
+#define sph_derivatives_fatehi_manzari(k, dim, ...) ((void)(k), once_fatehi_manzari(dim, __VA_ARGS__))
+#define sph_derivatives_wls(k, dim, ...) ((void)(k), once_wls(dim, __VA_ARGS__))
+
+/* the names that the expressions of the table use */
+#define COST_CALLS(id, function, family, list, formula, source, note, expression) \
+    static sph_index call_2_##id(views a) \
+    { \
+        enum { dim = 2 }; \
+        const sph_kernel k = COST_KERNEL; \
+        return expression; \
+    } \
+    static sph_index call_3_##id(views a) \
+    { \
+        enum { dim = 3 }; \
+        const sph_kernel k = COST_KERNEL; \
+        return expression; \
+    }
+ATLAS_OPERATORS(COST_CALLS)
+typedef struct row {
+    const char *id;
+    sph_index (*call[2])(views a);
+} row;
+#define COST_ROW(id, function, family, list, formula, source, note, expression) {#id, {call_2_##id, call_3_##id}},
+static const row rows[] = {ATLAS_OPERATORS(COST_ROW)};
+enum { ROWS = sizeof rows / sizeof rows[0] };
+
+static double seconds(sph_index (*call)(views a), views a)
+{
+    const clock_t begin = clock();
+    expect(call(a));
+    return (double)(clock() - begin) / CLOCKS_PER_SEC;
+}
+
+int main(int argc, char **argv)
+{
+    const char *out = ".", *figures = ".";
+    int full = 0;
+    const option_spec specs[] = {
+        {"out", "directory of the table of results", OPTION_TEXT, &out, 0, 0},
+        {"figures", "directory of the measured numbers, atlas_costs.csv", OPTION_TEXT, &figures, 0, 0},
+        {"full", "more repetitions", OPTION_FLAG, &full, 0, 0},
+    };
+    part_file csv;
+    report r;
+    options_parse(argc, argv, "The atlas: what each operator costs beside a density.", specs, (int)(sizeof specs / sizeof specs[0]));
+    report_open(&r, "atlas_cost", out);
+    if (!part_file_open(&csv, figures, "atlas_costs", "csv")) {
+        fprintf(stderr, "atlas_cost: cannot write %s: create the folder first\n", csv.part);
+        return 2;
+    }
+    fprintf(csv.to, "operator,dim,ratio,ns\n");
+    for (int dim = 2; dim <= 3; dim++) {
+        const sample_wish wish = {SAMPLE_JITTER, 0, dim == 2 ? 72 : 20, 0.2, 1};
+        const double h_dx = dim == 2 ? 2.0 : 1.6;
+        sample s = sample_make(COST_KERNEL, dim, h_dx, wish);
+        double *in[3], *field[6];
+        char setting[64];
+        snprintf(setting, sizeof setting, "%dD, %s, h = %.1f dx", dim, sph_kernel_name(COST_KERNEL), h_dx);
+        for (int c = 0; c < 3; c++) in[c] = numbers(s.n);
+        for (int c = 0; c < 6; c++) field[c] = numbers(s.n);
+        sample_zoom(&s, 0.01);
+        for (sph_index i = 0; i < s.n; i++) {
+            const double x[3] = {s.x[0][i], s.x[1][i], s.x[2][i]};
+            s.mobility[i] = 1.0;
+            for (int c = 0; c < 3; c++) {
+                const struct field f = field_waves(dim, c);
+                in[c][i] = field_at(&f, x).value + 3.0;
+            }
+        }
+        for (int q = 0; q < (int)ROWS; q++) {
+            double least = HUGE_VAL, density = HUGE_VAL;
+            for (int again = 0; again < (full ? 9 : 4); again++) {
+                const views a = views_of(&s, in, field);
+                density = fmin(density, seconds(dim == 2 ? call_2_density_summation : call_3_density_summation, a));
+                least = fmin(least, seconds(rows[q].call[dim - 2], a));
+            }
+            fprintf(csv.to, "%s,%d,%.3f,%.2f\n", rows[q].id, dim, least / density, 1e9 * least / (double)s.n);
+            report_info(&r, rows[q].id, setting, "time / time of a density", least / density);
+        }
+        for (int c = 0; c < 3; c++) free(in[c]);
+        for (int c = 0; c < 6; c++) free(field[c]);
+        sample_free(&s);
+    }
+    if (!part_file_close(&csv)) return 2;
+    return report_close(&r) ? 1 : 0;
+}

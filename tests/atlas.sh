@@ -1,0 +1,77 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# The atlas: what the comments of sph_ops.h claim of operators is what it measures; false claims are found; its
+# pages are whole: every link leads somewhere, nothing is loaded from elsewhere, every table has headers.
+. tests/check.sh
+atlas=$BUILD/examples/atlas_operators
+if [ ! -x "$atlas" ]; then
+    skip "the atlas" "$atlas is not built"
+    finish atlas
+    exit
+fi
+pages=$scratch/pages false=$scratch/false
+mkdir "$pages" "$false"
+one() { # NAME [OPTIONS]: operators of this name
+    name=$1
+    shift
+    "$atlas" -quiet -only "$name" -out "$scratch" -figures "$scratch" "$@"
+}
+# all of one kind hold; false claims, one for each of some functions, are found, and nothing else is
+check "claims hold, and pages" answers 0 " 0 differs" one laplacian -pages "$pages"
+claim() { # FUNCTION SED EXPRESSION: in the comment above it
+    awk -v name="SPH_FN sph_index $1(" -v edit="$2" '
+        index($0, name) == 1 { split(edit, part, "|"); if (index(comment, part[1])) sub(part[1], part[2], comment); else exit 1 }
+        /^\/\*/ { comment = ""; on = 1 }
+        on { comment = comment $0 "\n"; if (/\*\/ *$/) { on = 0; held = 1 } ; next }
+        { printf "%s", comment; comment = ""; print }' "$false/sph_ops.h" > "$false/edited" && mv "$false/edited" "$false/sph_ops.h"
+}
+cp sph_ops.h "$false/sph_ops.h"
+check "a claim of exactness" claim sph_gradient_cspm "exact for linear fields, inside|exact for quadratic fields, inside"
+check "a claim of an order" claim sph_gradient_iad "; order 2|; order 4"
+check "a claim in other words" claim sph_gradient_rk "exact for linear fields, inside|exact for straight fields, inside"
+check "a claim that is taken away" claim sph_gradient_difference "Atlas: gradient|Gradient"
+check "a formula" claim sph_gradient_symmetric "grad f_i = rho_i|grad f_i = 2 rho_i"
+check "false claims" answers 1 " 7 differs" one gradient_ -headers "$false"
+found() { grep -q -e "$1.*,differs$" "$scratch/atlas_operators.csv"; }
+check "too exact" found 'gradient_cspm,.*exact for,,quadratic fields,theory,linear fields'
+check "too high an order" found 'gradient_iad,.*order inside lattices,,4,theory,2.0'
+check "words that are not known" found 'gradient_rk,.*not understood'
+check "no claim" found 'gradient_difference,.*nothing is claimed'
+check "another formula" found 'gradient_symmetric,.*not in sph_ops.h'
+check "no header" answers 2 "cannot read" one gradient_cspm -headers "$scratch/nowhere"
+
+# pages
+check "no folder for pages" answers 2 "no/such/folder" one gradient_cspm -pages no/such/folder
+cd "$pages" || exit 2
+scratch=.. # of check
+links() {
+    grep -o -h -E '(src|href)="[^"]*"' ./*.html | sed 's/[^"]*"//; s/"$//' | sort -u | while read -r file; do [ -e "$file" ] || echo "$file"; done > ../lost
+    ! grep . ../lost
+}
+check "every link leads somewhere" links
+check "nothing is loaded from elsewhere" sh -c "! grep -n -i -E '(src|href|url|import)[=( \"]*(https?:)?//' ./*.html ./*.css"
+check "a page for each operator" test "$(ls ./laplacian_*.html | wc -l)" -eq 5
+check "a page has its equation" grep -q '<math display="block"><mi>L</mi>' laplacian_brookshaw.html
+check "it has the comment of the header" grep -q 'L f_i = sum_j 2 V_j (f_i - f_j) F_ij. For source' laplacian_brookshaw.html
+check "headers of tables have a scope" sh -c "! grep -n '<th>' ./*.html"
+check "plots have names" sh -c "! grep '<svg viewBox' ./*.html | grep -v aria-label"
+check "no number is missing" sh -c "! grep -n -i -w -E 'nan|-?inf' ./*.html"
+# shellcheck disable=SC2016
+whole='import sys
+from html.parser import HTMLParser
+single = {"meta", "link", "input", "path", "circle", "mspace"}
+class Page(HTMLParser):
+    def handle_starttag(self, tag, attributes):
+        if tag not in single: self.open.append(tag)
+    def handle_startendtag(self, tag, attributes):
+        pass
+    def handle_endtag(self, tag):
+        assert self.open and self.open[-1] == tag, (self.getpos(), tag, self.open[-3:])
+        self.open.pop()
+for name in sys.argv[1:]:
+    page = Page()
+    page.open = []
+    page.feed(open(name).read())
+    assert not page.open, (name, page.open)'
+if needs "every tag is closed" python3; then check "every tag is closed" python3 -c "$whole" ./*.html; fi
+finish atlas
