@@ -86,7 +86,7 @@ typedef struct lab_scene {
 } lab_scene;
 
 /* -------- the scenes: each in a file of its name */
-extern lab_scene lab_dam;
+extern lab_scene lab_dam, lab_vortex, lab_drop, lab_plate, lab_magnet, lab_kernels, lab_cloud;
 
 /* -------- what scenes share */
 
