@@ -72,6 +72,8 @@ help:
 	@echo "make bench-flags      what compilers and flags are worth (OPTIONS: sh tests/bench/run.sh -h)"
 	@echo "make bench-compile    seconds of compilation and bytes of code"
 	@echo "make bench-gpu        sweeps on a GPU beside one core (needs nvcc and a GPU)"
+	@echo "make web              a laboratory in one HTML file, $(BUILD)/web/index.html (needs clang and wasm-ld)"
+	@echo "make check-web        the same in a headless Chromium, against native programs"
 	@echo "make docs             the manual, the headers' comments and the Markdown files as pages (needs doxygen)"
 	@echo "make coverage         lines and branches of the headers that the tests reach (needs gcovr)"
 	@echo "make lint             static analysers, valgrind, the sanitizers of memory and threads: some twelve minutes"
@@ -196,6 +198,12 @@ docs:
 check-hosts:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/hosts/hosts.sh
 
+# one file, which works from a disk: the module is inside
+web:
+	@if ! command -v clang > /dev/null 2>&1; then echo "clang is not installed: no page"; elif ! command -v wasm-ld > /dev/null 2>&1; then echo "wasm-ld is not installed (Debian: lld): no page"; \
+	else mkdir -p $(BUILD)/web && sh examples/web/build.sh $(BUILD)/web/lab.wasm simd && sh examples/web/page.sh $(BUILD)/web/lab.wasm > $(BUILD)/web/index.html && echo "$(BUILD)/web/index.html"; fi
+check-web:
+	@CC="$(CC)" BUILD="$(BUILD)" sh tests/web/web.sh
 check-mpi:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/hosts/mpi.sh
 check-matrix:
@@ -251,4 +259,4 @@ dist:
 clean: # what a link leads to as well
 	rm -rf $(BUILD)/* $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures atlas gallery test test-sanitize fuzz check-matrix check-hosts check-mpi check-embedded version install uninstall dist check-packages docs coverage lint mutation bench bench-flags bench-compile bench-gpu clean
+.PHONY: help reproduce reproduce-full figures atlas web gallery test test-sanitize fuzz check-matrix check-hosts check-mpi check-embedded check-web version install uninstall dist check-packages docs coverage lint mutation bench bench-flags bench-compile bench-gpu clean
