@@ -280,7 +280,7 @@ module sph_c
     end type
 
     type, bind(c) :: sph_density_options
-        ! the list of target i holds every source with r < list_radius_i; no default
+        ! of the targets: list i holds all sources with r < list_radius_i; no default
         type(sph_scalars) :: list_radius
         ! h = eta (m / rho)^(1/dim); 0: sph_kernel_h_over_dx(k)
         real(sph_real) :: eta = 0.0_sph_real
@@ -358,7 +358,7 @@ module sph_c
         real(sph_real) :: conditioning_min = 0.0_sph_real
         ! read for SPH_MOBILITY_UPWIND only
         type(sph_scalars) :: potential
-        ! is added to the result, if it is there; rows do not contain it
+        ! Of the targets: it is added to the result, if it is there. Rows do not contain it.
         type(sph_scalars) :: source
     end type
 
@@ -393,7 +393,7 @@ module sph_c
     end type
 
     ! What holds at a boundary particle: alpha u + beta m n . grad u is given. alpha = beta = 0 means that the
-    ! particle is not on a boundary.
+    ! particle is not on a boundary. All of the targets; so is the m of the sweep.
     type, bind(c) :: sph_boundary
         ! n, which points out of the domain
         type(sph_vectors) :: normal
@@ -444,7 +444,7 @@ module sph_c
         type(sph_scalars) :: shear, bulk
     end type
 
-    ! The fluid and the wall. One number for each particle, all sources.
+    ! The fluid and the wall. One number for each particle, all sources; velocity and normal: of the targets.
     type, bind(c) :: sph_wall
         ! share: 1 for fluid particles, 0 for all others. rho and p: density and pressure of the fluid.
         type(sph_scalars) :: share, rho, p
@@ -493,7 +493,7 @@ module sph_c
         type(c_ptr) :: status = c_null_ptr
     end type
 
-    ! How particles are shifted. Zeros are the defaults where nothing else is said.
+    ! How particles are shifted. Zeros are the defaults where nothing else is said. Arrays are of the targets.
     type, bind(c) :: sph_shift
         ! an area, of each particle or of all. There is no default
         type(sph_scalars) :: strength
@@ -522,7 +522,7 @@ module sph_c
         type(sph_vec) :: gravity
     end type
 
-    ! Density and normal of each particle, all sources.
+    ! Density of the targets, and normal of all sources.
     type, bind(c) :: sph_tension
         type(sph_scalars) :: rho
         ! grad c, in 1 / length, and not of unit length
@@ -560,7 +560,7 @@ module sph_c
         type(c_ptr) :: status = c_null_ptr
     end type
 
-    ! What an operator reads of the wall: gamma and its gradient of each target; f_w (`value`, for
+    ! What an operator reads of the wall, all of the targets: gamma and its gradient; f_w (`value`, for
     ! sph_wall_gradient) or g_w (`slope`, for sph_wall_laplacian).
     type, bind(c) :: sph_wall_terms
         type(sph_scalars) :: gamma
@@ -586,7 +586,8 @@ module sph_c
         real(sph_real) :: energy = 0.0_sph_real
     end type
 
-    ! Mass, density and Omega of all sources.
+    ! Mass, density and Omega of all sources. Difference forms and sph_shock_indicator read the last two of
+    ! the targets.
     type, bind(c) :: sph_medium
         type(sph_scalars) :: m, rho, omega
     end type
@@ -640,7 +641,7 @@ module sph_c
         type(sph_medium) :: medium
         ! B, of dim components
         type(sph_vectors) :: field
-        ! div_v = sph_scalars_none(): div v = 0
+        ! div_v: of the targets; sph_scalars_none(): div v = 0
         type(sph_scalars) :: psi, div_v
         ! speed and damping of the cleaning waves; see sph_cleaning_sigma
         real(sph_real) :: ch = 0.0_sph_real, sigma = 0.0_sph_real
@@ -706,7 +707,8 @@ module sph_c
         type(c_ptr) :: status = c_null_ptr
     end type
 
-    ! A, B and their gradients of all sources: what sph_rk_correction wrote.
+    ! A, B and their gradients of all sources: what sph_rk_correction wrote. Interpolation and gradients read
+    ! those of the targets.
     type, bind(c) :: sph_rk
         type(sph_scalars) :: scale
         type(sph_vectors) :: slope, scale_gradient
@@ -737,7 +739,7 @@ module sph_c
     type, bind(c) :: sph_solid
         ! L of sph_gradient_correction_cspm, and P
         type(sph_matrices) :: inverse, stress
-        ! of the reference state
+        ! of the reference state, of the targets
         type(sph_scalars) :: density
         ! For hourglass control: its coefficient alpha (0: none; 1 is usual), and what else it reads: the
         ! current positions, F, and Young's modulus, not negative.
