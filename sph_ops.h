@@ -53,11 +53,11 @@
  *
  *   Nothing here allocates memory, and nothing is remembered between calls.
  *
- * EXACTNESS AND ORDER   A sentence as "Atlas: gradient exact for linear fields; order 2 inside lattices, 1 in
- *   disorder, 1 at boundaries." says what examples/atlas measures; the atlas fails if it is not so. Exact
- *   means at every particle that has an answer, in disorder and at boundaries, too. The order is that of the
- *   root mean square of the error in dx, where h / dx stays as it is: 0 does not fall with more particles, -1
- *   grows.
+ * EXACTNESS AND ORDER, as examples/atlas measures them (it fails where a comment claims something else)
+ *   Atlas: gradient exact for linear fields; order 2 inside lattices, 1 in disorder, 1 at boundaries.
+ *   Exact means at every particle that has an answer, in disorder and at boundaries, too. The order is that
+ *   of the root mean square of the error in dx, where h / dx stays as it is: 0 does not fall with more
+ *   particles, -1 grows.
  *
  * SYMBOLS that recur, in calls and in comments
  *   k, dim               kernel and dimension (1, 2 or 3)
