@@ -838,6 +838,14 @@ SPH_FN void sphi_row_answer(sph_rows_out out, sph_list list, sph_index i, int wi
     if (out.status) out.status[i] = (unsigned char)state;
 }
 
+/* What a check found, which is 0 as a rule. Without the word gcc takes the loops behind twenty checks for ones
+   that hardly ever run, and does not vectorise them. */
+#if defined(__GNUC__) && __GNUC__ >= 9 && !SPH_OPENCL
+#  define SPHI_RARELY(error) ((int)__builtin_expect_with_probability(error, 0, 1.0))
+#else
+#  define SPHI_RARELY(error) (error)
+#endif
+
 /* Calls SPH_REFUSED with the name of an argument, the first particle at fault (-1: no particle) and the
    error, and returns the error. */
 SPH_FN int sphi_refuse(SPHI_TEXT *argument, sph_index particle, int error)
@@ -974,7 +982,7 @@ SPH_FN int sphi_check_axis(sph_real length, sph_real largest, const SPH_GLOBAL s
     /* There is room for rounding, because a host may have computed h from half the box. */
     if (!(largest <= SPH_R(0.5) * length * (SPH_R(1) + SPH_R(4) * SPH_EPSILON)))
         return sphi_refuse("box", -1, SPH_ERROR_BOX);
-    return SPH_CHECK && !scanned ? sphi_scan_images(length, x, stride, n) : 0;
+    return SPH_CHECK && !scanned ? SPHI_RARELY(sphi_scan_images(length, x, stride, n)) : 0;
 }
 SPH_FN int sphi_check_box(int dim, sph_points x, sph_real largest, int scanned)
 {
@@ -1010,9 +1018,9 @@ SPH_FN int sphi_check_frame(int dim, sph_cloud cloud)
 }
 SPH_FN int sphi_check_positions(int dim, sph_points x)
 {
-    int error = SPH_CHECK ? sphi_scan_places("x", x.x, x.stride, x.n) : 0;
-    if (SPH_CHECK && !error && dim > 1) error = sphi_scan_places("y", x.y, x.stride, x.n);
-    if (SPH_CHECK && !error && dim > 2) error = sphi_scan_places("z", x.z, x.stride, x.n);
+    int error = SPH_CHECK ? SPHI_RARELY(sphi_scan_places("x", x.x, x.stride, x.n)) : 0;
+    if (SPH_CHECK && !error && dim > 1) error = SPHI_RARELY(sphi_scan_places("y", x.y, x.stride, x.n));
+    if (SPH_CHECK && !error && dim > 2) error = SPHI_RARELY(sphi_scan_places("z", x.z, x.stride, x.n));
     return error;
 }
 /* The lists of the targets first ... last - 1, as for sphi_scan_entries. Without SPH_CHECK only the two ends
@@ -1023,7 +1031,7 @@ SPH_FN int sphi_check_entries(sph_index first, sph_index last, sph_list list, sp
     if (list.start[first] < 0 || list.start[last] < list.start[first])
         return sphi_refuse("list", first, SPH_ERROR_LIST);
     if (list.start[last] > list.start[first] && !list.index) return sphi_refuse("list", -1, SPH_ERROR_NULL);
-    return SPH_CHECK ? sphi_scan_entries(first, last, list, n, foreign) : 0;
+    return SPH_CHECK ? SPHI_RARELY(sphi_scan_entries(first, last, list, n, foreign)) : 0;
 }
 /* The positions, the box for sums that reach as far as `largest`, and the lists of the targets. */
 SPH_FN int sphi_check_scan(int dim, sph_cloud cloud, sph_real largest)
@@ -1042,12 +1050,12 @@ SPH_FN int sphi_check_list(int dim, sph_cloud cloud, sph_real distance)
 }
 SPH_FN int sphi_check_h(SPHI_TEXT *name, sph_scalars h, sph_index n, sph_real *largest)
 {
-    return SPH_CHECK ? sphi_scan_h(name, h, n, largest) : 0;
+    return SPH_CHECK ? SPHI_RARELY(sphi_scan_h(name, h, n, largest)) : 0;
 }
 /* Values that are there must be finite; nothing else is asked of them. */
 SPH_FN int sphi_check_finite(SPHI_TEXT *name, sph_scalars a, sph_index n, int error)
 {
-    return SPH_CHECK ? sphi_scan_finite(name, a, n, error) : 0;
+    return SPH_CHECK ? SPHI_RARELY(sphi_scan_finite(name, a, n, error)) : 0;
 }
 SPH_FN int sphi_check_kernel(sph_kernel k)
 {
@@ -1055,7 +1063,8 @@ SPH_FN int sphi_check_kernel(sph_kernel k)
 }
 SPH_FN int sphi_check_field(SPHI_TEXT *name, sph_scalars f, sph_index n)
 {
-    return f.p ? sphi_check_finite(name, f, n, SPH_ERROR_VALUE) : sphi_refuse(name, -1, SPH_ERROR_NULL);
+    return SPHI_RARELY(f.p ? sphi_check_finite(name, f, n, SPH_ERROR_VALUE)
+                           : sphi_refuse(name, -1, SPH_ERROR_NULL));
 }
 /* For sweeps with a kernel: the same, the kernel, h, and the weights of n particles. */
 SPH_FN int sphi_check_weights(sph_kernel k, int dim, sph_cloud cloud, SPHI_TEXT *name, sph_scalars weights,
@@ -1081,7 +1090,7 @@ SPH_FN int sphi_check_sweep(sph_kernel k, int dim, sph_cloud cloud, SPHI_TEXT *n
 SPH_FN int sphi_check_out(SPHI_TEXT *name, int dim, sph_vector_out out)
 {
     const int there = out.x && (dim < 2 || out.y) && (dim < 3 || out.z);
-    return there ? 0 : sphi_refuse(name, -1, SPH_ERROR_NULL);
+    return SPHI_RARELY(there ? 0 : sphi_refuse(name, -1, SPH_ERROR_NULL));
 }
 
 SPH_FN int sphi_check_matrix_out(SPHI_TEXT *name, int dim, sph_matrix_out out)
@@ -1149,7 +1158,7 @@ SPH_FN int sphi_check_vectors(SPHI_TEXT *name, int dim, sph_vectors v, sph_index
     int error = sphi_check_field(name, v.x, n);
     if (!error && dim > 1) error = sphi_check_field(name, v.y, n);
     if (!error && dim > 2) error = sphi_check_field(name, v.z, n);
-    return error;
+    return SPHI_RARELY(error);
 }
 SPH_FN sph_mat sphi_matrix_at(int dim, sph_matrices m, sph_index i)
 {
@@ -1164,19 +1173,19 @@ SPH_FN int sphi_check_matrices(SPHI_TEXT *name, int dim, sph_matrices m, sph_ind
     int error = sphi_check_vectors(name, dim, m.x, n);
     if (!error && dim > 1) error = sphi_check_vectors(name, dim, m.y, n);
     if (!error && dim > 2) error = sphi_check_vectors(name, dim, m.z, n);
-    return error;
+    return SPHI_RARELY(error);
 }
 SPH_FN int sphi_check_positive(SPHI_TEXT *name, sph_scalars a, sph_index n)
 {
     const int error = sphi_check_field(name, a, n);
     if (error) return error;
-    return SPH_CHECK ? sphi_scan_positive(name, a, n) : 0;
+    return SPH_CHECK ? SPHI_RARELY(sphi_scan_positive(name, a, n)) : 0;
 }
 SPH_FN int sphi_check_not_negative(SPHI_TEXT *name, sph_scalars a, sph_index n)
 {
     const int error = sphi_check_field(name, a, n);
     if (error) return error;
-    return SPH_CHECK ? sphi_scan_not_negative(name, a, n) : 0;
+    return SPH_CHECK ? SPHI_RARELY(sphi_scan_not_negative(name, a, n)) : 0;
 }
 
 /* ================================================================ small systems

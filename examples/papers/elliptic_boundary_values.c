@@ -176,8 +176,9 @@ static const char *const column_name[COLUMNS] = {"Brookshaw", "Schwaiger", "M-SP
 typedef struct set_up {
     double amplitude;
     enum { AT_PARTICLES, AT_LATTICE, BESIDE } exact;
+    int misses_mean, misses_deviation; /* N where a fit that brings out the rest of its column does not; 0: nowhere */
 } set_up;
-static const set_up as_printed = {0.1001, AT_PARTICLES};
+static const set_up as_printed = {0.1001, AT_PARTICLES, 0, 0};
 
 typedef struct random_table {
     const char *name;
@@ -194,28 +195,28 @@ static const random_table random_tables[] = {
      {{{1.102e0, 1.966e-2}, {3.361e-1, 4.923e-3}, {9.576e-2, 8.705e-4}, {2.640e-2, 2.551e-4}, {7.185e-3, 5.982e-5}, {1.944e-3, 1.451e-5}},
       {{1.940e-1, 3.954e-2}, {5.511e-2, 1.205e-2}, {1.376e-2, 2.440e-3}, {4.157e-3, 7.485e-4}, {1.044e-3, 1.465e-4}, {3.858e-4, 5.887e-5}},
       {{3.707e-1, 1.319e-1}, {9.074e-2, 2.668e-2}, {2.299e-2, 6.972e-3}, {5.912e-3, 1.289e-3}, {1.406e-3, 3.090e-4}, {4.960e-4, 8.425e-5}}},
-     {{0.04, BESIDE}, {0.045, AT_LATTICE}, {0.068, AT_PARTICLES}}},
+     {{0.04, BESIDE, 0, 0}, {0.045, AT_LATTICE, 0, 0}, {0.068, AT_PARTICLES, 80, 0}}},
     {"Table 5",
      0,
      1.2012,
      {{{3.578e-1, 2.879e-2}, {1.261e-1, 4.859e-3}, {4.224e-2, 1.092e-3}, {1.299e-2, 2.031e-4}, {3.862e-3, 3.452e-5}, {1.133e-3, 2.125e-5}},
       {{2.162e-1, 2.800e-2}, {5.696e-2, 5.518e-3}, {1.493e-2, 1.546e-3}, {3.934e-3, 3.969e-4}, {1.037e-3, 8.443e-5}, {4.087e-4, 5.405e-5}},
       {{1.842e-1, 8.871e-3}, {4.596e-2, 1.999e-3}, {1.157e-2, 5.691e-4}, {2.889e-3, 1.451e-4}, {7.507e-4, 4.060e-5}, {3.475e-4, 3.814e-5}}},
-     {{0.0708, AT_PARTICLES}, {0.0577, AT_LATTICE}, {0.0708, AT_PARTICLES}}},
+     {{0.0708, AT_PARTICLES, 0, 0}, {0.0577, AT_LATTICE, 0, 160}, {0.0708, AT_PARTICLES, 0, 0}}},
     {"Table 8",
      1,
      0.6006,
      {{{5.608e1, 1.019e0}, {3.769e1, 5.708e-1}, {2.154e1, 1.757e-1}, {1.159e1, 7.457e-2}, {6.027e0, 2.312e-2}, {3.054e0, 1.174e-2}},
       {{8.815e-1, 4.248e-1}, {3.454e-1, 1.977e-1}, {8.454e-2, 5.111e-2}, {2.245e-2, 1.055e-2}, {1.104e-2, 7.523e-3}, {4.123e-3, 2.059e-3}},
       {{1.242e0, 5.058e-1}, {4.361e-1, 2.425e-1}, {1.525e-1, 1.195e-1}, {4.563e-2, 2.328e-2}, {1.848e-2, 9.276e-3}, {5.879e-3, 4.253e-3}}},
-     {{0.006, AT_PARTICLES}, {0, AT_PARTICLES}, {0, AT_PARTICLES}}},
+     {{0.006, AT_PARTICLES, 0, 0}, {0, AT_PARTICLES, 0, 0}, {0, AT_PARTICLES, 0, 0}}},
     {"Table 9",
      1,
      1.2012,
      {{{5.177e-1, 7.312e-2}, {5.160e-1, 4.035e-2}, {4.349e-1, 1.715e-2}, {2.745e-1, 9.059e-3}, {1.508e-1, 2.822e-3}, {7.958e-2, 1.146e-3}},
       {{3.143e-1, 7.543e-2}, {5.959e-2, 4.713e-3}, {1.515e-2, 1.973e-3}, {3.926e-3, 6.865e-4}, {1.595e-3, 8.144e-4}, {5.354e-4, 2.036e-4}},
       {{4.302e-1, 1.461e-1}, {1.106e-1, 1.739e-2}, {3.015e-2, 1.045e-2}, {1.133e-2, 5.486e-3}, {3.187e-3, 1.438e-3}, {9.201e-4, 5.201e-4}}},
-     {{0.0708, AT_PARTICLES}, {0, AT_PARTICLES}, {0, AT_PARTICLES}}},
+     {{0.0708, AT_PARTICLES, 0, 0}, {0, AT_PARTICLES, 0, 0}, {0, AT_PARTICLES, 0, 0}}},
 };
 
 /* The time goes into N = 20 to 80. */
@@ -305,6 +306,7 @@ static void random_entry(report *r, const random_table *t, int level, int column
     const char *const why = t->fit[column].amplitude > 0 ? "it comes out otherwise, see 'fitted'; what the paper moved is not said"
                             : column == SCHWAIGER        ? "with radial gradients (52) and (69) are the same numbers; no way to move particles gives this column"
                                                          : "no amplitude and no place of the exact solution that was tried gives mean and deviation";
+    static const char missed[] = "the amplitude that brings out the rest of the column does not bring out this one";
     char setting[160];
     snprintf(setting, sizeof setting, "N = %d, %s%s, %d clouds%s", N, column_name[column], column == SCHWAIGER ? " (= M-SPH)" : "", count, fitted ? "" : ", 0.1001 dx");
     if (!fitted) {
@@ -314,8 +316,12 @@ static void random_entry(report *r, const random_table *t, int level, int column
         return;
     }
     snprintf(setting + strlen(setting), sizeof setting - strlen(setting), ", fitted: %g dx%s", how.amplitude, where[how.exact]);
-    report_absolute(report_with_fit(r), t->name, setting, "mean of the printed error", published[0], mean, three);
+    if (how.misses_mean == N)
+        report_band(r, t->name, setting, "mean of the printed error", published[0], mean, mean - three, mean + three, REPORT_NOT_REPRODUCED, missed);
+    else report_absolute(report_with_fit(r), t->name, setting, "mean of the printed error", published[0], mean, three);
     if (count < DRAWS) report_number_row(r, t->name, setting, "its deviation", published[1], deviation, "few clouds", NULL, REPORT_INFO);
+    else if (how.misses_deviation == N)
+        report_band(r, t->name, setting, "its deviation", published[1], deviation, deviation / factor, deviation * factor, REPORT_NOT_REPRODUCED, missed);
     else report_factor(report_with_fit(r), t->name, setting, "its deviation", published[1], deviation, factor);
 }
 
