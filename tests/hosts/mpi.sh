@@ -64,7 +64,7 @@ if built host_mpi_vary; then
             done
         done
         check "lengths grow, and with them the halo, $box" less "$(awk -v n="$(word vary-$box-4 first)" 'BEGIN { print 2 * n + 1 }')" \
-            "$(word vary-$box-4 then)"
+            "$(word vary-$box-4 last)"
         check "all have a length, $box" grep -q "^adaptive h 0[.0-9]* to 0.1[0-9]* hash [0-9a-f]* rounds [2-9]* alone 0;" "$scratch/vary-$box-4"
         check "radii differ, $box" less 10 "$(word vary-$box-1 smallest | sed 's/;//')"
         check "a pruned halo is less than half, $box" \
