@@ -134,7 +134,7 @@ elif built host_mpi_dam hdf5-openmpi; then
         ranks 2 sh -c 'echo $$ >> "$0"; exec "$@"' "$scratch/pids" "$dam" -resolution 4 -steps 1000000 -sorted -every 1 \
             -restart "$at.h5" -write "$at" > "$scratch/log" 2>&1 &
         waited=0
-        until ! cmp -s "$at.h5" "$scratch/before" || [ $waited -ge 60 ]; do sleep 1; waited=$((waited + 1)); done
+        until ! cmp -s "$at.h5" "$scratch/before" || [ $waited -ge 100 ]; do sleep 1; waited=$((waited + 1)); done
         sleep 0.$((moment * 3))
         kill -9 "$(tail -n 1 "$scratch/pids")"
         check "a rank killed at any moment ends all" fails wait $!
