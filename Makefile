@@ -230,6 +230,7 @@ bench-gpu:
 	if ! command -v nvcc > /dev/null 2>&1; then echo "nvcc is not installed"; exit 2; fi; \
 	for single in 0 1; do \
 	    nvcc -std=c++17 -O3 -diag-suppress 128 -DSPH_SINGLE=$$single -I. tests/bench/bench_gpu.cu -o $(BUILD)/bench/bench_gpu && $(BUILD)/bench/bench_gpu || exit 1; \
+	    nvcc -std=c++17 -O3 -diag-suppress 128 -DSPH_SINGLE=$$single -I. examples/hosts/host_cuda_vortex.cu -o $(BUILD)/bench/vortex && $(BUILD)/bench/vortex 512 10 || exit 1; \
 	done
 
 # ---------------------------------------------------------------- packages

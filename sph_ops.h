@@ -3781,7 +3781,7 @@ typedef struct sph_elliptic_options {
     /* Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed. */
     sph_real conditioning_min;
     sph_scalars potential; /* read for SPH_MOBILITY_UPWIND only */
-    /* Of the targets: it is added to the result, if it is there. Rows do not contain it. */
+    /* of the targets; is added to the result, if it is there; rows do not contain it */
     sph_scalars source;
 } sph_elliptic_options;
 

@@ -110,7 +110,7 @@ static void adapt(cloud *c)
     MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPI_DOUBLE, MPI_MAX, c->comm);
     lonely = sum_of(c, lonely);
     if (c->rank == 0 && total > 0)
-        printf("adaptive h %.9f to %.9f hash %016llx rounds %d alone %lld; halo first %lld then %lld\n", -ends[1], ends[0],
+        printf("adaptive h %.9f to %.9f hash %016llx rounds %d alone %lld; halo first %lld last %lld\n", -ends[1], ends[0],
                (unsigned long long)hash[1], rounds, lonely, first, copies);
     free(status);
 }

@@ -6,7 +6,7 @@
  * particles of a cell are put in ascending order, so that rows do not depend on the order of atomics.
  *
  * A host runs, in this order and with one item for each of:
- *     count (sources), scan (one group: cells), put (sources), order (cells), lengths (targets),
+ *     nothing (cells), count (sources), scan (one group: cells), put (sources), order (cells), lengths (targets),
  *     scan (one group: targets), rows (targets)
  * Include sph.h first, with SPH_CHECK 0 on a device. A host includes this file for `cells` only.
  */
@@ -70,6 +70,11 @@ SPH_FN sph_vec cells_wrapped(cells g, sph_vec p)
 SPH_FN int cells_at(cells g, int axis, sph_real x)
 {
     return axis < g.dim ? (int)sph_grid_cell(x, g.low[axis], g.inverse_width[axis], g.count[axis]) : 0;
+}
+DEVICE_KERNEL nothing(int buckets, SPH_GLOBAL int *first)
+{
+    const int b = DEVICE_ITEM;
+    if (b < buckets) first[b + 1] = 0;
 }
 DEVICE_KERNEL count(int n, cells g, const SPH_GLOBAL sph_real *x, SPH_GLOBAL int *bucket, SPH_GLOBAL int *place,
                     SPH_GLOBAL int *first)

@@ -72,6 +72,26 @@ static void opencl_back(cl_mem m, size_t from, size_t size, void *to)
     opencl_stop_on(clEnqueueReadBuffer(opencl.queue, m, CL_TRUE, from, size, to, 0, 0, 0),
                    "clEnqueueReadBuffer");
 }
+/* Bytes per ns that the device reads and writes where it copies its memory. */
+static inline double opencl_bandwidth(void)
+{
+    const size_t size = (size_t)1 << 26;
+    const cl_mem from = opencl_copy(size, 0), to = opencl_copy(size, 0);
+    cl_ulong begin = 0, end = 0;
+    double fastest = 0;
+    int round;
+    for (round = 0; round < 5; round++) {
+        cl_event event;
+        opencl_stop_on(clEnqueueCopyBuffer(opencl.queue, from, to, 0, 0, size, 0, 0, &event), "clEnqueueCopyBuffer");
+        opencl_stop_on(clFinish(opencl.queue), "clFinish");
+        clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof begin, &begin, 0);
+        clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, 0);
+        clReleaseEvent(event);
+        if (end > begin && 2.0 * (double)size / (double)(end - begin) > fastest) fastest = 2.0 * (double)size / (double)(end - begin);
+    }
+    clReleaseMemObject(from), clReleaseMemObject(to);
+    return fastest;
+}
 /* Runs a kernel over `items` work items, in groups of `group` (0: the device chooses), and returns its
    nanoseconds. */
 typedef struct opencl_argument {

@@ -444,7 +444,7 @@ int main(int argc, char **argv)
     char message[ELLIPTIC_MESSAGE] = "";
 #if HAVE_PETSC
     int none = 0;
-    if (PetscInitialize(&none, NULL, NULL, NULL)) return 2; /* its options come by the environment, PETSC_OPTIONS */
+    if (PetscInitialize(&none, NULL, NULL, NULL)) return 2; /* its own options come by the environment */
     if (sparse_petsc_helped()) return PetscFinalize() != 0;
 #endif
     options_parse(argc, argv,

@@ -140,6 +140,9 @@ if usable "$opencl" "$platforms" '' "$CC -std=c99 $warn -O2" -lOpenCL -lm; then
         # shellcheck disable=SC2086
         built "OpenCL, lists" "$scratch/lists-$single" $CC -std=c99 $warn -O2 -DSPH_SINGLE=$single -I. $hosts/host_opencl_lists.c -o "$scratch/lists-$single" -lOpenCL -lm &&
             run "OpenCL, lists made on the device, SPH_SINGLE=$single" "$scratch/lists-$single"
+        # shellcheck disable=SC2086
+        built "OpenCL, vortex" "$scratch/vortex-$single" $CC -std=c99 $warn -O2 -DSPH_SINGLE=$single -I. $hosts/host_opencl_vortex.c -o "$scratch/vortex-$single" -lOpenCL -lm &&
+            run "OpenCL, a vortex that stays on the device, SPH_SINGLE=$single" "$scratch/vortex-$single"
     done
 fi
 
@@ -152,6 +155,10 @@ if usable "CUDA (Debian: nvidia-cuda-toolkit)" "$empty" '' "$nvcc -x cu"; then
         built "CUDA, SPH_SINGLE=$single" "$scratch/host_cuda-$single" \
             $nvcc -DSPH_SINGLE=$single -I. $hosts/host_cuda.cu -o "$scratch/host_cuda-$single" &&
             run "CUDA, SPH_SINGLE=$single" "$scratch/host_cuda-$single"
+        # shellcheck disable=SC2086
+        built "CUDA, vortex, SPH_SINGLE=$single" "$scratch/cuda_vortex-$single" \
+            $nvcc -DSPH_SINGLE=$single -I. $hosts/host_cuda_vortex.cu -o "$scratch/cuda_vortex-$single" &&
+            run "CUDA, a vortex that stays on the device, SPH_SINGLE=$single" "$scratch/cuda_vortex-$single"
     done
 fi
 finish hosts
