@@ -38,7 +38,7 @@ COMMON = $(wildcard $(addsuffix /*.h,examples/common $(FOLDERS)))
 drivers_in = $(notdir $(basename $(wildcard $(addsuffix /$(1)_*.c,$(FOLDERS)))))
 DRIVERS = $(foreach g,$(GROUPS),$(call drivers_in,$(g)))
 # what takes longest starts first, so that nothing long is left alone at the end
-LONG_RUNS = clustering_shaft cleaning_collapse clustering_cavity elliptic_boundary_values cleaning_orszag_tang icspm_random clustering_box cleaning_disc fluids_vortices atlas_operators fluids_dam fluids_tank clustering_dam cleaning_drop gas_gresho
+LONG_RUNS = clustering_shaft cleaning_collapse clustering_cavity elliptic_boundary_values cleaning_orszag_tang icspm_random clustering_box cleaning_disc fluids_vortices atlas_operators fluids_dam fluids_tank clustering_dam cleaning_drop gas_evrard gas_crk gas_kh gas_gresho
 LONG_COMPILES = atlas_cost elliptic_operators elliptic_clouds elliptic_boundary_values elliptic_uses icspm_dimensions cleaning_disc clustering_flows fluids_drop
 THREADED := $(notdir $(basename $(shell grep -l -e THREADS_OPTION -e '[A-Z]_OPTIONS' -e gas_begin $(addsuffix /*.c,$(FOLDERS)))))
 # those whose long runs leave restarts, and go on from them; and the tables of long runs that are kept

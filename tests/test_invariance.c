@@ -395,6 +395,61 @@ static sph_index mhd(world *w, sph_index first, sph_index last)
     o.v_sig = OUT(10);
     return sph_mhd_rates(SWEEP, s, o);
 }
+static sph_gas plain_gas(const world *w, int conductivity)
+{
+    sph_gas s;
+    s.medium = gas(w);
+    s.p = at(w, P);
+    s.u = at(w, U);
+    s.cs = at(w, CS);
+    s.alpha = at(w, ALPHA);
+    s.v = vectors(w, VX);
+    s.beta = SPH_R(2);
+    s.alpha_u = SPH_R(0.9);
+    s.conductivity = conductivity;
+    return s;
+}
+static sph_index gas_rates(world *w, sph_index first, sph_index last, int conductivity)
+{
+    sph_gas_out o = {0};
+    o.acceleration = into(w, 0);
+    o.rate_u = OUT(3);
+    o.div_v = OUT(4);
+    o.v_sig = OUT(5);
+    return sph_gas_rates(SWEEP, plain_gas(w, conductivity), o);
+}
+OPERATOR(gas_plain, gas_rates(w, first, last, SPH_CONDUCTIVITY_NONE))
+OPERATOR(gas_price, gas_rates(w, first, last, SPH_CONDUCTIVITY_PRICE))
+OPERATOR(gas_wadsley, gas_rates(w, first, last, SPH_CONDUCTIVITY_WADSLEY))
+static sph_velocity_gradient_out flow_into(world *w)
+{
+    sph_velocity_gradient_out o = {0};
+    o.div = OUT(0);
+    o.curl = OUT(1);
+    o.shear = OUT(2);
+    o.square = OUT(3);
+    return o;
+}
+OPERATOR(flow_difference, sph_velocity_gradient_difference(SWEEP, gas(w), vectors(w, VX), flow_into(w)))
+OPERATOR(flow_cspm, sph_velocity_gradient_cspm(SWEEP, vectors(w, VX), flow_into(w)))
+static sph_index shock_indicator(world *w, sph_index first, sph_index last)
+{
+    sph_shock_out o = {0};
+    o.ratio = OUT(0);
+    o.v_sig = OUT(1);
+    return sph_shock_indicator(SWEEP, plain_gas(w, SPH_CONDUCTIVITY_NONE), at(w, F), o);
+}
+static sph_index resistivity_ohmic(world *w, sph_index first, sph_index last)
+{
+    sph_ohmic s;
+    sph_ohmic_out o = {0};
+    s.medium = gas(w);
+    s.eta = at(w, MU);
+    s.field = vectors(w, BX);
+    o.rate_B = into(w, 0);
+    o.rate_u = OUT(3);
+    return sph_resistivity_ohmic(SWEEP, s, o);
+}
 
 /* Corrections of all particles first, then the operator for its targets. */
 enum { OF_INTERPOLATION, OF_GRADIENT, OF_CRK, OF_IAD };
@@ -551,6 +606,13 @@ static const operation operations[] = {
      ALL,
      1,
      {{VECTOR, 0, -1, -1}, {VECTOR, 3, -1, -1}, {SCALAR, 6, -1, -1}, {SCALAR, 7, -1, -1}, {SCALAR, 8, -1, -1}, {SCALAR, 9, -1, -1}, {SCALAR, 10, 0, 0}}},
+    {"gas_rates", gas_plain, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}, {SCALAR, 5, 0, 0}}},
+    {"gas_rates, Price", gas_price, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}, {SCALAR, 5, 0, 0}}},
+    {"gas_rates, Wadsley", gas_wadsley, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}, {SCALAR, 5, 0, 0}}},
+    {"velocity_gradient_difference", flow_difference, PLANE | SPACE, 5, {{SCALAR, 0, -1, -1}, {SCALAR, 1, -1, -1}, {SCALAR, 2, -2, -2}, {SCALAR, 3, -2, -2}}},
+    {"velocity_gradient_cspm", flow_cspm, PLANE | SPACE, 20, {{SCALAR, 0, -1, 0}, {SCALAR, 1, -1, 0}, {SCALAR, 2, -2, 0}, {SCALAR, 3, -2, 0}}},
+    {"shock_indicator", shock_indicator, ALL, 1, {{SCALAR, 0, 0, -1}, {SCALAR, 1, 0, 0}}},
+    {"resistivity_ohmic", resistivity_ohmic, ALL, 1, {{VECTOR, 0, -2, -1}, {SCALAR, 3, -2, -1}}},
     {"cleaning_rates", cleaning, ALL, 1, {{VECTOR, 0, -1, -1}, {SCALAR, 3, -1, -1}, {SCALAR, 4, -1, -1}}},
     {"divergence_difference", divergence_difference, ALL, 1, {{SCALAR, 0, -1, -1}}},
     {"divergence_symmetric", divergence_symmetric, ALL, 1, {{SCALAR, 0, -1, -1}}},

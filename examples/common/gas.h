@@ -35,6 +35,14 @@
 #ifndef GAS_KERNEL
 #define GAS_KERNEL SPH_CUBIC_SPLINE
 #endif
+#ifndef GAS_DIM
+#define GAS_DIM 0 /* the dimension, where a driver has but one: it compiles in a third of the time; 0: any */
+#endif
+#if GAS_DIM
+#define GAS_SWEEP(sweep, dim, ...) sweep(GAS_KERNEL, GAS_DIM, __VA_ARGS__)
+#else
+#define GAS_SWEEP(sweep, dim, ...) WITH_DIM_1_2_3(sweep, GAS_KERNEL, dim, __VA_ARGS__)
+#endif
 #define GAS_ETA 1.2 /* h in spacings, where a driver does not set it */
 
 /* The viscosity: alpha[1] everywhere, or a switch between alpha[0] and alpha[1]. */
@@ -81,6 +89,10 @@ static inline gas gas_new(int dim, sph_index n, double gamma)
     const size_t count = (size_t)n;
     gas g;
     int k;
+    if (GAS_DIM && dim != GAS_DIM) {
+        fprintf(stderr, "this program is compiled for %d dimensions, not %d\n", GAS_DIM, dim);
+        exit(2);
+    }
     memset(&g, 0, sizeof g);
     g.dim = dim;
     g.parts = 3;
@@ -175,10 +187,9 @@ static inline void gas_well(const gas *g, sph_index answer)
 static inline long gas_density_part(void *data, long first, long last)
 {
     const gas *const g = (const gas *)data;
-    const sph_kernel k = GAS_KERNEL;
     const sph_density_options options = {gas_field(g, REACH), g->eta, 1e-4};
     const sph_density_out out = {.h = g->a[H], .rho = g->a[RHO], .omega = g->a[OMEGA], .status = g->status};
-    return WITH_DIM_1_2_3(sph_density_adaptive, k, g->dim, gas_cloud(g, first, last), gas_field(g, M), options, out);
+    return GAS_SWEEP(sph_density_adaptive, g->dim, gas_cloud(g, first, last), gas_field(g, M), options, out);
 }
 /* (4), (5) for the particles before `last`; lists for an h that grows by 4 % */
 static inline void gas_density(gas *g, sph_index last)
@@ -288,16 +299,14 @@ static inline double gas_potential(const gas *g)
 static inline long gas_gradient_part(void *data, long first, long last)
 {
     const gas *const g = (const gas *)data;
-    const sph_kernel k = GAS_KERNEL;
     const sph_velocity_gradient_out out = {.div = g->a[DIV], .curl = g->a[CURL], .shear = g->a[SHEAR]};
-    return WITH_DIM_1_2_3(sph_velocity_gradient_cspm, k, g->dim, gas_cloud(g, first, last), vectors_of(g->a + VX, 3), out);
+    return GAS_SWEEP(sph_velocity_gradient_cspm, g->dim, gas_cloud(g, first, last), vectors_of(g->a + VX, 3), out);
 }
 static inline long gas_shock_part(void *data, long first, long last)
 {
     const gas *const g = (const gas *)data;
-    const sph_kernel k = GAS_KERNEL;
     const sph_shock_out out = {.ratio = g->a[RATIO], .v_sig = g->a[FRONT]};
-    return WITH_DIM_1_2_3(sph_shock_indicator, k, g->dim, gas_cloud(g, first, last), gas_state(g), gas_field(g, DIV), out);
+    return GAS_SWEEP(sph_shock_indicator, g->dim, gas_cloud(g, first, last), gas_state(g), gas_field(g, DIV), out);
 }
 /* alpha of each particle after a step dt; d(div v)/dt is a difference in time */
 static inline void gas_switches(gas *g, double dt)
@@ -332,15 +341,13 @@ static inline void gas_switches(gas *g, double dt)
 static inline long gas_rates_part(void *data, long first, long last)
 {
     const gas *const g = (const gas *)data;
-    const sph_kernel k = GAS_KERNEL;
     const sph_gas_out out = {
         .acceleration = vectors_into(g->rate + VX, 3), .rate_u = g->rate[U], .div_v = g->a[DIV_V], .v_sig = g->a[SPEED]};
-    return WITH_DIM_1_2_3(sph_gas_rates, k, g->dim, gas_cloud(g, first, last), gas_state(g), out);
+    return GAS_SWEEP(sph_gas_rates, g->dim, gas_cloud(g, first, last), gas_state(g), out);
 }
 static inline long gas_mhd_part(void *data, long first, long last)
 {
     const gas *const g = (const gas *)data;
-    const sph_kernel k = GAS_KERNEL;
     const sph_mhd s = {.medium = gas_medium(g),
                        .p = gas_field(g, P),
                        .u = gas_field(g, U),
@@ -362,7 +369,7 @@ static inline long gas_mhd_part(void *data, long first, long last)
                              .div_B = g->a[DIV_B],
                              .div_v = g->a[DIV_V],
                              .v_sig = g->a[SPEED]};
-    return WITH_DIM_2_3(sph_mhd_rates, k, g->dim, gas_cloud(g, first, last), s, out);
+    return GAS_SWEEP(sph_mhd_rates, g->dim, gas_cloud(g, first, last), s, out);
 }
 /* pressure and sound speed; the largest fast speed */
 static inline double gas_pressure(gas *g)

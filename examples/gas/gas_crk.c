@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT
  *
- * gas_crk.c - Gresho's vortex by plain SPH, by reproducing kernels (CRKSPH) and by the integral approach (IAD).
+ * gas_crk.c - Gresho's vortex and Sod's tube by plain SPH, by reproducing kernels (CRKSPH) and by the integral approach
+ * (IAD).
  *
  *     cc -O2 -o gas_crk examples/gas/gas_crk.c -lm
  *     gas_crk -out DIR -figures DIR [-full]       (-h for help)
  *
- * A vortex in the unit square that repeats, in which pressure balances rotation (Gresho & Chan 1990, IJNMF 11,
- * 621): v = 5 r, 2 - 5 r, 0, rho = 1, gamma = 5/3, p = 5 in the middle. 40 x 40 particles from a lattice, h = 1.4 dx,
- * cubic spline, artificial viscosity alpha v_sig with alpha = 0.1, to t = 1. Plain SPH is sph_gas_rates: P /
- * rho^2, symmetric. The error is the mean of |v - exact| along the circles.
+ * Plain SPH is sph_gas_rates: P / rho^2, symmetric. The vortex: unit square that repeats, pressure balances rotation
+ * (Gresho & Chan 1990, IJNMF 11, 621), v = 5 r, 2 - 5 r, 0, rho = 1, gamma = 5/3, p = 5 in the middle; 40 x 40
+ * particles from a lattice, eta = 1.4, viscosity alpha v_sig with alpha = 0.1, to t = 1. The error is the mean of
+ * |v - exact| along the circles. The tube: gas_riemann.h on the triangles of tube.h, dx = 1/200, eta = 1.2, alpha = 1,
+ * no conductivity; errors are those of gas_sod.
  */
+#define GAS_DIM 2
 #include "gas_cases.h"
 #include "gas_riemann.h"
 
@@ -153,9 +156,10 @@ int main(int argc, char **argv)
     for (form = CRK; form < FORMS; form++) {
         char what[32];
         snprintf(what, sizeof what, "%s / plain", form_name[form]);
-        report_info(&r, "Sod 2D", what, "ratio of L1 of rho", e[form].l1[SOD_RHO] / e[PLAIN].l1[SOD_RHO]);
-        report_info(&r, "Sod 2D", what, "ratio of L1 of v", e[form].l1[SOD_V] / e[PLAIN].l1[SOD_V]);
-        report_info(&r, "Sod 2D", what, "ratio of L1 of P", e[form].l1[SOD_P] / e[PLAIN].l1[SOD_P]);
+        /* of CRK the density lags behind where the gas expands */
+        report_range(&r, "Sod 2D", what, "ratio of L1 of rho", (double)NAN, e[form].l1[SOD_RHO] / e[PLAIN].l1[SOD_RHO], form == CRK ? 1.2 : 0.6, form == CRK ? 2.2 : 1.1);
+        report_range(&r, "Sod 2D", what, "ratio of L1 of v", (double)NAN, e[form].l1[SOD_V] / e[PLAIN].l1[SOD_V], 0.9, 1.4);
+        report_range(&r, "Sod 2D", what, "ratio of L1 of P", (double)NAN, e[form].l1[SOD_P] / e[PLAIN].l1[SOD_P], form == CRK ? 1.2 : 0.6, form == CRK ? 2.2 : 1.1);
     }
     return report_close(&r) ? 1 : 0;
 }

@@ -13,6 +13,7 @@
  * the runs are noisy: half the time step moves the peak by 10 %. Each is beside an independent trial, whose
  * errors are larger by a tenth to a third: its norm is not known, and the ratio to alpha = 1 is judged instead.
  */
+#define GAS_DIM 2
 #include "gas_cases.h"
 
 typedef struct figures_of { /* of an independent trial; peak 0, alpha 0: none is known */

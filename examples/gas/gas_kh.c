@@ -17,6 +17,7 @@
  */
 #include "../common/figure.h"
 #define GAS_KERNEL SPH_QUINTIC_SPLINE
+#define GAS_DIM 2
 #include "gas_cases.h"
 
 static const double LENGTH = 0.025, MODE = 4 * MATH_PI, GAMMA = 5.0 / 3, P0 = 2.5, PUSH = 0.01;

@@ -13,6 +13,7 @@
  * an h that follows the density. The error of rho falls with h^2 within, and the surface, where rho has a kink, is wide
  * by h.
  */
+#define GAS_DIM 3
 #include "gas_cases.h"
 
 #include "../common/random.h"

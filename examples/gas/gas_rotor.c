@@ -13,6 +13,7 @@
  * momentum into the gas outside. No profile of the papers is at hand as numbers; judged are conservation, div B, and symmetry: the
  * start is the same after a turn by half a circle, and so is the exact solution at every time.
  */
+#define GAS_DIM 2
 #include "gas_cases.h"
 
 static const double END = 0.15;

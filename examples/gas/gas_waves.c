@@ -13,6 +13,7 @@
  * an independent trial, whose set-up is not known, stands beside.
  */
 #define GAS_KERNEL SPH_QUINTIC_SPLINE /* by the cubic spline the speed of sound is wrong by 1.7 %, at any N */
+#define GAS_DIM 2
 #include "gas_cases.h"
 
 #define TURN 6.28318530717958647693

@@ -10,6 +10,7 @@
  * resistivity: what div B loses, it loses to the cleaning. ch: the largest fast speed, 3.2, so that t = 1 here is ch t = 3.2 of the disc of figure 1.
  */
 #include "../common/vtk.h"
+#define GAS_DIM 2
 #include "../common/gas.h"
 #include "cleaning.h"
 

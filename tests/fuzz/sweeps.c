@@ -165,6 +165,50 @@ static sph_mhd_out mhd_out(const arguments *a)
     o.rate_u = OUT(6), o.rate_psi = OUT(7), o.div_B = OUT(8), o.div_v = OUT(9), o.v_sig = OUT(10);
     return o;
 }
+static sph_gas plain_gas(const arguments *a)
+{
+    sph_gas s;
+    s.medium = gas(a);
+    s.p = a->s[3], s.u = a->s[4], s.cs = a->s[1], s.alpha = a->s[0];
+    s.v = vectors(a, 5);
+    s.beta = a->number[2], s.alpha_u = a->number[3];
+    s.conductivity = a->what % 4;
+    return s;
+}
+static sph_gas_out gas_out(const arguments *a)
+{
+    sph_gas_out o = {0};
+    o.acceleration = vector_out(a, 0);
+    o.rate_u = OUT(3), o.div_v = OUT(4), o.v_sig = OUT(5);
+    return o;
+}
+static sph_velocity_gradient_out flow_out(const arguments *a)
+{
+    sph_velocity_gradient_out o = {0};
+    o.div = OUT(0), o.curl = OUT(1), o.shear = OUT(2), o.square = OUT(3);
+    return o;
+}
+static sph_shock_out shock_out(const arguments *a)
+{
+    sph_shock_out o = {0};
+    o.ratio = OUT(0), o.v_sig = OUT(1);
+    return o;
+}
+static sph_ohmic ohmic(const arguments *a)
+{
+    sph_ohmic s;
+    s.medium = gas(a);
+    s.eta = a->s[3];
+    s.field = vectors(a, 5);
+    return s;
+}
+static sph_ohmic_out ohmic_out(const arguments *a)
+{
+    sph_ohmic_out o = {0};
+    o.rate_B = vector_out(a, 0);
+    o.rate_u = OUT(3);
+    return o;
+}
 static sph_elliptic_report report(const arguments *a)
 {
     sph_elliptic_report o = {0};
@@ -436,6 +480,11 @@ enum { PLAIN = 0, VECTOR = 1, HESSIAN = 2, STATUS = 4, VECTORS = 8, COUNTS = 16,
     X(sph_curl_difference(SWEEP, gas(a), vectors(a, 5), vector_out(a, 0)), 3, 0, THREE) \
     X(sph_cleaning_rates(SWEEP, cleaning(a), cleaning_out(a)), 5, 0, VECTOR) \
     X(sph_mhd_rates(SWEEP, mhd(a), mhd_out(a)), 11, 0, VECTORS) \
+    X(sph_gas_rates(SWEEP, plain_gas(a), gas_out(a)), 6, 0, VECTOR) \
+    X(sph_velocity_gradient_difference(SWEEP, gas(a), vectors(a, 5), flow_out(a)), 4, 0, PLAIN) \
+    X(sph_velocity_gradient_cspm(SWEEP, vectors(a, 5), flow_out(a)), 4, 0, PLAIN) \
+    X(sph_shock_indicator(SWEEP, plain_gas(a), a->s[11], shock_out(a)), 2, 0, PLAIN) \
+    X(sph_resistivity_ohmic(SWEEP, ohmic(a), ohmic_out(a)), 4, 0, VECTORS) \
     X(sph_gradient_iad(SWEEP, a->s[3], gradient_out(a)), 4, 0, VECTOR | STATUS) \
     X(sph_gradient_rows_iad(SWEEP, gradient_row_out(a)), 4, 3, VECTOR | STATUS) \
     X(sph_gradient_correction_cspm(SWEEP, correction_out(a)), 10, 0, MATRIX | STATUS) \
