@@ -98,17 +98,17 @@ static inline void position(const sample *s, sph_index i, double *x)
 }
 
 /* The mobility that the operators div(m grad u) see: 1, or a wave about it. */
-static inline jet mobility_at(int dim, int varied, const double *x)
+static inline field_jet mobility_at(int dim, int varied, const double *x)
 {
-    field f = field_waves(dim, 3);
+    wave_field f = field_waves(dim, 3);
     for (int w = 0; w < 3; w++) f.size[w] *= varied ? 0.15 : 0.0;
-    jet j = field_at(&f, x);
+    field_jet j = field_at(&f, x);
     j.value += 1.0;
     return j;
 }
 
 /* The error of each particle for these fields, relative to `scale`; NaN where there is no answer. */
-static inline void errors_of(const op *o, sample *s, arrays *a, const field *f, int varied, double scale, double *error)
+static inline void errors_of(const op *o, sample *s, arrays *a, const wave_field *f, int varied, double scale, double *error)
 {
     const int inputs = family_inputs(o->family, s->dim), outputs = family_outputs(o->family, s->dim);
     for (sph_index i = 0; i < s->n; i++) {
@@ -117,21 +117,21 @@ static inline void errors_of(const op *o, sample *s, arrays *a, const field *f, 
         for (int c = 0; c < inputs; c++) a->in[c][i] = field_at(&f[c], x).value;
         s->mobility[i] = mobility_at(s->dim, varied, x).value;
         for (int c = 0; c < 3; c++) x[c] = s->wall_point[c][i];
-        const jet at_wall = field_at(&f[0], x);
+        const field_jet at_wall = field_at(&f[0], x);
         s->wall_value[i] = at_wall.value;
         for (int c = 0; c < 3; c++) s->wall_slope[c][i] = at_wall.d[c];
     }
     apply(o, s, a->in, a->out);
     for (sph_index i = s->cloud.first; i < s->cloud.last; i++) {
         double x[3], want[OUTPUTS], sum = 0.0;
-        jet j[INPUTS];
+        field_jet j[INPUTS];
         if (!answered(s, i)) {
             error[i] = (double)NAN;
             continue;
         }
         position(s, i, x);
         for (int c = 0; c < inputs; c++) j[c] = field_at(&f[c], x);
-        const jet m = mobility_at(s->dim, varied, x);
+        const field_jet m = mobility_at(s->dim, varied, x);
         family_answer(o->family, s->dim, j, &m, want);
         for (int c = 0; c < outputs; c++) sum += (a->out[c][i] - want[c]) * (a->out[c][i] - want[c]);
         error[i] = sqrt(sum) / scale;
@@ -159,7 +159,7 @@ static inline void measure_errors(const op *o, sample *s, int level, errors *e)
 {
     arrays a = arrays_of(s->n);
     double *const error = numbers(s->n);
-    field f[3];
+    wave_field f[3];
     family_waves(o->family, s->dim, f);
     errors_of(o, s, &a, f, o->family == ELLIPTIC, family_scale(o->family), error);
     for (int region = 0; region < REGIONS; region++) e->rms[s->kind][region][level] = region_rms(s, error, region, &e->worst[s->kind][region][level]);
@@ -203,7 +203,7 @@ static inline int measure_degree(const op *o, sample *s, int region)
                 const int z = d - x - y;
                 if (z > 0 && s->dim < 3) continue;
                 for (int c = 0; c < family_inputs(o->family, s->dim) && exact; c++) {
-                    field f[3];
+                    wave_field f[3];
                     double worst;
                     for (int q = 0; q < 3; q++) {
                         f[q] = field_monomial(0, 0, 0);
@@ -229,7 +229,7 @@ static inline void measure_distance(const op *o, sample *s, portrait *p)
 {
     arrays a = arrays_of(s->n);
     double *const error = numbers(s->n), middle = 0.5 * (s->side - 1.0), reach = sample_reach(s);
-    field f[3];
+    wave_field f[3];
     family_waves(o->family, s->dim, f);
     s->cloud = sph_cloud_range(s->cloud, 0, s->n);
     errors_of(o, s, &a, f, o->family == ELLIPTIC, family_scale(o->family), error);
@@ -255,7 +255,7 @@ static inline void measure_jitter(const op *o, sample *s, double *at)
 {
     arrays a = arrays_of(s->n);
     double *const error = numbers(s->n);
-    field f[3];
+    wave_field f[3];
     family_waves(o->family, s->dim, f);
     errors_of(o, s, &a, f, o->family == ELLIPTIC, family_scale(o->family), error);
     *at = region_rms(s, error, REGION_INSIDE, NULL);
