@@ -1,16 +1,21 @@
 /* SPDX-License-Identifier: MIT
  *
  * What the atlas of operators measures with: eigenvalues, clouds and their volumes, fields with their answers, and
- * how it reads comments and sets formulas.
+ * how it reads comments and sets formulas. In double only.
  */
-#include "../examples/common/part_file.h"
+#include "../sph_kernels.h"
+#include "check.h"
+
+#if SPH_SINGLE
+int main(void) { return check_report("test_atlas"); }
+#else
+
 #include "../examples/atlas/sample.h"
 
 #include "../examples/atlas/eigenvalues.h"
 #include "../examples/atlas/families.h"
 #include "../examples/atlas/header.h"
 #include "../examples/atlas/mathml.h"
-#include "check.h"
 
 #define SAYS(what, holds) CHECK_AT(what, 0L, holds)
 
@@ -213,3 +218,4 @@ int main(void)
     test_formulas();
     return check_report("test_atlas");
 }
+#endif
