@@ -149,7 +149,7 @@ int main(int argc, char **argv)
         {"quiet", "no progress on stderr", OPTION_FLAG, &quiet, 0, 0},
     };
     options_parse(argc, argv, "The atlas: what each operator does, measured.", specs, (int)(sizeof specs / sizeof specs[0]));
-    const int configurations = full ? CONFIGS : QUICK_CONFIGS, targets = full ? 200 : 40;
+    const int configurations = full ? CONFIGS : QUICK_CONFIGS, targets = full ? 100 : 40;
     const double steps = (double)configurations * SAMPLE_KINDS * LEVELS + 2.0 * 20.0;
     double step = 0.0;
     header h = header_read(headers);

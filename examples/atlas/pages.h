@@ -184,7 +184,7 @@ static inline void page_index(const atlas *a)
         const errors *const e = &r->at[0];
         double order[3];
         measured_orders(e, order);
-        fprintf(to, "<tr data-family=\"%d\" data-good=\"\"><td class=\"left\"><a href=\"%s.html\">%s</a></td>", o->family, o->id, o->id);
+        fprintf(to, "<tr data-family=\"%d\" data-good=\"\"><th scope=\"row\"><a href=\"%s.html\">%s</a></th>", o->family, o->id, o->id);
         cell(to, r->of[0].exact, degree_text(r->of[0].exact));
         for (int c = 0; c < 3; c++) cell(to, order[c], order_text(text, order[c]));
         const double error[5] = {e->rms[SAMPLE_LATTICE][REGION_INSIDE][SHOWN], e->rms[SAMPLE_JITTER][REGION_INSIDE][SHOWN], e->rms[SAMPLE_RANDOM][REGION_INSIDE][SHOWN],
@@ -341,6 +341,11 @@ static inline void page_operator(const atlas *a, int q)
         if (family(o->family).out == 1)
             fprintf(to, "<dt>Angular momentum</dt><dd>%s: it is %s</dd>\n", error_text(text, p->angular < 1e-11 ? 0.0 : p->angular), p->angular < 1e-10 ? "kept" : "not kept");
         if (is_laplacian(o) || o->family == VISCOSITY) fprintf(to, "<dt>Energy</dt><dd>the sum of V f L f was %s for random fields</dd>\n", p->energy < 0.0 ? "always negative: it damps" : "not always negative");
+    }
+    if (p->conjugates) {
+        fputs("<dt>Conjugate to</dt><dd>", to);
+        for (int c = 0; c < p->conjugates; c++) fprintf(to, "%s<a href=\"%s.html\">%s</a>", c ? ", " : "", a->operators[p->conjugate[c]].id, a->operators[p->conjugate[c]].id);
+        fputs(": the sum of V f div A is minus the sum of V A &#8901; grad f, to rounding</dd>\n", to);
     }
     fprintf(to, "<dt>Rotation</dt><dd>turning everything changes the result by %s of its size</dd>\n</dl>\n", error_text(text, p->rotation));
     page_close(a, &page);
