@@ -175,6 +175,7 @@ static void test_comments(void)
     h.plain = plain;
     header_squeeze(text, plain);
     SAYS("words of several lines", header_says(&h, "inside lattices for quadratic fields; order"));
+    SAYS("stars of comments", header_says(&h, "-1 at boundaries. Atlas: Hessian"));
     SAYS("a function", header_function(&h, "sph_some", &comment, &signature));
     SAYS("its signature", strncmp(signature.from, "SPH_FN sph_index sph_some(int a,\n    int b)", (size_t)(signature.to - signature.from)) == 0 && signature.to[-1] == ')');
     SAYS("its comment", strncmp(comment.from, "/* A sum.", 9) == 0 && comment.to[-1] == '/');
