@@ -31,16 +31,23 @@ check "a claim of an order" claim sph_gradient_iad "; order 2|; order 4"
 check "a claim in other words" claim sph_gradient_rk "exact for linear fields, inside|exact for straight fields, inside"
 check "a claim that is taken away" claim sph_gradient_difference "Atlas: gradient|Gradient"
 check "a formula" claim sph_gradient_symmetric "grad f_i = rho_i|grad f_i = 2 rho_i"
-check "false claims" answers 1 " 7 differs" one gradient_ -headers "$false"
+check "a claim in free words" claim sph_interpolate_mls "opening): exact for linear|opening): exact for quadratic"
+check "false claims" answers 1 " 9 differs" one gradient_ -headers "$false"
 found() { grep -q -e "$1.*,differs$" "$scratch/atlas_operators.csv"; }
 check "too exact" found 'gradient_cspm,.*exact for,,quadratic fields,theory,linear fields'
 check "too high an order" found 'gradient_iad,.*order inside lattices,,4,theory,2.0'
 check "words that are not known" found 'gradient_rk,.*not understood'
 check "no claim" found 'gradient_difference,.*nothing is claimed'
+check "too exact, in free words" found 'gradient_mls,.*in the words of the comment.*,quadratic fields,theory,linear fields'
 check "another formula" found 'gradient_symmetric,.*not in sph_ops.h'
 check "no header" answers 2 "cannot read" one gradient_cspm -headers "$scratch/nowhere"
 
-# pages
+# pages; those of a full run are kept
+kept() {
+    sed -n 's/^    X(\([a-z_]*\), .*/\1/p' examples/atlas/operators.h | while read -r name; do [ -e "examples/atlas/pages/$name.html" ] || echo "$name"; done > "$scratch/lost"
+    ! grep . "$scratch/lost"
+}
+check "every operator has a page that is kept" kept
 check "no folder for pages" answers 2 "no/such/folder" one gradient_cspm -pages no/such/folder
 cd "$pages" || exit 2
 scratch=.. # of check

@@ -166,7 +166,7 @@ static void test_answers(int dim)
 
 static void test_comments(void)
 {
-    static char text[] = "\n/* A sum.\n   Atlas: gradient exact for linear fields, inside\n   lattices for quadratic fields; order 2 inside lattices, 1 in disorder, -1 at boundaries.\n"
+    static char text[] = "\n/* A sum, exact\n   for linear u. It is exact for quadratic u inside of\n   lattices.\n   Atlas: gradient exact for linear fields, inside\n   lattices for quadratic fields; order 2 inside lattices, 1 in disorder, -1 at boundaries.\n"
                          " * Atlas: Hessian exact for joy; order 2. */\nSPH_FN sph_index sph_some(int a,\n    int b)\n{\n}\n";
     static char plain[sizeof text];
     header h;
@@ -178,12 +178,19 @@ static void test_comments(void)
     SAYS("stars of comments", header_says(&h, "-1 at boundaries. Atlas: Hessian"));
     SAYS("a function", header_function(&h, "sph_some", &comment, &signature));
     SAYS("its signature", strncmp(signature.from, "SPH_FN sph_index sph_some(int a,\n    int b)", (size_t)(signature.to - signature.from)) == 0 && signature.to[-1] == ')');
-    SAYS("its comment", strncmp(comment.from, "/* A sum.", 9) == 0 && comment.to[-1] == '/');
+    SAYS("its comment", strncmp(comment.from, "/* A sum,", 9) == 0 && comment.to[-1] == '/');
     SAYS("no function", !header_function(&h, "sph_none", &comment, &signature));
     const claim c = header_claim(&h, "sph_some", "gradient");
     SAYS("a claim", c.given == 1 && c.exact == 1 && c.exact_lattice == 2);
     SAYS("its orders", c.order[0] == 2 && c.order[1] == 1 && c.order[2] == -1);
     SAYS("a claim that is not understood", header_claim(&h, "sph_some", "Hessian").given == -1);
+    char *const words = header_comment(&h, "sph_some");
+    const char *at = words;
+    int degree = -2, where = -2;
+    SAYS("a phrase", header_phrase(&at, &degree, &where) && degree == 1 && where == 0);
+    SAYS("a phrase on lattices", header_phrase(&at, &degree, &where) && degree == 2 && where == 1);
+    SAYS("claims are no phrases", !header_phrase(&at, &degree, &where));
+    free(words);
     SAYS("no claim", header_claim(&h, "sph_some", "curl").given == 0);
 }
 
