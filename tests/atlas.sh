@@ -7,7 +7,6 @@ atlas=$BUILD/examples/atlas_operators
 if [ ! -x "$atlas" ]; then
     skip "the atlas" "$atlas is not built"
     finish atlas
-    exit
 fi
 pages=$scratch/pages false=$scratch/false
 mkdir "$pages" "$false"
@@ -82,4 +81,15 @@ for name in sys.argv[1:]:
     page.feed(open(name).read())
     assert not page.open, (name, page.open)'
 if needs "every tag is closed" python3; then check "every tag is closed" python3 -c "$whole" ./*.html; fi
+if needs "sorting and filters" chromium && works "sorting and filters" chromium --version; then
+    sorted='<script>
+    document.querySelectorAll("th button")[8].click();
+    form.words.value = "WALL";
+    choose();
+    const rows = [...document.querySelectorAll("table.sort tbody tr")];
+    document.title = rows[0].cells[0].textContent + ", " + rows.filter(row => !row.hidden).length + " shown";
+    </script>'
+    { cat index.html; echo "$sorted"; } > sorted.html
+    check "sorting and filters" answers 0 "<title>laplacian_wls, 1 shown</title>" $bounded chromium --headless --no-sandbox --disable-gpu --dump-dom "file://$PWD/sorted.html"
+fi
 finish atlas
