@@ -46,7 +46,7 @@ RESTARTED := $(notdir $(basename $(shell grep -l -e '"continue"' $(addsuffix /*.
 KEPT = examples/papers/long
 
 # Tests of the headers are built twice, in double and in float; tests of what the examples share in double only.
-TESTS_DOUBLE = common sparse elliptic_reference collapse liquid_flow conservation_cost
+TESTS_DOUBLE = atlas common sparse elliptic_reference collapse liquid_flow conservation_cost
 TESTS_OPTIONAL = gsl
 TESTS = $(filter-out $(TESTS_DOUBLE) $(TESTS_OPTIONAL),$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))
 TESTS_FLOAT = $(TESTS)

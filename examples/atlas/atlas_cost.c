@@ -91,7 +91,7 @@ int main(int argc, char **argv)
             const double x[3] = {s.x[0][i], s.x[1][i], s.x[2][i]};
             s.mobility[i] = 1.0;
             for (int c = 0; c < 3; c++) {
-                const struct field f = field_waves(dim, c);
+                const wave_field f = field_waves(dim, c);
                 in[c][i] = field_at(&f, x).value + 3.0;
             }
         }

@@ -115,6 +115,16 @@ static void judge(report *r, const header *h)
             while (*part == ' ') part++;
             if (!header_says(h, part)) report_row(report_beside(r, REPORT_THEORY), q->id, q->function, "formula and source", part, "not in sph_ops.h", "as in sph_ops.h", NULL, REPORT_DIFFERS);
         }
+        char *const comment = header_comment(h, q->function);
+        const char *at_phrase = comment;
+        for (int degree, where; comment && header_phrase(&at_phrase, &degree, &where);)
+            for (int d = 0; d < 2; d++) { /* what is said in other words must not be more than is so */
+                const portrait *const p = &results[o].of[d];
+                const int measured = where ? p->exact_lattice : p->exact;
+                if (degree > measured)
+                    report_row(report_beside(r, REPORT_THEORY), q->id, q->function, "exact for, in the words of the comment", degree_text(degree), degree_text(measured), "not more", NULL, REPORT_DIFFERS);
+            }
+        free(comment);
         for (int d = 0; d < 2 && c->given > 0; d++) {
             static const char *const where[3] = {"order inside lattices", "order in disorder", "order at boundaries"};
             const portrait *const p = &results[o].of[d];
@@ -149,7 +159,7 @@ int main(int argc, char **argv)
         {"quiet", "no progress on stderr", OPTION_FLAG, &quiet, 0, 0},
     };
     options_parse(argc, argv, "The atlas: what each operator does, measured.", specs, (int)(sizeof specs / sizeof specs[0]));
-    const int configurations = full ? CONFIGS : QUICK_CONFIGS, targets = full ? 200 : 40;
+    const int configurations = full ? CONFIGS : QUICK_CONFIGS, targets = full ? 100 : 40;
     const double steps = (double)configurations * SAMPLE_KINDS * LEVELS + 2.0 * 20.0;
     double step = 0.0;
     header h = header_read(headers);

@@ -47,18 +47,18 @@ static inline int family_outputs(int which, int dim)
 }
 
 /* A field with its first and second derivatives: d[0 ... 2] of x, y, z, and hessian xx, xy, yy, xz, yz, zz. */
-typedef struct jet {
+typedef struct field_jet {
     double value, d[3], hessian[6];
-} jet;
-typedef struct field {
+} field_jet;
+typedef struct wave_field {
     int monomial[3], waves; /* a product of powers, if waves is 0 */
     double size[3], k[3][3], phase[3];
-} field;
+} wave_field;
 
-static inline jet field_at(const field *f, const double *x)
+static inline field_jet field_at(const wave_field *f, const double *x)
 {
     static const int first[6] = {0, 0, 1, 0, 1, 2}, second[6] = {0, 1, 1, 2, 2, 2};
-    jet j;
+    field_jet j;
     memset(&j, 0, sizeof j);
     for (int w = 0; w < f->waves; w++) {
         const double *const k = f->k[w], t = k[0] * x[0] + k[1] * x[1] + k[2] * x[2] + f->phase[w], s = f->size[w] * sin(t), c = f->size[w] * cos(t);
@@ -87,10 +87,10 @@ static inline jet field_at(const field *f, const double *x)
 }
 
 /* Three waves; different numbers give different fields. Nothing in them vanishes at the origin. */
-static inline field field_waves(int dim, int number)
+static inline wave_field field_waves(int dim, int number)
 {
     static const double k[3][3] = {{2.3, 1.7, -1.3}, {-1.1, 2.1, 0.9}, {0.7, -1.3, 2.2}}, phase[3] = {0.6, 1.1, 2.3};
-    field f;
+    wave_field f;
     memset(&f, 0, sizeof f);
     f.waves = 3;
     for (int w = 0; w < 3; w++) {
@@ -100,9 +100,9 @@ static inline field field_waves(int dim, int number)
     }
     return f;
 }
-static inline field field_monomial(int x, int y, int z)
+static inline wave_field field_monomial(int x, int y, int z)
 {
-    field f;
+    wave_field f;
     memset(&f, 0, sizeof f);
     f.monomial[0] = x;
     f.monomial[1] = y;
@@ -112,7 +112,7 @@ static inline field field_monomial(int x, int y, int z)
 
 /* What a family is tried on: one field, or one for each component. A vector without divergence has waves whose
    amplitudes are perpendicular to k. */
-static inline void family_waves(int which, int dim, field *f)
+static inline void family_waves(int which, int dim, wave_field *f)
 {
     for (int a = 0; a < 3; a++) f[a] = field_waves(dim, which == VISCOSITY ? 0 : a);
     if (which == VISCOSITY)
@@ -124,7 +124,7 @@ static inline void family_waves(int which, int dim, field *f)
 }
 
 /* The result that a family should give, from the jets of its inputs and that of the mobility. */
-static inline void family_answer(int which, int dim, const jet *f, const jet *m, double *out)
+static inline void family_answer(int which, int dim, const field_jet *f, const field_jet *m, double *out)
 {
     static const int square[3] = {0, 2, 5};
     double laplacian[3] = {0.0, 0.0, 0.0};

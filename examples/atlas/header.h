@@ -113,20 +113,50 @@ static inline int header_skip(const char **at, const char *text)
     return there;
 }
 
-/* The claim of a comment about a family, if there is one; given is -1 where its words are not understood. */
-static inline claim header_claim(const header *h, const char *function, const char *word)
+/* The comment of a function, squeezed; to be freed. Null: there is no such function. */
+static inline char *header_comment(const header *h, const char *function)
 {
-    static const char *const where[3] = {" inside lattices", " in disorder", " at boundaries"};
-    claim c;
     passage comment, signature;
-    char start[64];
-    memset(&c, 0, sizeof c);
-    if (!header_function(h, function, &comment, &signature)) return c;
+    if (!header_function(h, function, &comment, &signature)) return NULL;
     const size_t size = (size_t)(comment.to - comment.from);
     char *const text = (char *)need(NULL, size + 1, 1), *const plain = (char *)need(NULL, size + 1, 1);
     memcpy(text, comment.from, size);
     text[size] = '\0';
     header_squeeze(text, plain);
+    free(text);
+    return plain;
+}
+
+/* What a comment says outside of its claims: the next "exact for ..." from *at on, and 1; or 0. `where` is 1 if the
+   sentence speaks of the interior or of lattices. */
+static inline int header_phrase(const char **at, int *degree, int *where)
+{
+    static const char *const word[] = {"constant", "linear", "quadratic", "cubic"};
+    for (const char *found; (found = strstr(*at, "xact for ")) != NULL;) {
+        const char *from = found, *to = strchr(found, '.');
+        if (!to) to = found + strlen(found);
+        while (from > *at && *from != '.' && strncmp(from, "Atlas:", 6) != 0) from--;
+        *at = found + strlen("xact for ");
+        if (strncmp(from, "Atlas:", 6) == 0) continue;
+        for (int d = 0; d < 4; d++)
+            if (strncmp(*at, word[d], strlen(word[d])) == 0) {
+                const char *const interior = strstr(found, "interior"), *const lattice = strstr(found, "lattice");
+                *degree = d;
+                *where = (interior && interior < to) || (lattice && lattice < to);
+                return 1;
+            }
+    }
+    return 0;
+}
+
+/* The claim of a comment about a family, if there is one; given is -1 where its words are not understood. */
+static inline claim header_claim(const header *h, const char *function, const char *word)
+{
+    static const char *const where[3] = {" inside lattices", " in disorder", " at boundaries"};
+    claim c;
+    char start[64], *const plain = header_comment(h, function);
+    memset(&c, 0, sizeof c);
+    if (!plain) return c;
     snprintf(start, sizeof start, "Atlas: %s exact for ", word);
     const char *at = strstr(plain, start);
     if (at) {
@@ -146,7 +176,6 @@ static inline claim header_claim(const header *h, const char *function, const ch
         if (understood) c.given = 1;
         snprintf(c.text, sizeof c.text, "%.*s", (int)(at - from), from);
     }
-    free(text);
     free(plain);
     return c;
 }

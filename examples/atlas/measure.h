@@ -20,7 +20,7 @@ typedef struct op {
 
 /* Spacings 1/16, 1/32, ... 1/512: the waves are some 2 long. */
 /* SHOWN: the level of tables, 1/64 */
-enum { LEVELS = 6, INPUTS = 3, OUTPUTS = 6, SHOWN = 2, WAVES = 24, DISTANCES = 40, JITTERS = 7, STATUSES = 8, BOTH = 2 };
+enum { LEVELS = 6, INPUTS = 3, OUTPUTS = 6, SHOWN = 2, WAVES = 24, DISTANCES = 40, JITTERS = 7, STATUSES = 8, BOTH = 2, CONJUGATES = 8 };
 static inline double level_spacing(int level) { return ldexp(1.0, -4 - level); }
 static const double atlas_jitter[JITTERS] = {0.0, 0.01, 0.03, 0.1, 0.2, 0.3, 0.45};
 static const double atlas_default_jitter = 0.2;
@@ -51,6 +51,8 @@ typedef struct portrait {
     double row_sum;                            /* the largest, in units of the sum of absolute values */
     double symmetry;                           /* |V_i L_ij - V_j L_ji| / |V_i L_ij|, root mean squares */
     double momentum, angular, energy;          /* sum V L f, sum V x cross L f, and max sum V f L f, relative */
+    int conjugates;                            /* numbers of the operators that are conjugate to it */
+    int conjugate[CONJUGATES];
     double rotation;                           /* what a rotation of everything changes, relative */
     double re_most, re_least, im_most, condition; /* eigenvalues times dx^2 */
     pair *eigenvalue;
@@ -98,17 +100,17 @@ static inline void position(const sample *s, sph_index i, double *x)
 }
 
 /* The mobility that the operators div(m grad u) see: 1, or a wave about it. */
-static inline jet mobility_at(int dim, int varied, const double *x)
+static inline field_jet mobility_at(int dim, int varied, const double *x)
 {
-    field f = field_waves(dim, 3);
+    wave_field f = field_waves(dim, 3);
     for (int w = 0; w < 3; w++) f.size[w] *= varied ? 0.15 : 0.0;
-    jet j = field_at(&f, x);
+    field_jet j = field_at(&f, x);
     j.value += 1.0;
     return j;
 }
 
 /* The error of each particle for these fields, relative to `scale`; NaN where there is no answer. */
-static inline void errors_of(const op *o, sample *s, arrays *a, const field *f, int varied, double scale, double *error)
+static inline void errors_of(const op *o, sample *s, arrays *a, const wave_field *f, int varied, double scale, double *error)
 {
     const int inputs = family_inputs(o->family, s->dim), outputs = family_outputs(o->family, s->dim);
     for (sph_index i = 0; i < s->n; i++) {
@@ -117,21 +119,21 @@ static inline void errors_of(const op *o, sample *s, arrays *a, const field *f, 
         for (int c = 0; c < inputs; c++) a->in[c][i] = field_at(&f[c], x).value;
         s->mobility[i] = mobility_at(s->dim, varied, x).value;
         for (int c = 0; c < 3; c++) x[c] = s->wall_point[c][i];
-        const jet at_wall = field_at(&f[0], x);
+        const field_jet at_wall = field_at(&f[0], x);
         s->wall_value[i] = at_wall.value;
         for (int c = 0; c < 3; c++) s->wall_slope[c][i] = at_wall.d[c];
     }
     apply(o, s, a->in, a->out);
     for (sph_index i = s->cloud.first; i < s->cloud.last; i++) {
         double x[3], want[OUTPUTS], sum = 0.0;
-        jet j[INPUTS];
+        field_jet j[INPUTS];
         if (!answered(s, i)) {
             error[i] = (double)NAN;
             continue;
         }
         position(s, i, x);
         for (int c = 0; c < inputs; c++) j[c] = field_at(&f[c], x);
-        const jet m = mobility_at(s->dim, varied, x);
+        const field_jet m = mobility_at(s->dim, varied, x);
         family_answer(o->family, s->dim, j, &m, want);
         for (int c = 0; c < outputs; c++) sum += (a->out[c][i] - want[c]) * (a->out[c][i] - want[c]);
         error[i] = sqrt(sum) / scale;
@@ -159,7 +161,7 @@ static inline void measure_errors(const op *o, sample *s, int level, errors *e)
 {
     arrays a = arrays_of(s->n);
     double *const error = numbers(s->n);
-    field f[3];
+    wave_field f[3];
     family_waves(o->family, s->dim, f);
     errors_of(o, s, &a, f, o->family == ELLIPTIC, family_scale(o->family), error);
     for (int region = 0; region < REGIONS; region++) e->rms[s->kind][region][level] = region_rms(s, error, region, &e->worst[s->kind][region][level]);
@@ -203,7 +205,7 @@ static inline int measure_degree(const op *o, sample *s, int region)
                 const int z = d - x - y;
                 if (z > 0 && s->dim < 3) continue;
                 for (int c = 0; c < family_inputs(o->family, s->dim) && exact; c++) {
-                    field f[3];
+                    wave_field f[3];
                     double worst;
                     for (int q = 0; q < 3; q++) {
                         f[q] = field_monomial(0, 0, 0);
@@ -229,7 +231,7 @@ static inline void measure_distance(const op *o, sample *s, portrait *p)
 {
     arrays a = arrays_of(s->n);
     double *const error = numbers(s->n), middle = 0.5 * (s->side - 1.0), reach = sample_reach(s);
-    field f[3];
+    wave_field f[3];
     family_waves(o->family, s->dim, f);
     s->cloud = sph_cloud_range(s->cloud, 0, s->n);
     errors_of(o, s, &a, f, o->family == ELLIPTIC, family_scale(o->family), error);
@@ -255,7 +257,7 @@ static inline void measure_jitter(const op *o, sample *s, double *at)
 {
     arrays a = arrays_of(s->n);
     double *const error = numbers(s->n);
-    field f[3];
+    wave_field f[3];
     family_waves(o->family, s->dim, f);
     errors_of(o, s, &a, f, o->family == ELLIPTIC, family_scale(o->family), error);
     *at = region_rms(s, error, REGION_INSIDE, NULL);
@@ -436,6 +438,34 @@ static inline void measure_matrix(const op *o, sample *s, portrait *p)
     arrays_free(&a);
 }
 
+/* ---- which gradient and divergence are conjugate: sum V f div A = -sum V A . grad f, for random f and A ---- */
+
+static inline void measure_conjugates(const op *o, int gradient, int divergence, sample *s, portrait *of_gradient, portrait *of_divergence)
+{
+    arrays a = arrays_of(s->n), b = arrays_of(s->n);
+    double sum = 0.0, size = 0.0;
+    pcg32 g;
+    pcg32_seed(&g, 99, 5);
+    for (sph_index i = 0; i < s->n; i++) {
+        a.in[0][i] = pcg32_uniform(&g) - 0.5;
+        for (int c = 0; c < s->dim; c++) b.in[c][i] = pcg32_uniform(&g) - 0.5;
+    }
+    apply(&o[gradient], s, a.in, a.out);
+    apply(&o[divergence], s, b.in, b.out);
+    for (sph_index i = 0; i < s->n; i++) {
+        double along = 0.0;
+        for (int c = 0; c < s->dim; c++) along += (o[gradient].family == PRESSURE ? -1.0 : 1.0) * b.in[c][i] * a.out[c][i];
+        sum += s->volume[i] * (along + a.in[0][i] * b.out[0][i]);
+        size += s->volume[i] * (fabs(along) + fabs(a.in[0][i] * b.out[0][i]));
+    }
+    if (fabs(sum) < 1e-12 * size && of_gradient->conjugates < CONJUGATES && of_divergence->conjugates < CONJUGATES) {
+        of_gradient->conjugate[of_gradient->conjugates++] = divergence;
+        of_divergence->conjugate[of_divergence->conjugates++] = gradient;
+    }
+    arrays_free(&a);
+    arrays_free(&b);
+}
+
 /* ---- what a rotation changes ---- */
 
 static inline void turn(double c, double s, double *x, double *y)
@@ -526,6 +556,9 @@ static inline void measure_portraits(const op *o, int count, const config *c, in
         sample few = sample_make(c->k, c->dim, c->h_dx, all);
         sample_zoom(&few, 1.0);
         for (int q = 0; q < count; q++) measure_matrix(&o[q], &few, PORTRAIT(q));
+        for (int q = 0; q < count; q++)
+            for (int d = 0; d < count; d++)
+                if ((o[q].family == GRADIENT || o[q].family == PRESSURE) && o[d].family == DIVERGENCE) measure_conjugates(o, q, d, &few, PORTRAIT(q), PORTRAIT(d));
         sample_free(&few);
     }
 #undef PORTRAIT

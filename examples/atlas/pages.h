@@ -112,13 +112,13 @@ static inline void page_style(const atlas *a)
           "*{box-sizing:border-box}body{margin:0 auto;padding:1rem;max-width:110rem;background:var(--ground);color:var(--ink);font:16px/1.5 system-ui,sans-serif}\n"
           "a{color:var(--link)}nav a{margin-right:1.2rem}h1{font-size:1.6rem;overflow-wrap:anywhere}h2{font-size:1.25rem;margin-top:2rem}p,li,dd{max-width:70ch}\n"
           ".scroll{overflow-x:auto;max-width:100%}table{border-collapse:collapse;font-size:.9rem}caption{text-align:left;padding:.3rem 0;color:var(--faint)}th,td{border-bottom:1px solid var(--line);padding:.25rem .6rem;text-align:right;white-space:nowrap}\n"
-          "th:first-child,td:first-child{text-align:left}thead th{background:var(--box);vertical-align:bottom}th button{font:inherit;font-weight:bold;color:inherit;background:none;border:0;padding:.3rem 0;cursor:pointer;text-align:inherit;white-space:normal}\n"
+          "th:first-child,td:first-child{text-align:left}.sort th:first-child{position:sticky;left:0;background:var(--box)}thead th{background:var(--box);vertical-align:bottom}th button{font:inherit;font-weight:bold;color:inherit;background:none;border:0;padding:.3rem 0;cursor:pointer;text-align:inherit;white-space:normal}\n"
           "th[aria-sort=ascending] button::after{content:' \\25B2'}th[aria-sort=descending] button::after{content:' \\25BC'}button:focus-visible,a:focus-visible,input:focus-visible,select:focus-visible{outline:3px solid var(--link);outline-offset:2px}\n"
-          "tbody tr:hover{background:var(--box)}td.left{text-align:left}td.note{white-space:normal;min-width:18rem;text-align:left}form{display:flex;flex-wrap:wrap;gap:.6rem 1.5rem;margin:1rem 0}label{display:inline-block}input,select{font:inherit;padding:.2rem .4rem;background:var(--ground);color:var(--ink);border:1px solid var(--faint);border-radius:3px}\n"
+          "tbody tr:hover{background:var(--box)}td.left{text-align:left}td.note{white-space:normal;min-width:18rem;text-align:left}form{display:flex;flex-wrap:wrap;gap:.6rem 1.5rem;margin:1rem 0}label{display:inline-block;max-width:100%}input,select{max-width:100%;font:inherit;padding:.2rem .4rem;background:var(--ground);color:var(--ink);border:1px solid var(--faint);border-radius:3px}\n"
           "pre{background:var(--box);padding:.8rem;overflow-x:auto;font-size:.85rem}.equation{overflow-x:auto;padding:.5rem;background:var(--box)}math{font-size:1.2rem}\n"
           ".plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,27rem),1fr));gap:1rem}figure{margin:0;border:1px solid var(--line);padding:.5rem}figcaption{font-weight:bold}figure>svg{width:100%;height:auto}\n"
           ".legend{list-style:none;margin:0;padding:0;display:flex;flex-wrap:wrap;gap:0 1rem;font-size:.85rem}.legend svg{vertical-align:middle}.p{stroke:var(--c0);stroke-width:4;stroke-linecap:round;fill:none}.grid{stroke:var(--line);fill:none}.t{fill:var(--ink);font-size:13px}\n"
-          "dt{font-weight:bold;margin-top:.4rem}dd{margin:0 0 0 1rem}footer{margin-top:3rem;color:var(--faint);font-size:.85rem}.no{color:var(--faint)}\n",
+          "summary{cursor:pointer;margin:.8rem 0;color:var(--link)}dt{font-weight:bold;margin-top:.4rem}dd{margin:0 0 0 1rem}footer{margin-top:3rem;color:var(--faint);font-size:.85rem}.no{color:var(--faint)}\n",
           to);
     static const char *const dash[SVG_SERIES] = {"none", "7 3", "2 3", "9 3 2 3", "none", "5 5", "1 4", "12 4"};
     for (int s = 0; s < SVG_SERIES; s++) fprintf(to, ".s%d{stroke:var(--c%d);stroke-width:2;fill:none;stroke-dasharray:%s}.m%d{fill:var(--c%d)}\n", s, s, dash[s], s, s);
@@ -184,7 +184,7 @@ static inline void page_index(const atlas *a)
         const errors *const e = &r->at[0];
         double order[3];
         measured_orders(e, order);
-        fprintf(to, "<tr data-family=\"%d\" data-good=\"\"><td class=\"left\"><a href=\"%s.html\">%s</a></td>", o->family, o->id, o->id);
+        fprintf(to, "<tr data-family=\"%d\" data-good=\"\"><th scope=\"row\"><a href=\"%s.html\">%s</a></th>", o->family, o->id, o->id);
         cell(to, r->of[0].exact, degree_text(r->of[0].exact));
         for (int c = 0; c < 3; c++) cell(to, order[c], order_text(text, order[c]));
         const double error[5] = {e->rms[SAMPLE_LATTICE][REGION_INSIDE][SHOWN], e->rms[SAMPLE_JITTER][REGION_INSIDE][SHOWN], e->rms[SAMPLE_RANDOM][REGION_INSIDE][SHOWN],
@@ -204,10 +204,9 @@ static inline void page_index(const atlas *a)
 
 /* ---- an operator's page ---- */
 
-static inline void page_numbers(FILE *to, const atlas *a, const errors *e, const config *c)
+static inline void page_numbers(FILE *to, const errors *e, const config *c)
 {
     char text[32];
-    (void)a;
     fprintf(to, "<div class=\"scroll\"><table><caption>%dD, %s, h = %.1f dx: error at dx = 1/64 (order)</caption><thead><tr><th scope=\"col\">cloud</th>", c->dim, sph_kernel_name(c->k), c->h_dx);
     for (int region = 0; region < REGIONS; region++) fprintf(to, "<th scope=\"col\">%s</th>", sample_region_name(region));
     fputs("<th scope=\"col\">worst particle</th><th scope=\"col\">its conditioning</th></tr></thead><tbody>\n", to);
@@ -275,8 +274,11 @@ static inline void page_operator(const atlas *a, int q)
         fputs("</tr>\n", to);
     }
     fputs("</tbody></table></div>\n<h2>Errors</h2>\n", to);
-    for (int c = 0; c < a->configurations; c++) page_numbers(to, a, &r->at[c], &a->configs[c]);
+    for (int c = 0; c < 2; c++) page_numbers(to, &r->at[c], &a->configs[c]);
     page_status(to, &r->at[0]);
+    if (a->configurations > 2) fputs("<details><summary>Other kernels and lengths</summary>\n", to);
+    for (int c = 2; c < a->configurations; c++) page_numbers(to, &r->at[c], &a->configs[c]);
+    if (a->configurations > 2) fputs("</details>\n", to);
 
     fputs("<h2>Plots</h2>\n<p>2D, the first of the tables above.</p>\n<div class=\"plots\">\n", to);
     double spacing[LEVELS], away[DISTANCES], waves[WAVES], part[4][WAVES];
@@ -341,6 +343,11 @@ static inline void page_operator(const atlas *a, int q)
         if (family(o->family).out == 1)
             fprintf(to, "<dt>Angular momentum</dt><dd>%s: it is %s</dd>\n", error_text(text, p->angular < 1e-11 ? 0.0 : p->angular), p->angular < 1e-10 ? "kept" : "not kept");
         if (is_laplacian(o) || o->family == VISCOSITY) fprintf(to, "<dt>Energy</dt><dd>the sum of V f L f was %s for random fields</dd>\n", p->energy < 0.0 ? "always negative: it damps" : "not always negative");
+    }
+    if (p->conjugates) {
+        fputs("<dt>Conjugate to</dt><dd>", to);
+        for (int c = 0; c < p->conjugates; c++) fprintf(to, "%s<a href=\"%s.html\">%s</a>", c ? ", " : "", a->operators[p->conjugate[c]].id, a->operators[p->conjugate[c]].id);
+        fputs(": the sum of V f div A is minus the sum of V A &#8901; grad f, to rounding</dd>\n", to);
     }
     fprintf(to, "<dt>Rotation</dt><dd>turning everything changes the result by %s of its size</dd>\n</dl>\n", error_text(text, p->rotation));
     page_close(a, &page);
