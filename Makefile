@@ -201,7 +201,7 @@ check-hosts:
 # one file, which works from a disk: the module is inside
 web:
 	@if ! command -v clang > /dev/null 2>&1; then echo "clang is not installed: no page"; elif ! command -v wasm-ld > /dev/null 2>&1; then echo "wasm-ld is not installed (Debian: lld): no page"; \
-	else mkdir -p $(BUILD)/web && sh examples/web/build.sh $(BUILD)/web/lab.wasm simd && sh examples/web/page.sh $(BUILD)/web/lab.wasm > $(BUILD)/web/index.html && echo "$(BUILD)/web/index.html"; fi
+	else mkdir -p $(BUILD)/web && sh examples/web/build.sh $(BUILD)/web/lab.wasm && sh examples/web/page.sh $(BUILD)/web/lab.wasm > $(BUILD)/web/index.html && echo "$(BUILD)/web/index.html"; fi
 check-web:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/web/web.sh
 check-mpi:

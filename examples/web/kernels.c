@@ -3,6 +3,9 @@
  * kernels.c - any kernel as curves: W and F, its Fourier transform, and what its sum over a lattice makes of a
  * density of 1.
  */
+#ifndef SPH_FN
+#define SPH_FN static __attribute__((noinline, unused)) /* for any kernel: small code, which need not be fast */
+#endif
 #include "lab.h"
 
 enum { POINTS = 241, CUTS = 200 };

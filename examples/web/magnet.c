@@ -106,7 +106,7 @@ static int step(void) /* the midpoint rule: first half a step */
     lab_magnet.time += dt;
     return 0;
 }
-static lab_field fields[FIELDS] = {{"h div B", h_div_B, -0.15, 0.15}, {"psi", psi, -0.15, 0.15}, {"|B|", strength, 0, 1}};
+static lab_field fields[FIELDS] = {{"h div B", h_div_B, -0.05, 0.05}, {"psi", psi, -0.05, 0.05}, {"|B|", strength, 0, 1}};
 static lab_measure measures[MEASURES] = {{"rms of h div B", 0}, {"energy of B and psi", 0}, {"mean of Bx, which is conserved", 0}};
 static int look(void)
 {
@@ -158,7 +158,7 @@ lab_scene lab_magnet = {
     -1,
     0,
     0,
-    {-0.3, -0.04, 1.6, 1.08},
+    {-0.06, -0.04, 1.6, 1.08},
     x,
     y,
     NULL};

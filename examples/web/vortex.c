@@ -185,7 +185,7 @@ static int step(void)
 /* ---------------------------------------------------------------- what a host asks for */
 
 static double x[BOTH], y[BOTH], h_div_B[BOTH], density[BOTH], strength[BOTH], pressure[BOTH];
-static lab_field fields[FIELDS] = {{"h div B", h_div_B, -0.06, 0.06}, {"density", density, 0.05, 0.5}, {"|B|", strength, 0, 0.8}, {"pressure", pressure, 0, 0.6}};
+static lab_field fields[FIELDS] = {{"h div B", h_div_B, -0.15, 0.15}, {"density", density, 0.05, 0.5}, {"|B|", strength, 0, 0.8}, {"pressure", pressure, 0, 0.6}};
 static lab_measure measures[MEASURES] = {{"mean h |div B| / mean |B|, without cleaning", 0},
                                          {"the same, with cleaning", 0},
                                          {"without / with", 0},
