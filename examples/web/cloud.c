@@ -12,7 +12,7 @@
 enum { DIM = 2, SIDE = 25, MOST = SIDE * SIDE, ROWS = 160 };
 enum { OPERATOR, FIELD, KERNEL, H_OVER_DX, ACROSS, JITTER, VOLUMES, CONTROLS };
 enum { DIFFERENCE, SYMMETRIC, CSPM, IAD, RK, GRADIENTS, /* Laplacians: */ BROOKSHAW = GRADIENTS, MSPH, SCHWAIGER, LAPLACIAN_CSPM, LAPLACIAN_ICSPM, FATEHI_MANZARI, WLS };
-enum { ERROR, RESULT, EXACT, VALUE, FIELDS };
+enum { LOG_ERROR, ERROR, RESULT, EXACT, VALUE, FIELDS };
 enum { RMS, INNER, OWN, NOT_OK, MEASURES };
 enum { NUMBER, DISTANCE, WEIGHT_X, WEIGHT_Y, COLUMNS };
 static const double pi = 3.14159265358979324;
@@ -28,7 +28,7 @@ static lab_control controls[CONTROLS] = {
     {"across", "Particles in a row", NULL, 7, SIDE, 2, 17, 0},
     {"jitter", "Disorder, in spacings", NULL, 0, 0.45, 0.05, 0.1, 0},
     {"volumes", "Volumes", "of a lattice|1 / sum of W", 0, 1, 1, 0, 0}};
-static double x[MOST], y[MOST], f[MOST], exact_x[MOST], exact_y[MOST], result_x[MOST], result_y[MOST], error[MOST], result[MOST], exact[MOST],
+static double x[MOST], y[MOST], f[MOST], exact_x[MOST], exact_y[MOST], result_x[MOST], result_y[MOST], error[MOST], log_error[MOST], result[MOST], exact[MOST],
     volume[MOST], dx, h;
 static double number[ROWS], distance[ROWS], weight_x[ROWS], weight_y[ROWS];
 static unsigned char status[MOST];
@@ -163,7 +163,7 @@ static int reset(void)
     lab_cloud.size = 0.8 * dx;
     return compute();
 }
-static lab_field fields[FIELDS] = {{"error", error, 0, 1}, {"result, of a gradient its length", result, 0, 0}, {"exact", exact, 0, 0}, {"the field itself", f, 0, 0}};
+static lab_field fields[FIELDS] = {{"log10 of the error", log_error, -4, 0}, {"error", error, 0, 1}, {"result, of a gradient its length", result, 0, 0}, {"exact", exact, 0, 0}, {"the field itself", f, 0, 0}};
 static lab_measure measures[MEASURES] = {{"rms error", 0}, {"rms error two supports inside", 0}, {"error of the chosen particle", 0}, {"particles without a good answer", 0}};
 static lab_column columns[COLUMNS] = {{"particle", number}, {"distance / spacing", distance}, {"weight", weight_x}, {"weight y", weight_y}};
 static int look(void)
@@ -178,9 +178,12 @@ static int look(void)
         result[i] = is_gradient() ? sqrt(result_x[i] * result_x[i] + result_y[i] * result_y[i]) : result_x[i];
         exact[i] = is_gradient() ? sqrt(exact_x[i] * exact_x[i] + exact_y[i] * exact_y[i]) : exact_x[i];
         fields[ERROR].most = fmax(fields[ERROR].most, error[i]);
+        log_error[i] = log(fmax(error[i], 1e-15)) / log(10.0);
         all += error[i] * error[i] / n;
         if (x[i] > margin && x[i] < 1 - margin && y[i] > margin && y[i] < 1 - margin) inner += error[i] * error[i], count++;
     }
+    fields[LOG_ERROR].most = log(fields[ERROR].most) / log(10.0);
+    fields[LOG_ERROR].least = fields[LOG_ERROR].most - 4;
     measures[RMS].value = sqrt(all);
     measures[INNER].value = count > 0 ? sqrt(inner / count) : 0;
     measures[OWN].value = error[chosen];

@@ -38,7 +38,7 @@ function start() {
             if (least < 0) most = Math.max(most, -least), least = -most;
             if (!(most > least)) most = least + 1;
         }
-        return { least, most, colours: least < 0 ? signed : rising };
+        return { least, most, colours: least < 0 && least === -most ? signed : rising };
     }
 
     // ---------------------------------------------------------------- pictures

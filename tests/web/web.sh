@@ -18,4 +18,23 @@ if [ -e "$scratch/native" ] && [ -e "$scratch/scalar.wasm" ] && [ -e "$scratch/s
     cat "$scratch/output"
     check "the checks end" test $status -lt 2
 fi
+
+package="the npm package (Debian: npm)"
+if needs "$package" npm && works "$package" npm --version && [ -e "$scratch/native" ] && [ -e "$scratch/simd.wasm" ]; then
+    # the cache is of this run, and nothing is asked of a registry
+    npm="npm --offline --no-audit --no-fund --no-update-notifier --cache $(cd "$scratch" && pwd)/npm-cache"
+    mkdir -p "$scratch/host"
+    echo '{ "private": true }' > "$scratch/host/package.json"
+    check "the npm package is laid out" sh examples/web/npm.sh "$scratch/simd.wasm" "$scratch/package"
+    check "npm pack" sh -c "cd '$scratch/package' && $npm pack"
+    check "npm install without a network" sh -c "cd '$scratch/host' && $npm install ../package/sph-lab-*.tgz"
+    cp tests/web/npm.js tests/web/types.ts "$scratch/host"
+    (cd "$scratch/host" && node npm.js ../native) > "$scratch/output" 2>&1
+    status=$?
+    cat "$scratch/output"
+    check "a program that has installed it ends" test $status -lt 2
+    if needs "its types (Debian: node-typescript)" tsc; then
+        check "its types" sh -c "cd '$scratch/host' && tsc --strict --noEmit --target es2022 --module node16 --moduleResolution node16 types.ts"
+    fi
+fi
 finish web-build
