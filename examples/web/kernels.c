@@ -4,7 +4,8 @@
  * density of 1.
  */
 #ifndef SPH_FN
-#define SPH_FN static __attribute__((noinline, unused)) /* for any kernel: small code, which need not be fast */
+#define SPH_FN \
+    static __attribute__((noinline, unused)) /* for any kernel: small code, which need not be fast */
 #endif
 #include "lab.h"
 
@@ -57,13 +58,15 @@ static double transform(const double *projection, double support, double wave)
    sides and edges are shared. */
 static void lattice(sph_kernel k, int dim, double h, double *sum, double *slope, double *count)
 {
-    const int far = (int)(sph_kernel_support(k, h) + 1), last_y = dim > 1 ? far : 0, last_z = dim > 2 ? far : 0;
+    const int far = (int)(sph_kernel_support(k, h) + 1), last_y = dim > 1 ? far : 0,
+              last_z = dim > 2 ? far : 0;
     int i, j, l;
     *sum = *slope = *count = 0;
     for (i = 0; i <= far; i++)
         for (j = 0; j <= last_y; j++)
             for (l = 0; l <= last_z; l++) {
-                const double r = sqrt((double)(i * i + j * j + l * l)), many = (i ? 2 : 1) * (j ? 2 : 1) * (l ? 2 : 1);
+                const double r = sqrt((double)(i * i + j * j + l * l)),
+                             many = (i ? 2 : 1) * (j ? 2 : 1) * (l ? 2 : 1);
                 *sum += many * sph_kernel_w(k, dim, r, h);
                 *slope -= many * r * r * sph_kernel_f(k, dim, r, h) / dim;
                 *count += many * (r > 0 && r < sph_kernel_support(k, h));
@@ -81,7 +84,8 @@ static int reset(void)
     measures[RATIO].value = support;
     measures[SIGMA].value = sph_kernel_sigma(k, dim);
     measures[RECOMMENDED].value = sph_kernel_h_over_dx(k);
-    lattice(k, dim, controls[H_OVER_DX].value, &measures[LATTICE_SUM].value, &measures[LATTICE_SLOPE].value, &measures[NEIGHBOURS].value);
+    lattice(k, dim, controls[H_OVER_DX].value, &measures[LATTICE_SUM].value, &measures[LATTICE_SLOPE].value,
+            &measures[NEIGHBOURS].value);
     measures[LEAST].value = 1;
     for (i = 0; i < POINTS; i++) {
         const double at = i / (POINTS - 1.0), wave = transform(projection, support, 16 * at) / whole;
@@ -110,38 +114,39 @@ static int reset(void)
 }
 static int changed(int control)
 {
-    if (control == KERNEL) controls[H_OVER_DX].value = sph_kernel_h_over_dx((sph_kernel)controls[KERNEL].value);
+    if (control == KERNEL)
+        controls[H_OVER_DX].value = sph_kernel_h_over_dx((sph_kernel)controls[KERNEL].value);
     return reset();
 }
-lab_scene lab_kernels = {
-    "kernels",
-    "Kernels",
-    "All kernels of the library. A kernel whose transform is nowhere negative does not let particles pair (Dehnen & Aly 2012); one whose "
-    "lattice sum is 1 gives a lattice its density.",
-    NULL,
-    reset,
-    NULL,
-    NULL,
-    changed,
-    NULL,
-    controls,
-    NULL,
-    measures,
-    curves,
-    NULL,
-    CONTROLS,
-    0,
-    MEASURES,
-    2,
-    0,
-    0,
-    0,
-    POINTS,
-    0,
-    -1,
-    0,
-    0,
-    {0, 0, 1, 1},
-    NULL,
-    NULL,
-    x};
+lab_scene lab_kernels = {"kernels",
+                         "Kernels",
+                         "All kernels of the library. A kernel whose transform is nowhere negative does not "
+                         "let particles pair (Dehnen & Aly 2012); one whose "
+                         "lattice sum is 1 gives a lattice its density.",
+                         NULL,
+                         reset,
+                         NULL,
+                         NULL,
+                         changed,
+                         NULL,
+                         controls,
+                         NULL,
+                         measures,
+                         curves,
+                         NULL,
+                         CONTROLS,
+                         0,
+                         MEASURES,
+                         2,
+                         0,
+                         0,
+                         0,
+                         POINTS,
+                         0,
+                         -1,
+                         0,
+                         0,
+                         {0, 0, 1, 1},
+                         NULL,
+                         NULL,
+                         x};

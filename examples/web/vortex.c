@@ -24,7 +24,8 @@ enum { VX, VY, BX, BY, U, PSI, ALPHA, EVOLVED };
 typedef struct gas {
     int cleans;
     double ch, a[EVOLVED][MOST], rate[EVOLVED][MOST], before[EVOLVED][MOST];
-    double x[MOST], y[MOST], h[MOST], rho[MOST], omega[MOST], p[MOST], cs[MOST], speed[MOST], div_v[MOST], div_B[MOST];
+    double x[MOST], y[MOST], h[MOST], rho[MOST], omega[MOST], p[MOST], cs[MOST], speed[MOST], div_v[MOST],
+        div_B[MOST];
 } gas;
 static gas both[2];
 static int n; /* of each */
@@ -119,7 +120,8 @@ static int rates(gas *g)
 }
 static int reset(void)
 {
-    const int columns = (int)controls[COLUMNS].value, rows = 2 * (int)(columns / sqrt(3.0)); /* even, for the period */
+    const int columns = (int)controls[COLUMNS].value,
+              rows = 2 * (int)(columns / sqrt(3.0)); /* even, for the period */
     const double rho = 25 / (36 * pi), pressure = 5 / (12 * pi), B0 = 1 / sqrt(4 * pi);
     int i, c, side;
     n = columns * rows;
@@ -128,7 +130,8 @@ static int reset(void)
         gas *const g = &both[side];
         g->cleans = side;
         for (i = 0; i < n; i++) {
-            const double x = (i % columns + 0.25 + 0.5 * (i / columns & 1)) / columns, y = (i / columns + 0.5) / rows;
+            const double x = (i % columns + 0.25 + 0.5 * (i / columns & 1)) / columns,
+                         y = (i / columns + 0.5) / rows;
             for (c = 0; c < EVOLVED; c++) g->a[c][i] = g->rate[c][i] = g->before[c][i] = 0;
             g->x[i] = x;
             g->y[i] = y;
@@ -185,7 +188,10 @@ static int step(void)
 /* ---------------------------------------------------------------- what a host asks for */
 
 static double x[BOTH], y[BOTH], h_div_B[BOTH], density[BOTH], strength[BOTH], pressure[BOTH];
-static lab_field fields[FIELDS] = {{"h div B", h_div_B, -0.15, 0.15}, {"density", density, 0.05, 0.5}, {"|B|", strength, 0, 0.8}, {"pressure", pressure, 0, 0.6}};
+static lab_field fields[FIELDS] = {{"h div B", h_div_B, -0.15, 0.15},
+                                   {"density", density, 0.05, 0.5},
+                                   {"|B|", strength, 0, 0.8},
+                                   {"pressure", pressure, 0, 0.6}};
 static lab_measure measures[MEASURES] = {{"mean h |div B| / mean |B|, without cleaning", 0},
                                          {"the same, with cleaning", 0},
                                          {"without / with", 0},
@@ -213,7 +219,8 @@ static int look(void)
         measures[LEFT + side].value = divergence / sum;
         measures[ENERGY_LEFT + side].value = energy;
     }
-    measures[ERROR_RATIO].value = measures[RIGHT].value > 0 ? measures[LEFT].value / measures[RIGHT].value : 1;
+    measures[ERROR_RATIO].value =
+        measures[RIGHT].value > 0 ? measures[LEFT].value / measures[RIGHT].value : 1;
     measures[DT].value = dt;
     return 0;
 }
@@ -221,7 +228,8 @@ static int changed(int control) { return control == KERNEL || control == COLUMNS
 lab_scene lab_vortex = {
     "vortex",
     "Orszag-Tang",
-    "A supersonic vortex of a magnetised gas, twice. On the left the divergence of B is left alone; on the right it is "
+    "A supersonic vortex of a magnetised gas, twice. On the left the divergence of B is left alone; on the "
+    "right it is "
     "carried away as waves and damped (constrained hyperbolic divergence cleaning, Tricco & Price 2012).",
     NULL,
     reset,

@@ -113,7 +113,8 @@ static inline double lab_cos(double x) { return lab_sine(x, 1); }
 /* 4 atan(z) with z = tan of a quarter of the angle, by its series */
 static inline double lab_atan2(double y, double x)
 {
-    const double r = lab_sqrt(x * x + y * y), quarter = y / (r + x), z = quarter / (1 + lab_sqrt(1 + quarter * quarter));
+    const double r = lab_sqrt(x * x + y * y), quarter = y / (r + x),
+                 z = quarter / (1 + lab_sqrt(1 + quarter * quarter));
     double s = 0;
     int i;
     if (r == 0) return 0;
