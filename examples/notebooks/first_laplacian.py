@@ -55,7 +55,7 @@ print(len(x), "particles")
 # ## 2. Ask the doctor
 #
 # `examine` finds the mistakes that no sweep can see: a list that is too short, masses given for volumes, a forgotten
-# period. It answers sentences, and none if all is well. This one has `h` and the support radius mixed up:
+# period. It answers sentences, and none if all is well. The second cloud was never given its volumes:
 
 # %%
 print("findings:", cloud.examine())
@@ -86,8 +86,8 @@ for name, laplacian in methods.items():
     print("%-14s largest error: inside %.3f, everywhere %.3f" % (name, off[inside].max(), off.max()))
 
 # %% [markdown]
-# The plain sum needs neighbours on all sides: at the edge it is wrong at any resolution. Those that are exact for quadratic
-# fields are right there, too. What they buy shows with finer clouds:
+# The plain sum (Brookshaw) needs neighbours on all sides, in good order: at the edge it is wrong at any resolution, and in
+# disorder it does not converge at all. Those that are exact for quadratic fields do:
 
 # %%
 sides = [12, 24, 48]

@@ -172,7 +172,12 @@ static inline __attribute__((always_inline)) int sweeps(sph_kernel k, sph_cloud 
         LAB_TRY(sph_divergence_difference(k, DIM, wet, gas, v, sph_scalar_out_array(rate, NULL)));
         for (i = 0; i < n_water; i++) rate[i] *= -rho[i];
     }
-    for (i = 0; i < n_water; i++) p[i] = sph_pressure_tait(rho[i] += dt * rate[i], water);
+    for (i = 0; i < n_water; i++) {
+        /* water stays within a percent; a drop that is caught between others, or that meets one that is being poured,
+           would not, and end the run */
+        rho[i] = fmax(0.9 * water.rho0, fmin(1.1 * water.rho0, rho[i] + dt * rate[i]));
+        p[i] = sph_pressure_tait(rho[i], water);
+    }
 
     LAB_TRY(sph_wall_adami(k, DIM, walls, wall, on_wall));
     for (i = n_water; i < n; i++) { /* they push, and move with the water: at rest they would hold it back */
