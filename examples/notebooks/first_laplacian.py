@@ -14,8 +14,8 @@
 # %% [markdown]
 # # From a cloud of points to a Laplacian
 #
-# Points in disorder, a field on them, and its Laplacian by four methods, with what each is worth. The module `sph` is that
-# of `examples/hosts`: `python3 -m pip install .` in the root of the repository installs it.
+# Points in disorder, a field on them, and its Laplacian by four methods, with what each is worth. The module
+# `sph` is that of `examples/hosts`: `python3 -m pip install .` in the root of the repository installs it.
 
 # %%
 import sys
@@ -25,14 +25,15 @@ import numpy as np
 
 import sph
 
-show = len(sys.argv) < 2 or not sys.argv[1].endswith(".png")  # a program with FILE.png saves the picture there
+# as a program with FILE.png it saves the picture there
+show = len(sys.argv) < 2 or not sys.argv[1].endswith(".png")
 
 # %% [markdown]
 # ## 1. Particles
 #
-# SPH needs four things of you: positions, a smoothing length `h`, the volume of each particle, and who is near whom.
-# On a lattice of the spacing `dx` that is moved a little, `h = 1.3 dx` and `volume = dx^2` are right. In your own
-# code the volume is `m / rho`.
+# SPH needs four things of you: positions, a smoothing length `h`, the volume of each particle, and who is
+# near whom. On a lattice of the spacing `dx` that is moved a little, `h = 1.6 dx` and `volume = dx^2` are
+# right. In your own code the volume is `m / rho`.
 
 
 # %%
@@ -54,8 +55,9 @@ print(len(x), "particles")
 # %% [markdown]
 # ## 2. Ask the doctor
 #
-# `examine` finds the mistakes that no sweep can see: a list that is too short, masses given for volumes, a forgotten
-# period. It answers sentences, and none if all is well. The second cloud was never given its volumes:
+# `examine` finds the mistakes that no sweep can see: a list that is too short, masses given for volumes, a
+# forgotten period. It answers sentences, and none if all is well. The second cloud was never given its
+# volumes:
 
 # %%
 print("findings:", cloud.examine())
@@ -71,8 +73,9 @@ for sentence in mistaken.examine():
 f = np.sin(np.pi * x) * np.sin(np.pi * y)
 exact = -2 * np.pi**2 * f
 gradient = cloud.gradient(f)  # corrected (CSPM): exact for linear fields, also at the edge
-slope = np.pi * np.stack((np.cos(np.pi * x) * np.sin(np.pi * y), np.sin(np.pi * x) * np.cos(np.pi * y)), axis=1)
-print("largest error of the gradient, of the largest: %.3f" % (abs(gradient - slope).max() / abs(slope).max()))
+sx, sy, cx, cy = np.sin(np.pi * x), np.sin(np.pi * y), np.cos(np.pi * x), np.cos(np.pi * y)
+slope = np.pi * np.stack((cx * sy, sx * cy), axis=1)
+print("largest error of the gradient: %.3f of the largest" % (abs(gradient - slope).max() / abs(slope).max()))
 
 methods = {
     "Brookshaw": lambda c, u: c.laplacian_brookshaw(u),
@@ -86,8 +89,8 @@ for name, laplacian in methods.items():
     print("%-14s largest error: inside %.3f, everywhere %.3f" % (name, off[inside].max(), off.max()))
 
 # %% [markdown]
-# The plain sum (Brookshaw) needs neighbours on all sides, in good order: at the edge it is wrong at any resolution, and in
-# disorder it does not converge at all. Those that are exact for quadratic fields do:
+# The plain sum (Brookshaw) needs neighbours on all sides, in good order: at the edge it is wrong at any
+# resolution, and in disorder it does not converge at all. Those that are exact for quadratic fields do:
 
 # %%
 sides = [12, 24, 48]

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * cloud.c - what gradients and Laplacians make of a cloud whose particles can be dragged: the error of each
- * particle, and the weights of the chosen one. A weight is what the operator answers for a field that is 1 at one
- * particle and 0 at all others.
+ * particle, and the weights of the chosen one. A weight is what the operator answers for a field that is 1 at
+ * one particle and 0 at all others.
  */
 #ifndef SPH_FN
 #define SPH_FN \

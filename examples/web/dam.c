@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * dam.c - a dam breaks, as in ../delta_dam.c, with all that can be switched while it runs: kernel, smoothing
- * length, remedies against clustering; walls that are dragged, and water that is poured. Lengths are in A, the
- * width of the column, times in sqrt(A / g).
+ * length, remedies against clustering; walls that are dragged, and water that is poured. Lengths are in A,
+ * the width of the column, times in sqrt(A / g).
  */
 #include "lab.h"
 
@@ -136,7 +136,8 @@ static void pour(void) /* a row of seven, where there is room */
         if (room) vy[add_water(px, pour_y)] = -1;
     }
 }
-/* Rates of the kernel K: the density first, then the walls, then the forces, then where particles are shifted. */
+/* Rates of the kernel K: the density first, then the walls, then the forces, then where particles are
+   shifted. */
 #define SWEEPS(K) answer = sweeps(K, cloud, fastest)
 static inline __attribute__((always_inline)) int sweeps(sph_kernel k, sph_cloud all, double fastest)
 {
@@ -173,8 +174,8 @@ static inline __attribute__((always_inline)) int sweeps(sph_kernel k, sph_cloud 
         for (i = 0; i < n_water; i++) rate[i] *= -rho[i];
     }
     for (i = 0; i < n_water; i++) {
-        /* water stays within a percent; a drop that is caught between others, or that meets one that is being poured,
-           would not, and end the run */
+        /* water stays within a percent; a drop that is caught between others, or that meets one that is being
+           poured, would not, and end the run */
         rho[i] = fmax(0.9 * water.rho0, fmin(1.1 * water.rho0, rho[i] + dt * rate[i]));
         p[i] = sph_pressure_tait(rho[i], water);
     }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * drop.c - a drop in another liquid of the same density oscillates by surface tension, as in
- * ../fluids/fluids_drop.c: a periodic box of 1 x 1, a drop of the area of a circle with R = 1/4, rho = 1, c0 = 20.
+ * ../fluids/fluids_drop.c: a periodic box of 1 x 1, a drop of the area of a circle with R = 1/4,
+ * rho = 1, c0 = 20.
  */
 #include "lab.h"
 

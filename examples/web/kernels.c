@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * kernels.c - any kernel as curves: W and F, its Fourier transform, and what its sum over a lattice makes of a
- * density of 1.
+ * kernels.c - any kernel as curves: W and F, its Fourier transform, and what its sum over a lattice makes of
+ * a density of 1.
  */
 #ifndef SPH_FN
 #define SPH_FN \
@@ -33,7 +33,8 @@ static lab_measure measures[MEASURES] = {{"support / h", 0},
                                          {"-(1 / dim) sum of V r^2 F there", 0},
                                          {"least value of the transform / that at 0", 0}};
 
-/* What is left of a kernel with h = 1 along one axis, at the distance s: its integral across it. In 1D itself. */
+/* What is left of a kernel with h = 1 along one axis, at the distance s: its integral across it.
+   In 1D it is all. */
 static double projected(sph_kernel k, int dim, double s)
 {
     const double support = sph_kernel_support_ratio(k), rest = fmax(0, support * support - s * s);
@@ -54,8 +55,8 @@ static double transform(const double *projection, double support, double wave)
     for (i = 0; i < CUTS; i++) sum += projection[i] * cos(wave * (i + 0.5) * support / CUTS);
     return 2 * sum * support / CUTS;
 }
-/* sum V W and -(1 / dim) sum V r^2 F over a cubic lattice of the spacing 1: 1 is right. One of eight parts, whose
-   sides and edges are shared. */
+/* sum V W and -(1 / dim) sum V r^2 F over a cubic lattice of the spacing 1: 1 is right. One of eight parts,
+   whose sides and edges are shared. */
 static void lattice(sph_kernel k, int dim, double h, double *sum, double *slope, double *count)
 {
     const int far = (int)(sph_kernel_support(k, h) + 1), last_y = dim > 1 ? far : 0,

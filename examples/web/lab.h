@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * lab.h - the laboratory: scenes that run in a web page, in node, or in a native program. What a scene is, what
- * scenes share, and the calls of a host (lab.c), which are the exports of the WebAssembly module.
+ * lab.h - the laboratory: scenes that run in a web page, in node, or in a native program. What a scene is,
+ * what scenes share, and the calls of a host (lab.c), which are the exports of the WebAssembly module.
  *
- *     lab_open(scene); lab_set(control, value); lab_step(4); ... lab_x(), lab_field_values(0), lab_measure_value(0) ...
+ *     lab_open(scene); lab_set(control, value); lab_step(4); ... lab_field_values(0) ...
  *
- * A function that may fail answers a negative sph_error: lab_status_text(answer) says it in words. One scene is
- * open at a time; a module that is instantiated twice has two.
+ * A function that may fail answers a negative sph_error: lab_status_text(answer) says it in words. One scene
+ * is open at a time; a module that is instantiated twice has two.
  */
 #ifndef LAB_H
 #define LAB_H
@@ -85,7 +85,7 @@ typedef struct lab_scene {
     lab_curve *curves;
     lab_column *columns;
     int n_controls, n_fields, n_measures, n_curves, n_columns;
-    /* what changes: particles, those that are no walls, points of a curve, rows of the table, the chosen one */
+    /* what changes: particles, those that are no walls, points of a curve, rows of the table, who is chosen */
     int n, n_moving, n_points, n_rows, chosen;
     double time, size,
         view[4]; /* side of a particle's square; left, bottom, width and height of the picture */

@@ -39,7 +39,8 @@ static int rates(void)
     LAB_TRY(sph_cleaning_rates(KERNEL, DIM, cloud, state, out));
     return 0;
 }
-/* adds a field that runs out of a disc's middle, or into it: strength (p - middle) / reach (1 - (r / reach)^2)^2 */
+/* adds a field that runs out of a disc's middle, or into it: strength
+   (p - middle) / reach (1 - (r / reach)^2)^2 */
 static void paint(double px, double py, double much)
 {
     const double reach = controls[REACH].value;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * plate.c - heat spreads through a square plate from its left edge, as in ../heat_plate.c, by any of the elliptic
- * operators, which is made once, as rows of weights. A pointer heats.
+ * plate.c - heat spreads through a square plate from its left edge, as in ../heat_plate.c, by any of the
+ * elliptic operators, which is made once, as rows of weights. A pointer heats.
  */
 #ifndef SPH_FN
 #define SPH_FN \
@@ -85,8 +85,8 @@ static int reset(void)
     LAB_TRY(sph_rows_monotone(cloud, row, sph_scalars_array(diagonal), monotone));
     for (i = 0, wrong = 0; i < n; i++) wrong += !on_edge(i) && !monotone[i];
     LAB_TRY(sph_rows_time_step(cloud, row, &dt));
-    dt *=
-        0.5; /* half of the longest stable step: nothing gets hotter than what is around it, if all signs are right */
+    /* half of the longest stable step: where all signs are right, nothing gets hotter than all around it */
+    dt *= 0.5;
     lab_plate.n = lab_plate.n_moving = n;
     lab_plate.time = 0;
     lab_plate.size = dx;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * vortex.c - the Orszag-Tang vortex twice, side by side: on the left nobody cares for div B, on the right it is
- * cleaned. The equations are those of ../papers/cleaning_orszag_tang.c: periodic unit square, gamma = 5/3,
- * rho = 25 / (36 pi), P = 5 / (12 pi), v = (-sin 2 pi y, sin 2 pi x), B = (-sin 2 pi y, sin 4 pi x) / sqrt(4 pi).
+ * vortex.c - the Orszag-Tang vortex twice, side by side: on the left nobody cares for div B, on the right it
+ * is cleaned. The equations are those of ../papers/cleaning_orszag_tang.c: periodic unit square, gamma = 5/3,
+ * rho = 25 / (36 pi), P = 5 / (12 pi), v = (-sin 2 pi y, sin 2 pi x), B = (-sin 2 pi y, sin 4 pi x) /
+ * sqrt(4 pi).
  */
 #include "lab.h"
 
@@ -150,8 +151,8 @@ static int reset(void)
     lab_vortex.time = dt = 0;
     return 0;
 }
-/* One step for both: leapfrog with one evaluation of the rates; everything but positions is predicted by Euler's
-   rule and corrected by the trapezoidal one. */
+/* One step for both: leapfrog with one evaluation of the rates; everything but positions is predicted by
+   Euler's rule and corrected by the trapezoidal one. */
 static int step(void)
 {
     int i, c, side;
