@@ -9,7 +9,7 @@ web=examples/web
 objects=$(mktemp -d "${TMPDIR:-/tmp}/lab.XXXXXX")
 trap 'rm -rf "$objects"' EXIT
 compile() { # FLAGS ...
-    for source in $web/*.c $web/freestanding/memory.c; do
+    for source in "$web"/*.c "$web"/freestanding/memory.c; do
         clang --target=wasm32 -std=c99 -ffp-contract=off -ffreestanding -fno-math-errno -nostdlibinc -isystem $web/freestanding -DSPH_PURE_SQRT=0 -I. -fvisibility=hidden \
             -Wall -Wextra -Wpedantic -Werror -Wno-pass-failed "$@" -c "$source" -o "$objects/$(basename "$source" .c).o"
     done

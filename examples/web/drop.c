@@ -155,7 +155,7 @@ static int look(void)
         measures[KINETIC].value += 0.5 * m * v2;
         stretched += colour[i] * (px * px - py * py);
         drop += colour[i];
-        if (steepness[i] > 1e-18) continue; /* near the interface */
+        if (steepness[i] * h * h > 1e-4) continue; /* near the interface */
         sum[in] += p[i];
         count[in]++;
     }

@@ -85,7 +85,7 @@ typedef struct lab_scene {
     lab_curve *curves;
     lab_column *columns;
     int n_controls, n_fields, n_measures, n_curves, n_columns;
-    /* what changes: particles, those that are no walls, points of a curve, rows of the table, who is chosen */
+    /* what changes: particles, those that are no walls, points of curves, rows of the table, the chosen one */
     int n, n_moving, n_points, n_rows, chosen;
     double time, size,
         view[4]; /* side of a particle's square; left, bottom, width and height of the picture */

@@ -80,6 +80,46 @@ check('a value out of range is refused', /value/.test(refuses(() => labs.scalar.
 check('an unknown control is refused, and named', /there is no nonsense/.test(refuses(() => labs.scalar.set('nonsense', 1))));
 check('an unknown scene is refused', /there is no nonsense/.test(refuses(() => labs.scalar.open('nonsense'))));
 
+// ---- what the scenes show is so
+
+{
+    const lab = labs.simd;
+    const measured = (scene, set, steps) => {
+        run(lab, scene, steps, set);
+        return Object.fromEntries(lab.measures.map(({ name, value }) => [name, value]));
+    };
+    const sum = i => lab.columns[i].values.reduce((a, b) => a + b, 0);
+    let m = measured('cloud', { operator: 'gradient, CSPM', field: 'x', jitter: 0.3 }, 0);
+    check('a corrected gradient is exact for x', m['rms error'] < 1e-12, String(m['rms error']));
+    check('the weights of its row have the sum 0', Math.abs(sum(2)) < 1e-10 && lab.columns[2].values.some(w => Math.abs(w) > 0.1));
+    m = measured('cloud', { operator: 'gradient, difference', field: 'x', jitter: 0.3 }, 0);
+    check('the plain one is not', m['rms error'] > 0.1, String(m['rms error']));
+    m = measured('cloud', { operator: 'Laplacian, ICSPM', field: 'x^2 + y^2', jitter: 0.1 }, 0);
+    check('ICSPM is exact for squares', m['rms error'] < 1e-8, String(m['rms error']));
+    lab.point('down', 0.5, 0.5);
+    lab.point('move', 0.53, 0.52);
+    lab.point('up', 0.53, 0.52);
+    check('a particle is dragged', Math.abs(lab.x[lab.chosen] - 0.53) < 1e-12 && Math.abs(lab.y[lab.chosen] - 0.52) < 1e-12);
+    check('and its row is that of where it is', lab.columns[0].values[0] === lab.chosen && lab.columns[1].values[0] === 0);
+    const least = kernel => measured('kernels', { kernel, dim: 2 }, 0)['least value of the transform / that at 0'];
+    check('the transform of the cubic spline is negative somewhere', least('cubic-spline') < -1e-4, String(least('cubic-spline')));
+    check('that of Wendland C2 is not', least('wendland-c2') > -1e-6, String(least('wendland-c2')));
+    const h_over_dx = lab.controls.find(({ name }) => name === 'h').value;
+    check('a kernel brings its h', h_over_dx === measured('kernels', { kernel: 'wendland-c2' }, 0)['recommended h / spacing']);
+    const rms = (cleaning, steps) => measured('magnet', { across: 24, cleaning }, steps)['rms of h div B'];
+    check('cleaning takes a divergence away', rms('on', 100) < 0.1 * rms('on', 0), `${rms('on', 100)}, ${rms('on', 0)}`);
+    check('without cleaning it stays', rms('off', 100) === rms('off', 0));
+    m = measured('vortex', { columns: 16 }, 100);
+    check('cleaning helps a vortex', m['without / with'] > 1.5, String(m['without / with']));
+    m = measured('plate', { across: 25 }, 400);
+    check('nothing is hotter than the hot edge, or colder than the cold ones', m.warmest <= 1 && m.coldest >= 0 && m['rows with a wrong sign'] === 0, JSON.stringify(m));
+    check('the plate warms', m['mean temperature'] > 0.2 && m['mean temperature'] < 0.25, String(m['mean temperature']));
+    const stretch = '<x^2 - y^2> / R^2 over the drop';
+    check('a drop becomes round, and passes that', measured('drop', { across: 24 }, 0)[stretch] > 0.2 && measured('drop', { across: 24 }, 350)[stretch] < 0);
+    m = measured('dam', { across: 16 }, 900);
+    check('water runs, and none is lost', m['front / A'] > 1.2 && m['particles of water'] === 512, JSON.stringify(m));
+}
+
 // ---- the page
 
 // the share of pixels that differ from the most frequent colour, of a PNG of 8 bits without interlace
