@@ -201,7 +201,10 @@ check-hosts:
 # one file, which works from a disk: the module is inside
 web:
 	@if ! command -v clang > /dev/null 2>&1; then echo "clang is not installed: no page"; elif ! command -v wasm-ld > /dev/null 2>&1; then echo "wasm-ld is not installed (Debian: lld): no page"; \
-	else mkdir -p $(BUILD)/web && sh examples/web/build.sh $(BUILD)/web/lab.wasm simd && sh examples/web/page.sh $(BUILD)/web/lab.wasm > $(BUILD)/web/index.html && echo "$(BUILD)/web/index.html"; fi
+	else mkdir -p $(BUILD)/web && sh examples/web/build.sh $(BUILD)/web/lab.wasm && sh examples/web/page.sh $(BUILD)/web/lab.wasm > $(BUILD)/web/index.html && echo "$(BUILD)/web/index.html"; fi
+web-npm: web
+	@if ! command -v npm > /dev/null 2>&1; then echo "npm is not installed: no package"; elif [ -e $(BUILD)/web/lab.wasm ]; then \
+	rm -rf $(BUILD)/web/npm && sh examples/web/npm.sh $(BUILD)/web/lab.wasm $(BUILD)/web/npm && cd $(BUILD)/web/npm && npm pack --offline --silent; fi
 check-web:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tests/web/web.sh
 check-mpi:
@@ -260,4 +263,4 @@ dist:
 clean: # what a link leads to as well
 	rm -rf $(BUILD)/* $(BUILD)
 
-.PHONY: help reproduce reproduce-full figures atlas web gallery test test-sanitize fuzz check-matrix check-hosts check-mpi check-embedded check-web version install uninstall dist check-packages docs coverage lint mutation bench bench-flags bench-compile bench-gpu clean
+.PHONY: help reproduce reproduce-full figures atlas web web-npm gallery test test-sanitize fuzz check-matrix check-hosts check-mpi check-embedded check-web version install uninstall dist check-packages docs coverage lint mutation bench bench-flags bench-compile bench-gpu clean

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * dam.c - a dam breaks, as in ../delta_dam.c, with all that can be switched while it runs: kernel, smoothing
- * length, remedies against clustering; walls that are dragged, and water that is poured. Lengths are in A, the
- * width of the column, times in sqrt(A / g).
+ * length, remedies against clustering; walls that are dragged, and water that is poured. Lengths are in A,
+ * the width of the column, times in sqrt(A / g).
  */
 #include "lab.h"
 
@@ -18,8 +18,8 @@ static lab_control controls[CONTROLS] = {
     {"kernel", "Kernel", LAB_KERNEL_NAMES, 0, SPH_KERNEL_COUNT - 1, 1, SPH_WENDLAND_C2, 0},
     {"h", "Smoothing length h / spacing", NULL, 0.9, 2.2, 0.05, 1.3, 0},
     {"across", "Particles across the column", NULL, 12, 56, 1, 30, 0},
-    {"remedy", "Remedy", "none|convex kernel|collisions|shifting|delta-SPH|delta-SPH and shifting", 0, 5, 1, NONE,
-     0},
+    {"remedy", "Remedy", "none|convex kernel|collisions|shifting|delta-SPH|delta-SPH and shifting", 0, 5, 1,
+     NONE, 0},
     {"alpha", "Viscosity alpha", NULL, 0, 0.3, 0.01, 0.05, 0},
     {"left", "Left wall", NULL, 0, 1.5, 0.05, 0, 0},
     {"right", "Right wall", NULL, 2, 5, 0.05, 5, 0}};
@@ -31,9 +31,9 @@ static double x[MOST], y[MOST], vx[MOST], vy[MOST], ax[MOST], ay[MOST], rho[MOST
     side[MOST], nx[MOST], ny[MOST], u[MOST];
 static double *const carried[] = {x, y, vx, vy, ax, ay, rho, p, is_water, side, nx, ny, u};
 static double volume[MOST], zero[MOST], inverse_mass[MOST], speed[MOST], ratio[MOST];
-static double at[2];    /* of the left and of the right wall */
-static int dragged;     /* -1, 1: a wall; 0: none */
-static int pours;       /* water, at (pour_x, pour_y) */
+static double at[2]; /* of the left and of the right wall */
+static int dragged;  /* -1, 1: a wall; 0: none */
+static int pours;    /* water, at (pour_x, pour_y) */
 static double pour_x, pour_y, next_drop;
 
 static int copy(int from, int to)
@@ -78,7 +78,8 @@ static void remove_water(int i)
 }
 static int reset(void)
 {
-    const int across = (int)controls[ACROSS].value, wide = (int)(width * across + 0.5), high = (int)(height * across + 0.5);
+    const int across = (int)controls[ACROSS].value, wide = (int)(width * across + 0.5),
+              high = (int)(height * across + 0.5);
     int i, j;
     dx = 1.0 / across;
     m = water.rho0 * dx * dx;
@@ -135,18 +136,24 @@ static void pour(void) /* a row of seven, where there is room */
         if (room) vy[add_water(px, pour_y)] = -1;
     }
 }
-/* Rates of the kernel K: the density first, then the walls, then the forces, then where particles are shifted. */
+/* Rates of the kernel K: the density first, then the walls, then the forces, then where particles are
+   shifted. */
 #define SWEEPS(K) answer = sweeps(K, cloud, fastest)
 static inline __attribute__((always_inline)) int sweeps(sph_kernel k, sph_cloud all, double fastest)
 {
-    static double one = 1, rate[MOST], slope_x[MOST], slope_y[MOST], p_wall[MOST], v_wall_x[MOST], v_wall_y[MOST];
+    static double one = 1, rate[MOST], slope_x[MOST], slope_y[MOST], p_wall[MOST], v_wall_x[MOST],
+                  v_wall_y[MOST];
     const int remedy = (int)controls[REMEDY].value, n = lab_dam.n;
     const sph_cloud wet = sph_cloud_range(all, 0, n_water), walls = sph_cloud_range(all, n_water, n);
-    const sph_scalars mass = sph_scalars_same(&m), density = sph_scalars_array(rho), pressure = sph_scalars_array(p);
+    const sph_scalars mass = sph_scalars_same(&m), density = sph_scalars_array(rho),
+                      pressure = sph_scalars_array(p);
     const sph_vectors v = sph_vectors_separate(vx, vy, NULL), velocity = sph_vectors_separate(u, zero, NULL);
     const sph_medium gas = {mass, density, sph_scalars_same(&one)};
-    const sph_fluid fluid = {mass, density, pressure, sph_scalars_same(&water.c), v, SPH_VISCOSITY_MONAGHAN, controls[ALPHA].value, 0, 0.1};
-    const sph_wall wall = {sph_scalars_array(is_water), density, pressure, v, velocity, sph_vectors_separate(nx, ny, NULL), {0, -g, 0}};
+    const sph_fluid fluid = {
+        mass, density, pressure, sph_scalars_same(&water.c), v, SPH_VISCOSITY_MONAGHAN, controls[ALPHA].value,
+        0,    0.1};
+    const sph_wall wall = {sph_scalars_array(is_water),        density,   pressure, v, velocity,
+                           sph_vectors_separate(nx, ny, NULL), {0, -g, 0}};
     const sph_wall_out on_wall = {p_wall, sph_vector_out_separate(v_wall_x, v_wall_y, NULL), 1, NULL};
     sph_fluid_out forces = {0};
     int i;
@@ -166,7 +173,12 @@ static inline __attribute__((always_inline)) int sweeps(sph_kernel k, sph_cloud 
         LAB_TRY(sph_divergence_difference(k, DIM, wet, gas, v, sph_scalar_out_array(rate, NULL)));
         for (i = 0; i < n_water; i++) rate[i] *= -rho[i];
     }
-    for (i = 0; i < n_water; i++) p[i] = sph_pressure_tait(rho[i] += dt * rate[i], water);
+    for (i = 0; i < n_water; i++) {
+        /* water stays within a percent; a drop that is caught between others, or that meets one that is being
+           poured, would not, and end the run */
+        rho[i] = fmax(0.9 * water.rho0, fmin(1.1 * water.rho0, rho[i] + dt * rate[i]));
+        p[i] = sph_pressure_tait(rho[i], water);
+    }
 
     LAB_TRY(sph_wall_adami(k, DIM, walls, wall, on_wall));
     for (i = n_water; i < n; i++) { /* they push, and move with the water: at rest they would hold it back */
@@ -206,10 +218,14 @@ static int make_cloud(sph_kernel k, sph_cloud *cloud)
     int i;
     for (i = 0; i < lab_dam.n; i++) volume[i] = m / rho[i];
     LAB_TRY(lab_neighbours(DIM, points, sph_scalars_same(&radius), SPH_GATHER, &list));
-    *cloud = sph_cloud_checked(DIM, sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_array(volume)));
+    *cloud =
+        sph_cloud_checked(DIM, sph_cloud_of(points, list, sph_scalars_same(&h), sph_scalars_array(volume)));
     return 0;
 }
-static sph_kernel kernel(void) { return controls[REMEDY].value == CONVEX ? SPH_CONVEX : (sph_kernel)controls[KERNEL].value; }
+static sph_kernel kernel(void)
+{
+    return controls[REMEDY].value == CONVEX ? SPH_CONVEX : (sph_kernel)controls[KERNEL].value;
+}
 static int step(void) /* kick, drift, kick: leapfrog */
 {
     double fastest = 0, hardest = 0;
@@ -243,7 +259,8 @@ static int step(void) /* kick, drift, kick: leapfrog */
     }
     lab_dam.time += dt;
     for (i = n_water - 1; i >= 0; i--) /* over a wall, and away */
-        if (!(x[i] > -LAYERS * dx && x[i] < width + LAYERS * dx && y[i] > -LAYERS * dx && y[i] < 4 * height)) remove_water(i);
+        if (!(x[i] > -LAYERS * dx && x[i] < width + LAYERS * dx && y[i] > -LAYERS * dx && y[i] < 4 * height))
+            remove_water(i);
     pour();
     return 0;
 }
@@ -264,7 +281,8 @@ static int look(void)
     int i;
     h = controls[H_OVER_DX].value * dx;
     LAB_TRY(make_cloud(kernel(), &cloud));
-    LAB_TRY(sph_nearest_distance(DIM, sph_cloud_range(cloud, 0, n_water), cloud.points, sph_scalar_out_array(nearest, NULL)));
+    LAB_TRY(sph_nearest_distance(DIM, sph_cloud_range(cloud, 0, n_water), cloud.points,
+                                 sph_scalar_out_array(nearest, NULL)));
     for (i = 0; i < MEASURES; i++) measures[i].value = 0;
     for (i = 0; i < lab_dam.n; i++) {
         speed[i] = sqrt(vx[i] * vx[i] + vy[i] * vy[i]);
@@ -281,8 +299,10 @@ static int look(void)
 }
 static int changed(int control)
 {
-    if (control == KERNEL) controls[H_OVER_DX].value = sph_kernel_h_over_dx((sph_kernel)controls[KERNEL].value);
-    if (control == REMEDY && controls[REMEDY].value == CONVEX) controls[H_OVER_DX].value = sph_kernel_h_over_dx(SPH_CONVEX);
+    if (control == KERNEL)
+        controls[H_OVER_DX].value = sph_kernel_h_over_dx((sph_kernel)controls[KERNEL].value);
+    if (control == REMEDY && controls[REMEDY].value == CONVEX)
+        controls[H_OVER_DX].value = sph_kernel_h_over_dx(SPH_CONVEX);
     return control == ACROSS ? reset() : 0;
 }
 static double within(int control, double value)

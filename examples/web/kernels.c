@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * kernels.c - any kernel as curves: W and F, its Fourier transform, and what its sum over a lattice makes of a
- * density of 1.
+ * kernels.c - any kernel as curves: W and F, its Fourier transform, and what its sum over a lattice makes of
+ * a density of 1.
  */
+#ifndef SPH_FN
+#define SPH_FN \
+    static __attribute__((noinline, unused)) /* for any kernel: small code, which need not be fast */
+#endif
 #include "lab.h"
 
 enum { POINTS = 241, CUTS = 200 };
@@ -29,7 +33,8 @@ static lab_measure measures[MEASURES] = {{"support / h", 0},
                                          {"-(1 / dim) sum of V r^2 F there", 0},
                                          {"least value of the transform / that at 0", 0}};
 
-/* What is left of a kernel with h = 1 along one axis, at the distance s: its integral across it. In 1D itself. */
+/* What is left of a kernel with h = 1 along one axis, at the distance s: its integral across it.
+   In 1D it is all. */
 static double projected(sph_kernel k, int dim, double s)
 {
     const double support = sph_kernel_support_ratio(k), rest = fmax(0, support * support - s * s);
@@ -50,17 +55,19 @@ static double transform(const double *projection, double support, double wave)
     for (i = 0; i < CUTS; i++) sum += projection[i] * cos(wave * (i + 0.5) * support / CUTS);
     return 2 * sum * support / CUTS;
 }
-/* sum V W and -(1 / dim) sum V r^2 F over a cubic lattice of the spacing 1: 1 is right. One of eight parts, whose
-   sides and edges are shared. */
+/* sum V W and -(1 / dim) sum V r^2 F over a cubic lattice of the spacing 1: 1 is right. One of eight parts,
+   whose sides and edges are shared. */
 static void lattice(sph_kernel k, int dim, double h, double *sum, double *slope, double *count)
 {
-    const int far = (int)(sph_kernel_support(k, h) + 1), last_y = dim > 1 ? far : 0, last_z = dim > 2 ? far : 0;
+    const int far = (int)(sph_kernel_support(k, h) + 1), last_y = dim > 1 ? far : 0,
+              last_z = dim > 2 ? far : 0;
     int i, j, l;
     *sum = *slope = *count = 0;
     for (i = 0; i <= far; i++)
         for (j = 0; j <= last_y; j++)
             for (l = 0; l <= last_z; l++) {
-                const double r = sqrt((double)(i * i + j * j + l * l)), many = (i ? 2 : 1) * (j ? 2 : 1) * (l ? 2 : 1);
+                const double r = sqrt((double)(i * i + j * j + l * l)),
+                             many = (i ? 2 : 1) * (j ? 2 : 1) * (l ? 2 : 1);
                 *sum += many * sph_kernel_w(k, dim, r, h);
                 *slope -= many * r * r * sph_kernel_f(k, dim, r, h) / dim;
                 *count += many * (r > 0 && r < sph_kernel_support(k, h));
@@ -78,7 +85,8 @@ static int reset(void)
     measures[RATIO].value = support;
     measures[SIGMA].value = sph_kernel_sigma(k, dim);
     measures[RECOMMENDED].value = sph_kernel_h_over_dx(k);
-    lattice(k, dim, controls[H_OVER_DX].value, &measures[LATTICE_SUM].value, &measures[LATTICE_SLOPE].value, &measures[NEIGHBOURS].value);
+    lattice(k, dim, controls[H_OVER_DX].value, &measures[LATTICE_SUM].value, &measures[LATTICE_SLOPE].value,
+            &measures[NEIGHBOURS].value);
     measures[LEAST].value = 1;
     for (i = 0; i < POINTS; i++) {
         const double at = i / (POINTS - 1.0), wave = transform(projection, support, 16 * at) / whole;
@@ -107,38 +115,39 @@ static int reset(void)
 }
 static int changed(int control)
 {
-    if (control == KERNEL) controls[H_OVER_DX].value = sph_kernel_h_over_dx((sph_kernel)controls[KERNEL].value);
+    if (control == KERNEL)
+        controls[H_OVER_DX].value = sph_kernel_h_over_dx((sph_kernel)controls[KERNEL].value);
     return reset();
 }
-lab_scene lab_kernels = {
-    "kernels",
-    "Kernels",
-    "All kernels of the library. A kernel whose transform is nowhere negative does not let particles pair (Dehnen & Aly 2012); one whose "
-    "lattice sum is 1 gives a lattice its density.",
-    NULL,
-    reset,
-    NULL,
-    NULL,
-    changed,
-    NULL,
-    controls,
-    NULL,
-    measures,
-    curves,
-    NULL,
-    CONTROLS,
-    0,
-    MEASURES,
-    2,
-    0,
-    0,
-    0,
-    POINTS,
-    0,
-    -1,
-    0,
-    0,
-    {0, 0, 1, 1},
-    NULL,
-    NULL,
-    x};
+lab_scene lab_kernels = {"kernels",
+                         "Kernels",
+                         "All kernels of the library. A kernel whose transform is nowhere negative does not "
+                         "let particles pair (Dehnen & Aly 2012); one whose "
+                         "lattice sum is 1 gives a lattice its density.",
+                         NULL,
+                         reset,
+                         NULL,
+                         NULL,
+                         changed,
+                         NULL,
+                         controls,
+                         NULL,
+                         measures,
+                         curves,
+                         NULL,
+                         CONTROLS,
+                         0,
+                         MEASURES,
+                         2,
+                         0,
+                         0,
+                         0,
+                         POINTS,
+                         0,
+                         -1,
+                         0,
+                         0,
+                         {0, 0, 1, 1},
+                         NULL,
+                         NULL,
+                         x};

@@ -4,7 +4,8 @@
  */
 #include "lab.h"
 
-static lab_scene *const scenes[] = {&lab_dam, &lab_vortex, &lab_drop, &lab_plate, &lab_magnet, &lab_kernels, &lab_cloud};
+static lab_scene *const scenes[] = {&lab_dam,    &lab_vortex,  &lab_drop, &lab_plate,
+                                    &lab_magnet, &lab_kernels, &lab_cloud};
 enum { SCENES = sizeof scenes / sizeof *scenes };
 static lab_scene *now; /* the one that is open */
 

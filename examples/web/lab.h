@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * lab.h - the laboratory: scenes that run in a web page, in node, or in a native program. What a scene is, what
- * scenes share, and the calls of a host (lab.c), which are the exports of the WebAssembly module.
+ * lab.h - the laboratory: scenes that run in a web page, in node, or in a native program. What a scene is,
+ * what scenes share, and the calls of a host (lab.c), which are the exports of the WebAssembly module.
  *
- *     lab_open(scene); lab_set(control, value); lab_step(4); ... lab_x(), lab_field_values(0), lab_measure_value(0) ...
+ *     lab_open(scene); lab_set(control, value); lab_step(4); ... lab_field_values(0) ...
  *
- * A function that may fail answers a negative sph_error: lab_status_text(answer) says it in words. One scene is
- * open at a time; a module that is instantiated twice has two.
+ * A function that may fail answers a negative sph_error: lab_status_text(answer) says it in words. One scene
+ * is open at a time; a module that is instantiated twice has two.
  */
 #ifndef LAB_H
 #define LAB_H
@@ -31,9 +31,15 @@
    would make the module five times as large. */
 #define LAB_SWITCH_KERNEL(k, CALL) \
     switch (k) { \
-    case SPH_WENDLAND_C2: CALL(SPH_WENDLAND_C2); break; \
-    case SPH_CONVEX: CALL(SPH_CONVEX); break; \
-    default: CALL((sph_kernel)(k)); break; \
+    case SPH_WENDLAND_C2: \
+        CALL(SPH_WENDLAND_C2); \
+        break; \
+    case SPH_CONVEX: \
+        CALL(SPH_CONVEX); \
+        break; \
+    default: \
+        CALL((sph_kernel)(k)); \
+        break; \
     }
 
 /* Something to be set: a number between two others, or one of some choices, which are counted from 0. */
@@ -67,11 +73,11 @@ typedef struct lab_column {
 enum { LAB_DOWN, LAB_MOVE, LAB_UP };
 typedef struct lab_scene {
     const char *name, *title, *about;
-    const char *hint;                            /* what a pointer does in the picture; null: nothing */
-    int (*reset)(void);                          /* from the start, by the controls' values */
-    int (*step)(void);                           /* null: nothing moves by itself */
-    int (*look)(void);                           /* brings fields and measures up to date; null: they are */
-    int (*changed)(int control);                 /* a control has another value */
+    const char *hint;                              /* what a pointer does in the picture; null: nothing */
+    int (*reset)(void);                            /* from the start, by the controls' values */
+    int (*step)(void);                             /* null: nothing moves by itself */
+    int (*look)(void);                             /* brings fields and measures up to date; null: they are */
+    int (*changed)(int control);                   /* a control has another value */
     int (*point)(int phase, double px, double py); /* LAB_DOWN, LAB_MOVE, LAB_UP */
     lab_control *controls;
     lab_field *fields;
@@ -79,9 +85,10 @@ typedef struct lab_scene {
     lab_curve *curves;
     lab_column *columns;
     int n_controls, n_fields, n_measures, n_curves, n_columns;
-    /* what changes: particles, those that are no walls, points of a curve, rows of the table, the chosen one */
+    /* what changes: particles, those that are no walls, points of curves, rows of the table, the chosen one */
     int n, n_moving, n_points, n_rows, chosen;
-    double time, size, view[4]; /* side of a particle's square; left, bottom, width and height of the picture */
+    double time, size,
+        view[4]; /* side of a particle's square; left, bottom, width and height of the picture */
     const double *x, *y, *curve_x;
 } lab_scene;
 

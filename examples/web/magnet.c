@@ -12,14 +12,13 @@ enum { DIVERGENCE, ENERGY, MEAN_BX, MEASURES };
 #define KERNEL SPH_QUINTIC_SPLINE
 static const double ch = 1, one = 1;
 
-static lab_control controls[CONTROLS] = {
-    {"cleaning", "Cleaning", "off|on", 0, 1, 1, 1, 0},
-    {"sigma", "Damping sigma", NULL, 0, 2, 0.05, 0.3, 0},
-    {"brush", "The pointer paints", "a source|a sink", 0, 1, 1, 0, 0},
-    {"reach", "Radius of the brush", NULL, 0.05, 0.3, 0.01, 0.12, 0},
-    {"across", "Particles in a row", NULL, 20, SIDE, 2, 50, 0}};
-static double x[MOST], y[MOST], rho[MOST], Bx[MOST], By[MOST], psi[MOST], rate_x[MOST], rate_y[MOST], rate_psi[MOST],
-    div_B[MOST], h_div_B[MOST], strength[MOST], h, m;
+static lab_control controls[CONTROLS] = {{"cleaning", "Cleaning", "off|on", 0, 1, 1, 1, 0},
+                                         {"sigma", "Damping sigma", NULL, 0, 2, 0.05, 0.3, 0},
+                                         {"brush", "The pointer paints", "a source|a sink", 0, 1, 1, 0, 0},
+                                         {"reach", "Radius of the brush", NULL, 0.05, 0.3, 0.01, 0.12, 0},
+                                         {"across", "Particles in a row", NULL, 20, SIDE, 2, 50, 0}};
+static double x[MOST], y[MOST], rho[MOST], Bx[MOST], By[MOST], psi[MOST], rate_x[MOST], rate_y[MOST],
+    rate_psi[MOST], div_B[MOST], h_div_B[MOST], strength[MOST], h, m;
 static int n;
 static sph_cloud cloud;
 
@@ -40,7 +39,8 @@ static int rates(void)
     LAB_TRY(sph_cleaning_rates(KERNEL, DIM, cloud, state, out));
     return 0;
 }
-/* adds a field that runs out of a disc's middle, or into it: strength (p - middle) / reach (1 - (r / reach)^2)^2 */
+/* adds a field that runs out of a disc's middle, or into it: strength
+   (p - middle) / reach (1 - (r / reach)^2)^2 */
 static void paint(double px, double py, double much)
 {
     const double reach = controls[REACH].value;
@@ -106,8 +106,10 @@ static int step(void) /* the midpoint rule: first half a step */
     lab_magnet.time += dt;
     return 0;
 }
-static lab_field fields[FIELDS] = {{"h div B", h_div_B, -0.15, 0.15}, {"psi", psi, -0.15, 0.15}, {"|B|", strength, 0, 1}};
-static lab_measure measures[MEASURES] = {{"rms of h div B", 0}, {"energy of B and psi", 0}, {"mean of Bx, which is conserved", 0}};
+static lab_field fields[FIELDS] = {
+    {"h div B", h_div_B, -0.05, 0.05}, {"psi", psi, -0.05, 0.05}, {"|B|", strength, 0, 1}};
+static lab_measure measures[MEASURES] = {
+    {"rms of h div B", 0}, {"energy of B and psi", 0}, {"mean of Bx, which is conserved", 0}};
 static int look(void)
 {
     double sum = 0;
@@ -118,7 +120,8 @@ static int look(void)
         h_div_B[i] = h * div_B[i];
         strength[i] = sqrt(Bx[i] * Bx[i] + By[i] * By[i]);
         sum += h_div_B[i] * h_div_B[i] / n;
-        measures[ENERGY].value += m * (strength[i] * strength[i] + psi[i] * psi[i] / (ch * ch)) / (2 * rho[i]);
+        measures[ENERGY].value +=
+            m * (strength[i] * strength[i] + psi[i] * psi[i] / (ch * ch)) / (2 * rho[i]);
         measures[MEAN_BX].value += m * Bx[i] / rho[i];
     }
     measures[DIVERGENCE].value = sqrt(sum);
@@ -127,38 +130,39 @@ static int look(void)
 static int changed(int control) { return control == ACROSS ? reset() : 0; }
 static int point(int phase, double px, double py)
 {
-    if (phase != LAB_UP) paint(px, py, (controls[BRUSH].value > 0 ? -1 : 1) * (phase == LAB_DOWN ? 0.5 : 0.1));
+    if (phase != LAB_UP)
+        paint(px, py, (controls[BRUSH].value > 0 ? -1 : 1) * (phase == LAB_DOWN ? 0.5 : 0.1));
     return 0;
 }
-lab_scene lab_magnet = {
-    "magnet",
-    "A field to clean",
-    "A magnetic field has no divergence. Paint some, and watch how cleaning carries it away as waves of psi, and damps them; "
-    "switched off, it stays where it is.",
-    "Press and move to paint a divergence.",
-    reset,
-    step,
-    look,
-    changed,
-    point,
-    controls,
-    fields,
-    measures,
-    NULL,
-    NULL,
-    CONTROLS,
-    FIELDS,
-    MEASURES,
-    0,
-    0,
-    0,
-    0,
-    0,
-    0,
-    -1,
-    0,
-    0,
-    {-0.3, -0.04, 1.6, 1.08},
-    x,
-    y,
-    NULL};
+lab_scene lab_magnet = {"magnet",
+                        "A field to clean",
+                        "A magnetic field has no divergence. Paint some, and watch how cleaning carries it "
+                        "away as waves of psi, and damps them; "
+                        "switched off, it stays where it is.",
+                        "Press and move to paint a divergence.",
+                        reset,
+                        step,
+                        look,
+                        changed,
+                        point,
+                        controls,
+                        fields,
+                        measures,
+                        NULL,
+                        NULL,
+                        CONTROLS,
+                        FIELDS,
+                        MEASURES,
+                        0,
+                        0,
+                        0,
+                        0,
+                        0,
+                        0,
+                        -1,
+                        0,
+                        0,
+                        {-0.06, -0.04, 1.6, 1.08},
+                        x,
+                        y,
+                        NULL};

@@ -38,7 +38,7 @@ function start() {
             if (least < 0) most = Math.max(most, -least), least = -most;
             if (!(most > least)) most = least + 1;
         }
-        return { least, most, colours: least < 0 ? signed : rising };
+        return { least, most, colours: least < 0 && least === -most ? signed : rising };
     }
 
     // ---------------------------------------------------------------- pictures
@@ -48,6 +48,7 @@ function start() {
     function sized() {
         const scale = window.devicePixelRatio || 1, { width, height } = lab.view;
         const ratio = lab.curves.length ? 0.62 : height / width;
+        canvas.style.maxWidth = `max(16rem, calc((100vh - 13rem) / ${ratio}))`; // with its buttons in the window
         const w = Math.round(canvas.clientWidth * scale), h = Math.round(w * ratio);
         if (canvas.width !== w || canvas.height !== h) canvas.width = w, canvas.height = h;
         return { w, h, scale };
@@ -223,6 +224,7 @@ function start() {
         byId('hint').textContent = lab.scene.hint ?
             `${lab.scene.hint} By keys, in the picture: arrows move a cross, space presses there and lets go.` : '';
         for (const id of ['run', 'one']) byId(id).hidden = !lab.scene.steps;
+        byId('again').hidden = lab.curves.length > 0;
         makeControls();
         show();
         say(`${lab.scene.title}.`);

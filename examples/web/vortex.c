@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * vortex.c - the Orszag-Tang vortex twice, side by side: on the left nobody cares for div B, on the right it is
- * cleaned. The equations are those of ../papers/cleaning_orszag_tang.c: periodic unit square, gamma = 5/3,
- * rho = 25 / (36 pi), P = 5 / (12 pi), v = (-sin 2 pi y, sin 2 pi x), B = (-sin 2 pi y, sin 4 pi x) / sqrt(4 pi).
+ * vortex.c - the Orszag-Tang vortex twice, side by side: on the left nobody cares for div B, on the right it
+ * is cleaned. The equations are those of ../papers/cleaning_orszag_tang.c: periodic unit square, gamma = 5/3,
+ * rho = 25 / (36 pi), P = 5 / (12 pi), v = (-sin 2 pi y, sin 2 pi x), B = (-sin 2 pi y, sin 4 pi x) /
+ * sqrt(4 pi).
  */
 #include "lab.h"
 
@@ -24,7 +25,8 @@ enum { VX, VY, BX, BY, U, PSI, ALPHA, EVOLVED };
 typedef struct gas {
     int cleans;
     double ch, a[EVOLVED][MOST], rate[EVOLVED][MOST], before[EVOLVED][MOST];
-    double x[MOST], y[MOST], h[MOST], rho[MOST], omega[MOST], p[MOST], cs[MOST], speed[MOST], div_v[MOST], div_B[MOST];
+    double x[MOST], y[MOST], h[MOST], rho[MOST], omega[MOST], p[MOST], cs[MOST], speed[MOST], div_v[MOST],
+        div_B[MOST];
 } gas;
 static gas both[2];
 static int n; /* of each */
@@ -119,7 +121,8 @@ static int rates(gas *g)
 }
 static int reset(void)
 {
-    const int columns = (int)controls[COLUMNS].value, rows = 2 * (int)(columns / sqrt(3.0)); /* even, for the period */
+    const int columns = (int)controls[COLUMNS].value,
+              rows = 2 * (int)(columns / sqrt(3.0)); /* even, for the period */
     const double rho = 25 / (36 * pi), pressure = 5 / (12 * pi), B0 = 1 / sqrt(4 * pi);
     int i, c, side;
     n = columns * rows;
@@ -128,7 +131,8 @@ static int reset(void)
         gas *const g = &both[side];
         g->cleans = side;
         for (i = 0; i < n; i++) {
-            const double x = (i % columns + 0.25 + 0.5 * (i / columns & 1)) / columns, y = (i / columns + 0.5) / rows;
+            const double x = (i % columns + 0.25 + 0.5 * (i / columns & 1)) / columns,
+                         y = (i / columns + 0.5) / rows;
             for (c = 0; c < EVOLVED; c++) g->a[c][i] = g->rate[c][i] = g->before[c][i] = 0;
             g->x[i] = x;
             g->y[i] = y;
@@ -147,8 +151,8 @@ static int reset(void)
     lab_vortex.time = dt = 0;
     return 0;
 }
-/* One step for both: leapfrog with one evaluation of the rates; everything but positions is predicted by Euler's
-   rule and corrected by the trapezoidal one. */
+/* One step for both: leapfrog with one evaluation of the rates; everything but positions is predicted by
+   Euler's rule and corrected by the trapezoidal one. */
 static int step(void)
 {
     int i, c, side;
@@ -185,7 +189,10 @@ static int step(void)
 /* ---------------------------------------------------------------- what a host asks for */
 
 static double x[BOTH], y[BOTH], h_div_B[BOTH], density[BOTH], strength[BOTH], pressure[BOTH];
-static lab_field fields[FIELDS] = {{"h div B", h_div_B, -0.06, 0.06}, {"density", density, 0.05, 0.5}, {"|B|", strength, 0, 0.8}, {"pressure", pressure, 0, 0.6}};
+static lab_field fields[FIELDS] = {{"h div B", h_div_B, -0.15, 0.15},
+                                   {"density", density, 0.05, 0.5},
+                                   {"|B|", strength, 0, 0.8},
+                                   {"pressure", pressure, 0, 0.6}};
 static lab_measure measures[MEASURES] = {{"mean h |div B| / mean |B|, without cleaning", 0},
                                          {"the same, with cleaning", 0},
                                          {"without / with", 0},
@@ -213,7 +220,8 @@ static int look(void)
         measures[LEFT + side].value = divergence / sum;
         measures[ENERGY_LEFT + side].value = energy;
     }
-    measures[ERROR_RATIO].value = measures[RIGHT].value > 0 ? measures[LEFT].value / measures[RIGHT].value : 1;
+    measures[ERROR_RATIO].value =
+        measures[RIGHT].value > 0 ? measures[LEFT].value / measures[RIGHT].value : 1;
     measures[DT].value = dt;
     return 0;
 }
@@ -221,7 +229,8 @@ static int changed(int control) { return control == KERNEL || control == COLUMNS
 lab_scene lab_vortex = {
     "vortex",
     "Orszag-Tang",
-    "A supersonic vortex of a magnetised gas, twice. On the left the divergence of B is left alone; on the right it is "
+    "A supersonic vortex of a magnetised gas, twice. On the left the divergence of B is left alone; on the "
+    "right it is "
     "carried away as waves and damped (constrained hyperbolic divergence cleaning, Tricco & Price 2012).",
     NULL,
     reset,

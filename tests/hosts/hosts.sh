@@ -77,6 +77,15 @@ if built "the shim, an object," "$scratch/sph_shim.o" $CC -std=c99 $warn -O2 -fP
             run "Python, numpy" "$numpy" $hosts/host.py "$scratch/libsph_shim.so"
             run "Python, what it takes and refuses of numpy" "$numpy" tests/hosts/test_python.py "$scratch/libsph_shim.so"
             run "every operator, numpy and inline" "$numpy" tests/hosts/shim_calls.py "$scratch/libsph_shim.so" "$scratch/sums"
+            if MPLBACKEND=agg "$numpy" -c 'import matplotlib.pyplot' 2> "$scratch/why"; then
+                mkdir -p "$scratch/beside" # the library lies beside the module, as pip would have it
+                cp -R $hosts/sph "$scratch/libsph_shim.so" "$scratch/beside"
+                mv "$scratch/beside/libsph_shim.so" "$scratch/beside/sph"
+                run "Python, the notebook" env MPLBACKEND=agg PYTHONPATH="$scratch/beside" "$numpy" examples/notebooks/first_laplacian.py "$scratch/notebook.png"
+                check "the notebook draws" test -s "$scratch/notebook.png"
+            else
+                skip "Python, the notebook (Debian: python3-matplotlib)" "$(tail -n 1 "$scratch/why")"
+            fi
             if "$numpy" -m pytest --version > /dev/null 2>&1; then
                 run "Python, by pytest" env SPH_LIBRARY="$scratch/libsph_shim.so" "$numpy" -m pytest -q -p no:cacheprovider tests/hosts/test_python.py
             else

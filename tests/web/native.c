@@ -30,7 +30,8 @@ int main(int argc, char **argv)
         const char *const value = strchr(argv[k], '=');
         for (i = 0; i < lab_controls(); i++) {
             const size_t length = strlen(lab_control_name(i));
-            if (value && length == (size_t)(value - argv[k]) && strncmp(argv[k], lab_control_name(i), length) == 0)
+            if (value && length == (size_t)(value - argv[k]) &&
+                strncmp(argv[k], lab_control_name(i), length) == 0)
                 break;
         }
         need(lab_set(i, value ? atof(value + 1) : 0));

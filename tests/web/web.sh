@@ -4,10 +4,10 @@
 . tests/check.sh
 web="the laboratory (Debian: clang lld nodejs)"
 if ! needs "$web" clang wasm-ld node || ! works "$web" node -e 0; then finish web; fi
-check "the vector module compiles" nice sh examples/web/build.sh "$scratch/simd.wasm" simd
-check "the scalar module compiles" nice sh examples/web/build.sh "$scratch/scalar.wasm"
-# -Os: the headers then add one number after the other, as the scalar module does
-check "the native program compiles" nice "$CC" -std=c99 -Os '-DSPH_FN=static __attribute__((noinline, unused))' -ffp-contract=off -ffreestanding -fno-math-errno -DSPH_PURE_SQRT=0 \
+check "the vector module compiles" nice sh examples/web/build.sh "$scratch/simd.wasm"
+check "the scalar module compiles" nice sh examples/web/build.sh "$scratch/scalar.wasm" scalar
+# without what tells the headers of vectors: they then add one number after the other, as the scalar module does
+check "the native program compiles" nice "$CC" -std=c99 -O1 -U__SSE2__ '-DSPH_FN=static __attribute__((noinline, unused))' -ffp-contract=off -ffreestanding -fno-math-errno -DSPH_PURE_SQRT=0 \
     -Iexamples/web/freestanding -I. -Wall -Wextra -Wpedantic -Werror -Wno-unknown-warning-option -Wno-pass-failed tests/web/native.c examples/web/*.c -o "$scratch/native" -lm
 for module in scalar simd; do sh examples/web/page.sh "$scratch/$module.wasm" > "$scratch/$module.html"; done
 without=
@@ -17,5 +17,24 @@ if [ -e "$scratch/native" ] && [ -e "$scratch/scalar.wasm" ] && [ -e "$scratch/s
     status=$?
     cat "$scratch/output"
     check "the checks end" test $status -lt 2
+fi
+
+package="the npm package (Debian: npm)"
+if needs "$package" npm && works "$package" npm --version && [ -e "$scratch/native" ] && [ -e "$scratch/simd.wasm" ]; then
+    # the cache is of this run, and nothing is asked of a registry
+    npm="npm --offline --no-audit --no-fund --no-update-notifier --cache $(cd "$scratch" && pwd)/npm-cache"
+    mkdir -p "$scratch/host"
+    echo '{ "private": true }' > "$scratch/host/package.json"
+    check "the npm package is laid out" sh examples/web/npm.sh "$scratch/simd.wasm" "$scratch/package"
+    check "npm pack" sh -c "cd '$scratch/package' && $npm pack"
+    check "npm install without a network" sh -c "cd '$scratch/host' && $npm install ../package/sph-lab-*.tgz"
+    cp tests/web/npm.js tests/web/types.ts "$scratch/host"
+    (cd "$scratch/host" && node npm.js ../native) > "$scratch/output" 2>&1
+    status=$?
+    cat "$scratch/output"
+    check "a program that has installed it ends" test $status -lt 2
+    if needs "its types (Debian: node-typescript)" tsc; then
+        check "its types" sh -c "cd '$scratch/host' && tsc --strict --noEmit --target es2022 --module node16 --moduleResolution node16 types.ts"
+    fi
 fi
 finish web-build

@@ -22,8 +22,8 @@
 #define pow(x, y) lab_pow(x, y)
 #define sin(x) lab_sin(x)
 #define cos(x) lab_cos(x)
-
-double acos(double), atan2(double, double); /* of 3D alone, which no scene is: they are nowhere */
+#define acos(x) lab_acos(x)
+#define atan2(y, x) lab_atan2(y, x)
 
 static inline double lab_sqrt(double x) { return __builtin_sqrt(x); }
 static inline double lab_fabs(double x) { return __builtin_fabs(x); }
@@ -110,4 +110,17 @@ static inline double lab_sine(double x, int quarters)
 }
 static inline double lab_sin(double x) { return lab_sine(x, 0); }
 static inline double lab_cos(double x) { return lab_sine(x, 1); }
+/* 4 atan(z) with z = tan of a quarter of the angle, by its series */
+static inline double lab_atan2(double y, double x)
+{
+    const double r = lab_sqrt(x * x + y * y), quarter = y / (r + x),
+                 z = quarter / (1 + lab_sqrt(1 + quarter * quarter));
+    double s = 0;
+    int i;
+    if (r == 0) return 0;
+    if (x < 0) return lab_copysign(3.14159265358979324, y) - lab_atan2(y, -x);
+    for (i = 35; i > 1; i -= 2) s = z * z * (1.0 / i - s);
+    return 4 * (z - z * s);
+}
+static inline double lab_acos(double x) { return lab_atan2(lab_sqrt(1 - x * x), x); }
 #endif
