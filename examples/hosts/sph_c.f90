@@ -358,7 +358,7 @@ module sph_c
         real(sph_real) :: conditioning_min = 0.0_sph_real
         ! read for SPH_MOBILITY_UPWIND only
         type(sph_scalars) :: potential
-        ! Of the targets: it is added to the result, if it is there. Rows do not contain it.
+        ! of the targets; is added to the result, if it is there; rows do not contain it
         type(sph_scalars) :: source
     end type
 

@@ -460,7 +460,7 @@ class Operators:
         SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
         conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
         potential: read for SPH_MOBILITY_UPWIND only
-        source: Of the targets: it is added to the result, if it is there. Rows do not contain it.
+        source: of the targets; is added to the result, if it is there; rows do not contain it
         """
         return self._call("elliptic_brookshaw", locals())
 
@@ -490,7 +490,7 @@ class Operators:
         SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
         conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
         potential: read for SPH_MOBILITY_UPWIND only
-        source: Of the targets: it is added to the result, if it is there. Rows do not contain it.
+        source: of the targets; is added to the result, if it is there; rows do not contain it
         """
         return self._call("elliptic_brookshaw_corrected", locals())
 
@@ -521,7 +521,7 @@ class Operators:
         SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
         conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
         potential: read for SPH_MOBILITY_UPWIND only
-        source: Of the targets: it is added to the result, if it is there. Rows do not contain it.
+        source: of the targets; is added to the result, if it is there; rows do not contain it
         """
         return self._call("elliptic_schwaiger", locals())
 
@@ -552,7 +552,7 @@ class Operators:
         SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
         conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
         potential: read for SPH_MOBILITY_UPWIND only
-        source: Of the targets: it is added to the result, if it is there. Rows do not contain it.
+        source: of the targets; is added to the result, if it is there; rows do not contain it
         """
         return self._call("elliptic_msph", locals())
 
@@ -587,7 +587,7 @@ class Operators:
         SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
         conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
         potential: read for SPH_MOBILITY_UPWIND only
-        source: Of the targets: it is added to the result, if it is there. Rows do not contain it.
+        source: of the targets; is added to the result, if it is there; rows do not contain it
         """
         return self._call("elliptic_basic_degiuli_ban", locals())
 
@@ -613,7 +613,7 @@ class Operators:
         SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
         conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
         potential: read for SPH_MOBILITY_UPWIND only
-        source: Of the targets: it is added to the result, if it is there. Rows do not contain it.
+        source: of the targets; is added to the result, if it is there; rows do not contain it
         """
         return self._call("elliptic_rows_brookshaw", locals())
 
@@ -639,7 +639,7 @@ class Operators:
         SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
         conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
         potential: read for SPH_MOBILITY_UPWIND only
-        source: Of the targets: it is added to the result, if it is there. Rows do not contain it.
+        source: of the targets; is added to the result, if it is there; rows do not contain it
         """
         return self._call("elliptic_rows_brookshaw_corrected", locals())
 
@@ -665,7 +665,7 @@ class Operators:
         SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
         conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
         potential: read for SPH_MOBILITY_UPWIND only
-        source: Of the targets: it is added to the result, if it is there. Rows do not contain it.
+        source: of the targets; is added to the result, if it is there; rows do not contain it
         """
         return self._call("elliptic_rows_schwaiger", locals())
 
@@ -691,7 +691,7 @@ class Operators:
         SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
         conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
         potential: read for SPH_MOBILITY_UPWIND only
-        source: Of the targets: it is added to the result, if it is there. Rows do not contain it.
+        source: of the targets; is added to the result, if it is there; rows do not contain it
         """
         return self._call("elliptic_rows_msph", locals())
 
@@ -717,7 +717,7 @@ class Operators:
         SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
         conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
         potential: read for SPH_MOBILITY_UPWIND only
-        source: Of the targets: it is added to the result, if it is there. Rows do not contain it.
+        source: of the targets; is added to the result, if it is there; rows do not contain it
         """
         return self._call("elliptic_rows_basic_degiuli_ban", locals())
 
@@ -744,7 +744,7 @@ class Operators:
         SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
         conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
         potential: read for SPH_MOBILITY_UPWIND only
-        source: Of the targets: it is added to the result, if it is there. Rows do not contain it.
+        source: of the targets; is added to the result, if it is there; rows do not contain it
         """
         return self._call("elliptic_diagnose", locals())
 
@@ -833,7 +833,7 @@ class Operators:
         SPH_FELL_BACK. It takes the place of gamma_star. See the sweeps below.
         conditioning_min: Particles with a lower conditioning are SPH_ILL_CONDITIONED, but they are computed.
         potential: read for SPH_MOBILITY_UPWIND only
-        source: Of the targets: it is added to the result, if it is there. Rows do not contain it.
+        source: of the targets; is added to the result, if it is there; rows do not contain it
         normal: n, which points out of the domain
         alpha: of u, and of m n . grad u
         beta: of u, and of m n . grad u
