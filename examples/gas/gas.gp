@@ -49,7 +49,7 @@ if (there("gas_waves_errors")) {
     set xlabel "particles a wavelength"
     set xrange [12:160]
     set key bottom left
-    plot for [w in "sound Alfven fast slow"] "gas_waves_errors.csv" using (strcol(1) eq w ? $2 : 1/0):3 every ::1 with linespoints pointtype 7 title w, \
+    plot for [w in "sound Alfven fast slow 'slow, half of (9)'"] "gas_waves_errors.csv" using (strcol(1) eq w ? $2 : 1/0):3 every ::1 with linespoints pointtype 7 title w, \
         10 / x**2 with lines dashtype 2 linecolor rgb "black" title "N^{-2}"
 }
 
