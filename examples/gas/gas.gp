@@ -80,8 +80,11 @@ if (there("gas_kh_growth")) {
     set logscale y
     set grid linecolor rgb "#dddddd"
     set xlabel "t"
-    set key bottom right autotitle columnhead
-    plot "gas_kh_growth.csv" using 1:2 with lines linecolor rgb "black", for [k = 3:6] "" using 1:k with linespoints pointtype 7
+    set key bottom left
+    array growth[4] = ["32 x 32", "32 x 32, alpha = 1", "64 x 64", "128 x 128"]
+    finest = system("head -n 1 gas_kh_growth.csv | grep -c 128") + 3
+    plot "gas_kh_growth.csv" using 1:2 every ::1 with lines linecolor rgb "black" title "linear equations", \
+        for [k = 1:finest] "" using 1:(column(k + 2)) every ::1 with linespoints pointtype 7 title growth[k]
 }
 
 if (there("gas_rotor_cleaned")) {
