@@ -29,6 +29,7 @@ try clustering_dam3d -resolution 4
 try fluids_plates -method sun_2019
 try cleaning_orszag_tang -side 16 -end 0.05
 try cleaning_collapse -particles 100 -end 0.02
+try gas_sedov
 [ $tried -gt 0 ] || skip "threads of the drivers" "none of them was built"
 
 cat > "$scratch/team.c" <<'END'

@@ -49,7 +49,7 @@ if (there("gas_waves_errors")) {
     set xlabel "particles a wavelength"
     set xrange [12:160]
     set key bottom left
-    plot for [w in "sound Alfven fast slow"] "gas_waves_errors.csv" using (strcol(1) eq w ? $2 : 1/0):3 every ::1 with linespoints pointtype 7 title w, \
+    plot for [w in "sound Alfven fast slow 'slow, half of (9)'"] "gas_waves_errors.csv" using (strcol(1) eq w ? $2 : 1/0):3 every ::1 with linespoints pointtype 7 title w, \
         10 / x**2 with lines dashtype 2 linecolor rgb "black" title "N^{-2}"
 }
 
@@ -80,8 +80,11 @@ if (there("gas_kh_growth")) {
     set logscale y
     set grid linecolor rgb "#dddddd"
     set xlabel "t"
-    set key bottom right autotitle columnhead
-    plot "gas_kh_growth.csv" using 1:2 with lines linecolor rgb "black", for [k = 3:6] "" using 1:k with linespoints pointtype 7
+    set key bottom left
+    array growth[4] = ["32 x 32", "32 x 32, alpha = 1", "64 x 64", "128 x 128"]
+    finest = system("head -n 1 gas_kh_growth.csv | grep -c 128") + 3
+    plot "gas_kh_growth.csv" using 1:2 every ::1 with lines linecolor rgb "black" title "linear equations", \
+        for [k = 1:finest] "" using 1:(column(k + 2)) every ::1 with linespoints pointtype 7 title growth[k]
 }
 
 if (there("gas_rotor_cleaned")) {

@@ -9,7 +9,8 @@
  * the wave runs along (1, 2) / sqrt(5), as in Gardiner & Stone 2008, JCP 227, 4123. rho = 1, P = 1 / gamma, gamma =
  * 5/3, at rest; B = 1 along the wave, sqrt(2) and 1/2 across: the speeds are 1 (sound, Alfven), 1/2 (slow), 2 (fast).
  * Amplitude 1e-4 of v, no viscosity, no resistivity, quintic spline, eta = 1.2. After one period the phase of the
- * wave's own velocity gives the speed. N = 16, 32; -full: 64. Judged is the order with a field, 2 for the Alfven wave;
+ * wave's own velocity gives the speed. N = 16, 32; -full: 64. The slow wave is run with half of (9), too: what is
+ * subtracted of it against pairing is most of its error. Judged is the order with a field, 2 for the Alfven wave;
  * an independent trial, whose set-up is not known, stands beside.
  */
 #define GAS_KERNEL SPH_QUINTIC_SPLINE /* by the cubic spline the speed of sound is wrong by 1.7 %, at any N */
@@ -22,7 +23,7 @@ static const double GAMMA = 5.0 / 3, SIZE = 1e-4;
 typedef struct wave {
     const char *name;
     int magnetised, exact_order; /* the Alfven wave does not compress: nothing hides its order, 2 */
-    double speed;
+    double speed, tensile; /* tensile: the part of (9) that is subtracted */
     double error[3]; /* of an independent trial for N = 16, 32, 64; 0: none is known */
 } wave;
 /* |measured speed / exact - 1|; amplitude: that of the end over that of the start */
@@ -38,6 +39,7 @@ static double run(const wave *w, int N, double *amplitude)
     if (w->magnetised) gas_magnetise(&g);
     g.how = GAS_CONSTANT;
     g.alpha[1] = g.alpha_u = 0;
+    g.tensile = w->tensile;
     g.box[0] = sqrt(5);
     g.box[1] = sqrt(5) / 2;
     if (alfven) {
@@ -90,10 +92,11 @@ static double run(const wave *w, int N, double *amplitude)
 
 int main(int argc, char **argv)
 {
-    static const wave waves[] = {{"sound", 0, 0, 1, {0, 0, 0}},
-                                 {"Alfven", 1, 1, 1, {3.7e-2, 9.5e-3, 3.1e-3}},
-                                 {"fast", 1, 0, 2, {2.0e-2, 3.3e-3, 1.4e-4}},
-                                 {"slow", 1, 0, 0.5, {6.1e-2, 1.5e-2, 3.4e-3}}};
+    static const wave waves[] = {{"sound", 0, 0, 1, 0, {0, 0, 0}},
+                                 {"Alfven", 1, 1, 1, 1, {3.7e-2, 9.5e-3, 3.1e-3}},
+                                 {"fast", 1, 0, 2, 1, {2.0e-2, 3.3e-3, 1.4e-4}},
+                                 {"slow", 1, 0, 0.5, 1, {6.1e-2, 1.5e-2, 3.4e-3}},
+                                 {"slow, half of (9)", 1, 0, 0.5, 0.5, {6.1e-2, 1.5e-2, 3.4e-3}}};
     static report r;
     const gas_options o = gas_begin(argc, argv, &r, "gas_waves", "Linear waves of a gas and of a magnetised gas: the error of the speed.",
                                     "128 x 64 particles in addition");
@@ -101,7 +104,7 @@ int main(int argc, char **argv)
     int k;
     data = figure_open(o.figures, "gas_waves_errors");
     fprintf(data, "wave,N,error\n");
-    for (k = 0; k < 4; k++) {
+    for (k = 0; k < (int)(sizeof waves / sizeof waves[0]); k++) {
         double before = 0;
         int level;
         report_section(&r, waves[k].name);
@@ -110,7 +113,7 @@ int main(int argc, char **argv)
             double amplitude;
             const double error = run(&waves[k], 16 << level, &amplitude);
             snprintf(setting, sizeof setting, "N = %d", 16 << level);
-            fprintf(data, "%s,%d,%.9g\n", waves[k].name, 16 << level, error);
+            fprintf(data, "\"%s\",%d,%.9g\n", waves[k].name, 16 << level, error);
             if (waves[k].magnetised)
                 report_not_reproduced(report_beside(&r, REPORT_REGRESSION), waves[k].name, setting, "error of the speed", waves[k].error[level], error,
                                       "the set-up of the trial is not known");
