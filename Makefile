@@ -73,6 +73,7 @@ help:
 	@echo "make bench-compile    seconds of compilation and bytes of code"
 	@echo "make bench-gpu        sweeps on a GPU beside one core (needs nvcc and a GPU)"
 	@echo "make web              a laboratory in one HTML file, $(BUILD)/web/index.html (needs clang and wasm-ld)"
+	@echo "make web-npm          the same module as an npm package, $(BUILD)/web/npm/sph-lab-*.tgz (needs npm)"
 	@echo "make check-web        the same in a headless Chromium, against native programs"
 	@echo "make docs             the manual, the headers' comments and the Markdown files as pages (needs doxygen)"
 	@echo "make coverage         lines and branches of the headers that the tests reach (needs gcovr)"

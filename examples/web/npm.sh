@@ -4,7 +4,7 @@
 set -e
 mkdir -p "$2"
 cp examples/web/npm/* examples/web/lab.js LICENSE "$2"
-sed "s/@VERSION@/$(make -s version)/" examples/web/npm/package.json > "$2/package.json"
+sed "s/@VERSION@/$(make -s --no-print-directory version)/" examples/web/npm/package.json > "$2/package.json"
 {
     echo "module.exports = Uint8Array.from(atob(\`"
     base64 < "$1"
