@@ -29,6 +29,7 @@ static const trial trials[] = {{"1D, no conductivity", "1d_none", 1, 200, SPH_CO
 /* The least rho in the middle, over the exact one */
 static double implosion(report *r, const gas_options *o, const trial *t)
 {
+    static const char *const coarse = "17256 particles are too few: the gas behind the shock is 3 spacings of the start thick, and the open rim comes near";
     const double exact = pow(4, t->dim), shock = END / 3;
     gas g = gas_new(t->dim, gas_ball(t->dim, t->side, NULL), 5.0 / 3);
     double rho = 0, v = 0, in = 0, middle = 1, before, out = 0, error = 0, front = 0, energy;
@@ -73,10 +74,16 @@ static double implosion(report *r, const gas_options *o, const trial *t)
     before = gas_measure(&g).total / energy - 1;
     snprintf(setting, sizeof setting, "%ld particles", (long)g.n);
     report_section(r, t->name);
-    report_relative(report_beside(r, REPORT_THEORY), t->name, setting, "rho behind the shock", exact, rho / in, t->dim == 1 ? 0.01 : 5.0 / t->side);
-    report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "|v| behind the shock", 0, v / in, 0.02);
+    if (t->dim == 3) {
+        report_not_reproduced(report_beside(r, REPORT_THEORY), t->name, setting, "rho behind the shock", exact, rho / in, coarse);
+        report_not_reproduced(report_beside(r, REPORT_THEORY), t->name, setting, "|v| behind the shock", 0, v / in, coarse);
+        report_not_reproduced(report_beside(r, REPORT_THEORY), t->name, setting, "before the shock: mean error of rho", 0, error / out, coarse);
+    } else {
+        report_relative(report_beside(r, REPORT_THEORY), t->name, setting, "rho behind the shock", exact, rho / in, t->dim == 1 ? 0.01 : 5.0 / t->side);
+        report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "|v| behind the shock", 0, v / in, 0.02);
+        report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "before the shock: mean error of rho", 0, error / out, 0.05);
+    }
     report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "the shock is at r", shock, front, 1.5 / t->side);
-    report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "before the shock: mean error of rho", 0, error / out, 0.05);
     report_info(r, t->name, setting, "least rho for r < 0.06 / exact: wall heating", middle);
     report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "change of the energy", 0, before, 1e-3);
     report_absolute(report_beside(r, REPORT_THEORY), t->name, setting, "momentum", 0, gas_measure(&g).momentum, 1e-12);
