@@ -11,7 +11,7 @@ trap 'rm -rf "$objects"' EXIT
 compile() { # FLAGS ...
     for source in "$web"/*.c "$web"/freestanding/memory.c; do
         clang --target=wasm32 -std=c99 -ffp-contract=off -ffreestanding -fno-math-errno -nostdlibinc -isystem $web/freestanding -DSPH_PURE_SQRT=0 -I. -fvisibility=hidden \
-            -Wall -Wextra -Wpedantic -Werror -Wno-pass-failed "$@" -c "$source" -o "$objects/$(basename "$source" .c).o"
+            -Wall -Wextra -Wpedantic -Wno-pass-failed "$@" -c "$source" -o "$objects/$(basename "$source" .c).o"
     done
 }
 if [ "$2" = scalar ]; then compile -O1 '-DSPH_FN=static __attribute__((noinline, unused))'; else compile -O3 -msimd128 -mbulk-memory; fi

@@ -175,7 +175,8 @@ async function scenes(browser) {
             for (const width of [375, 1920, 700]) {
                 await page.size(width, 800);
                 await page.run('new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))');
-                const over = await page.run('document.documentElement.scrollWidth - innerWidth');
+                // not beside innerWidth: a phone shows all of what is too wide
+                const over = await page.run('document.documentElement.scrollWidth') - width;
                 check(`${what}: ${width} pixels are wide enough`, over <= 0, `${over} too many`);
                 check(`${what}: the picture follows the window`, await page.run('Math.abs(document.getElementById("picture").width / document.getElementById("picture").clientWidth - 1) < 0.01'));
             }
@@ -231,7 +232,7 @@ async function hands(browser) {
     check('and no more, once the button is let go', await page.run(water) === poured);
     await page.run('document.getElementById("picture").focus()');
     for (const key of ['ArrowRight', 'ArrowUp', 'ArrowUp', ' ']) await page.key(key);
-    check('the cross is told', /Pressed at 2\.6/.test(await page.run('document.getElementById("spoken").textContent')), await page.run('document.getElementById("spoken").textContent'));
+    check('the cross is told', /Pressed at 2\.608, 1\.636/.test(await page.run('document.getElementById("spoken").textContent')), await page.run('document.getElementById("spoken").textContent'));
     await page.run('laboratory.lab.step(40), 1');
     await page.key(' ');
     check('water is poured by keys', await page.run(water) >= poured + 7);
