@@ -31,7 +31,7 @@ static const double two_pi = 6.283185307179586;
 static double x[MOST], y[MOST], f[MOST], volume[MOST], gx[MOST], gy[MOST], sum[MOST];
 static unsigned char status[MOST];
 static double h, box;
-static int n;
+static int n, own; /* own: the points are from a file */
 
 static void need(sph_index answer)
 {
@@ -144,7 +144,7 @@ static void draw(void)
                         (int)fmin(76, (double)strcspn(sph_finding_text(i), ".:")), sph_finding_text(i));
     }
 }
-static void table(int own)
+static void table(void)
 {
     puts(own ? "x,y,f,gx,gy,answer" : "cloud,x,y,h,sum");
     for (int i = 0; i < n && own; i++)
@@ -173,20 +173,19 @@ static int test(void)
     if (!failed) printf("ok\n");
     return failed != 0;
 }
-/* as NAME.part, renamed when it is whole; a device is written as it is */
-static int save(const char *name, int own)
+static int save(const char *name) /* as NAME.part, renamed when it is whole; a device is written as it is */
 {
     char part[4096];
     snprintf(part, sizeof part, "%.4000s%s", name, strncmp(name, "/dev/", 5) ? ".part" : "");
     if (!setlocale(LC_NUMERIC, "C") || !freopen(part, "wb", stdout)) return perror(name), 2; /* no "1,5" */
-    table(own);
+    table();
     if (!ferror(stdout) && !fclose(stdout) && (!rename(part, name) || (!remove(name) && !rename(part, name))))
         return 0;
     return perror(name), strcmp(part, name) && remove(part), 2;
 }
 int main(int argc, char **argv)
 {
-    const int own = argc == 5 && !strcmp(argv[1], "-i") && !strcmp(argv[3], "-o");
+    own = argc == 5 && !strcmp(argv[1], "-i") && !strcmp(argv[3], "-o");
     if (argc == 2 && strcmp(argv[1], "-h") == 0)
         return puts("first_cloud [[-i POINTS.csv] -o FILE.csv | -t]   see mistakes, or get a gradient") < 0;
     if (argc > 1 && !own && !(argc == 3 && !strcmp(argv[1], "-o")) && !(argc == 2 && !strcmp(argv[1], "-t")))
@@ -195,5 +194,5 @@ int main(int argc, char **argv)
     else fill();
     all_steps();
     if (argc == 2) return test();
-    return argc == 1 ? draw(), 0 : save(argv[argc - 1], own);
+    return argc == 1 ? draw(), 0 : save(argv[argc - 1]);
 }
