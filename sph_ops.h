@@ -840,7 +840,8 @@ SPH_FN void sphi_row_answer(sph_rows_out out, sph_list list, sph_index i, int wi
 
 /* What a check found: 0, as a rule. Without the word gcc takes the loops behind twenty checks for loops
    that hardly ever run, and does not vectorise them. */
-#if defined(__GNUC__) && __GNUC__ >= 9 && !SPH_OPENCL
+#if defined(__GNUC__) && __GNUC__ >= 9 && !defined(__clang__) && !SPH_OPENCL && \
+    !(defined(__CUDACC__) || defined(__INTEL_COMPILER) || defined(__NVCOMPILER))
 #  define SPHI_RARELY(error) ((int)__builtin_expect_with_probability(error, 0, 1.0))
 #else
 #  define SPHI_RARELY(error) (error)
