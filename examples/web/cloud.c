@@ -264,35 +264,26 @@ static int point(int phase, double px, double py) /* chooses the nearest particl
     } else held = 0;
     return compute();
 }
-lab_scene lab_cloud = {"cloud",
-                       "Operators",
-                       "What an operator makes of a cloud of particles: drag one and see which errors "
-                       "follow. The unit square has no neighbours beyond its edge, "
-                       "so that the outermost particles are at a free boundary.",
-                       "Press on a particle to choose it, and drag it.",
-                       reset,
-                       NULL,
-                       look,
-                       changed,
-                       point,
-                       controls,
-                       fields,
-                       measures,
-                       NULL,
-                       columns,
-                       CONTROLS,
-                       FIELDS,
-                       MEASURES,
-                       0,
-                       COLUMNS,
-                       0,
-                       0,
-                       0,
-                       0,
-                       0,
-                       0,
-                       0,
-                       {-0.12, -0.12, 1.72, 1.24},
-                       x,
-                       y,
-                       NULL};
+lab_scene lab_cloud = {
+    .name = "cloud",
+    .title = "Operators",
+    .about = "What an operator makes of a cloud of particles: drag one and see which errors follow. The "
+             "unit square has no neighbours beyond its edge, so that the outermost particles are at a "
+             "free boundary.",
+    .hint = "Press on a particle to choose it, and drag it.",
+    .reset = reset,
+    .look = look,
+    .changed = changed,
+    .point = point,
+    .controls = controls,
+    .fields = fields,
+    .measures = measures,
+    .columns = columns,
+    .n_controls = CONTROLS,
+    .n_fields = FIELDS,
+    .n_measures = MEASURES,
+    .n_columns = COLUMNS,
+    .view = {-0.12, -0.12, 1.72, 1.24},
+    .x = x,
+    .y = y,
+};

@@ -181,35 +181,26 @@ static int point(int phase, double px, double py) /* what is near is taken along
     from_y = py;
     return 0;
 }
-lab_scene lab_drop = {"drop",
-                      "Oscillating drop",
-                      "Surface tension pulls a drop back to a circle, and beyond it. Two liquids of the same "
-                      "density in a periodic box; the period of small "
-                      "waves is known (Lamb), and so is the jump of the pressure, sigma / R (Laplace).",
-                      "Press and move to push the liquid.",
-                      reset,
-                      step,
-                      look,
-                      changed,
-                      point,
-                      controls,
-                      fields,
-                      measures,
-                      NULL,
-                      NULL,
-                      CONTROLS,
-                      FIELDS,
-                      MEASURES,
-                      0,
-                      0,
-                      0,
-                      0,
-                      0,
-                      0,
-                      -1,
-                      0,
-                      0,
-                      {-0.06, -0.04, 1.6, 1.08},
-                      x,
-                      y,
-                      NULL};
+lab_scene lab_drop = {
+    .name = "drop",
+    .title = "Oscillating drop",
+    .about = "Surface tension pulls a drop back to a circle, and beyond it. Two liquids of the same "
+             "density in a periodic box; the period of small waves is known (Lamb), and so is the jump of "
+             "the pressure, sigma / R (Laplace).",
+    .hint = "Press and move to push the liquid.",
+    .reset = reset,
+    .step = step,
+    .look = look,
+    .changed = changed,
+    .point = point,
+    .controls = controls,
+    .fields = fields,
+    .measures = measures,
+    .n_controls = CONTROLS,
+    .n_fields = FIELDS,
+    .n_measures = MEASURES,
+    .chosen = -1,
+    .view = {-0.06, -0.04, 1.6, 1.08},
+    .x = x,
+    .y = y,
+};

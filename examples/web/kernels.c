@@ -119,35 +119,21 @@ static int changed(int control)
         controls[H_OVER_DX].value = sph_kernel_h_over_dx((sph_kernel)controls[KERNEL].value);
     return reset();
 }
-lab_scene lab_kernels = {"kernels",
-                         "Kernels",
-                         "All kernels of the library. A kernel whose transform is nowhere negative does not "
-                         "let particles pair (Dehnen & Aly 2012); one whose "
-                         "lattice sum is 1 gives a lattice its density.",
-                         NULL,
-                         reset,
-                         NULL,
-                         NULL,
-                         changed,
-                         NULL,
-                         controls,
-                         NULL,
-                         measures,
-                         curves,
-                         NULL,
-                         CONTROLS,
-                         0,
-                         MEASURES,
-                         2,
-                         0,
-                         0,
-                         0,
-                         POINTS,
-                         0,
-                         -1,
-                         0,
-                         0,
-                         {0, 0, 1, 1},
-                         NULL,
-                         NULL,
-                         x};
+lab_scene lab_kernels = {
+    .name = "kernels",
+    .title = "Kernels",
+    .about = "All kernels of the library. A kernel whose transform is nowhere negative does not let "
+             "particles pair (Dehnen & Aly 2012); one whose lattice sum is 1 gives a lattice its density.",
+    .reset = reset,
+    .changed = changed,
+    .controls = controls,
+    .measures = measures,
+    .curves = curves,
+    .n_controls = CONTROLS,
+    .n_measures = MEASURES,
+    .n_curves = 2,
+    .n_points = POINTS,
+    .chosen = -1,
+    .view = {0, 0, 1, 1},
+    .curve_x = x,
+};

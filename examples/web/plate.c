@@ -136,35 +136,26 @@ static int point(int phase, double px, double py) /* as hot as the left edge */
             temperature[i] = 1;
     return 0;
 }
-lab_scene lab_plate = {"plate",
-                       "Heat in a plate",
-                       "div(grad T) on particles in disorder, by rows of weights that are made once. The "
-                       "left edge has T = 1, the others T = 0. "
-                       "Where a row has a wrong sign, places can get hotter than all that is around them.",
-                       "Press and move to heat.",
-                       reset,
-                       step,
-                       look,
-                       changed,
-                       point,
-                       controls,
-                       fields,
-                       measures,
-                       NULL,
-                       NULL,
-                       CONTROLS,
-                       FIELDS,
-                       MEASURES,
-                       0,
-                       0,
-                       0,
-                       0,
-                       0,
-                       0,
-                       -1,
-                       0,
-                       0,
-                       {-0.06, -0.04, 1.6, 1.08},
-                       x,
-                       y,
-                       NULL};
+lab_scene lab_plate = {
+    .name = "plate",
+    .title = "Heat in a plate",
+    .about = "div(grad T) on particles in disorder, by rows of weights that are made once. The left edge "
+             "has T = 1, the others T = 0. Where a row has a wrong sign, places can get hotter than all "
+             "that is around them.",
+    .hint = "Press and move to heat.",
+    .reset = reset,
+    .step = step,
+    .look = look,
+    .changed = changed,
+    .point = point,
+    .controls = controls,
+    .fields = fields,
+    .measures = measures,
+    .n_controls = CONTROLS,
+    .n_fields = FIELDS,
+    .n_measures = MEASURES,
+    .chosen = -1,
+    .view = {-0.06, -0.04, 1.6, 1.08},
+    .x = x,
+    .y = y,
+};
