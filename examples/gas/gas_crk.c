@@ -81,25 +81,13 @@ static void corrected_close(corrected *c) { free(c->scale); }
 /* Gresho's vortex: the mean error of v along the circles */
 static double vortex(report *r, int form, int side)
 {
-    const double dx = 1.0 / side;
     gas g = gas_new(2, side * side, 5.0 / 3);
     corrected c;
     double error = 0, before;
     sph_index i;
     corrected_open(&c, &g, form, 0.1);
     g.eta = 1.4;
-    g.box[0] = g.box[1] = 1;
-    for (i = 0; i < g.n; i++) {
-        const double x = (i % side + 0.5) * dx - 0.5, y = (i / side + 0.5) * dx - 0.5, q = hypot(x, y);
-        g.a[X][i] = x + 0.5;
-        g.a[Y][i] = y + 0.5;
-        g.a[VX][i] = -gresho_speed(q) * y / q;
-        g.a[VY][i] = gresho_speed(q) * x / q;
-        g.a[U][i] = 1.5 * gresho_pressure(q);
-        g.a[M][i] = dx * dx;
-        g.a[H][i] = g.eta * dx;
-    }
-    gas_start(&g);
+    gresho_start(&g, side);
     before = gas_measure(&g).total;
     gas_run(&g, 1, 0.2);
     for (i = 0; i < g.n; i++) {

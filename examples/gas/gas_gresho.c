@@ -35,28 +35,16 @@ static const trial trials[] = { /* the first is what the others are compared wit
 
 static void vortex(report *r, const char *figures, const trial *t, int side, double *constant)
 {
-    const double dx = 1.0 / side;
     const figures_of *const known = &t->at[side > 32];
     gas g = gas_new(2, side * side, 5.0 / 3);
     double before, error = 0, inside = 0, peak = 0, at_peak = 0, alpha = 0;
     char setting[32], name[64];
     FILE *data;
     sph_index i;
-    g.box[0] = g.box[1] = 1;
     g.how = t->how;
     g.alpha[0] = t->least;
     g.alpha[1] = t->most;
-    for (i = 0; i < g.n; i++) {
-        const double x = (i % side + 0.5) * dx - 0.5, y = (i / side + 0.5) * dx - 0.5, q = hypot(x, y);
-        g.a[X][i] = x + 0.5;
-        g.a[Y][i] = y + 0.5;
-        g.a[VX][i] = -gresho_speed(q) * y / q;
-        g.a[VY][i] = gresho_speed(q) * x / q;
-        g.a[U][i] = 1.5 * gresho_pressure(q);
-        g.a[M][i] = dx * dx;
-        g.a[H][i] = 1.2 * dx;
-    }
-    gas_start(&g);
+    gresho_start(&g, side);
     before = gas_measure(&g).total;
     gas_run(&g, 1, 0.15);
     snprintf(name, sizeof name, "gas_gresho_%s_%d", t->file, side);
