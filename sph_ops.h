@@ -1019,10 +1019,10 @@ SPH_FN int sphi_check_frame(int dim, sph_cloud cloud)
 }
 SPH_FN int sphi_check_positions(int dim, sph_points x)
 {
-    int error = SPH_CHECK ? SPHI_RARELY(sphi_scan_places("x", x.x, x.stride, x.n)) : 0;
-    if (SPH_CHECK && !error && dim > 1) error = SPHI_RARELY(sphi_scan_places("y", x.y, x.stride, x.n));
-    if (SPH_CHECK && !error && dim > 2) error = SPHI_RARELY(sphi_scan_places("z", x.z, x.stride, x.n));
-    return error;
+    int error = SPH_CHECK ? sphi_scan_places("x", x.x, x.stride, x.n) : 0;
+    if (SPH_CHECK && !error && dim > 1) error = sphi_scan_places("y", x.y, x.stride, x.n);
+    if (SPH_CHECK && !error && dim > 2) error = sphi_scan_places("z", x.z, x.stride, x.n);
+    return SPHI_RARELY(error);
 }
 /* The lists of the targets first ... last - 1, as for sphi_scan_entries. Without SPH_CHECK only the two ends
    of the range are looked at. */
@@ -1424,8 +1424,8 @@ SPH_FN sph_index sph_interpolate_shepard(sph_kernel k, int dim, sph_cloud cloud,
 
 /* rho_i = sum_j m_j W_ij(h_i), the particle itself included (a probe has the mass 0). The error is O(h^2) in
    the interior of a regular cloud, down to what h / dx leaves (0.1 % for wendland-c2 and h = 2 dx in 2D), and
-   about rho / 2 at a free surface. h is given here; sph_density_adaptive
-   finds an h that follows rho. Where the sum overflows, the result is 0 and SPH_NOT_FINITE.
+   about rho / 2 at a free surface. h is given here; sph_density_adaptive finds an h that follows rho. Where
+   the sum overflows, the result is 0 and SPH_NOT_FINITE.
    Atlas: value exact for nothing; order 0 inside lattices, 0 in disorder, 0 at boundaries. */
 SPH_FN sph_index sph_density_summation(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                        sph_scalar_out out)
