@@ -8433,11 +8433,17 @@ SPH_FN sph_real sphi_within(sph_real support, sph_real h_i, sph_real h_j, sph_re
     return SPH_R(0.5) +
            SPHI_COPYSIGN(SPH_R(0.5), support * SPH_R(0.5) * (h_i + h_j + SPHI_ABS(h_i - h_j)) - r);
 }
-/* The largest of `most` and n numbers. */
+/* The largest of `most` and n numbers. Blocks have several maxima, because a single one would wait for itself in
+   every pass. */
 SPH_FN sph_real sphi_largest(sph_real most, const sph_real *of, int n)
 {
-    int p;
-    for (p = 0; p < n; p++) most = of[p] > most ? of[p] : most;
+    sph_real lane[SPHI_BLOCK];
+    int p, l;
+    for (l = 0; l < SPHI_BLOCK; l++) lane[l] = most;
+    for (p = 0; p + SPHI_BLOCK <= n; p += SPHI_BLOCK)
+        for (l = 0; l < SPHI_BLOCK; l++) lane[l] = of[p + l] > lane[l] ? of[p + l] : lane[l];
+    for (; p < n; p++) most = of[p] > most ? of[p] : most;
+    for (l = 0; l < SPHI_BLOCK; l++) most = lane[l] > most ? lane[l] : most;
     return most;
 }
 
