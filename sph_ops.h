@@ -8119,8 +8119,8 @@ SPH_FN sph_pair_weights sph_pair_weights_of(sph_real m_j, sph_pair_kernel f, sph
                                             sph_real weight_j)
 {
     sph_pair_weights w;
-    w.i = m_j * (f.f_i * weight_i);
-    w.j = m_j * (f.f_j * weight_j);
+    w.i = m_j * f.f_i * weight_i;
+    w.j = m_j * f.f_j * weight_j;
     return w;
 }
 
@@ -8170,7 +8170,7 @@ SPH_FN sphi_meeting sphi_meet(sph_medium_side i, sph_medium_side j, sph_pair_ker
     e.per_rho_i = i.omega * both_i;
     e.per_rho_j = j.omega * both_j;
     e.g = sph_pair_weights_of(j.m, f, e.per_rho_i * both_i, e.per_rho_j * both_j);
-    e.mean_f = SPH_R(0.5) * j.m * (f.f_i * (i.rho * both_i) + f.f_j * (j.rho * both_j));
+    e.mean_f = SPH_R(0.5) * (j.m * f.f_i * (i.rho * both_i) + j.m * f.f_j * (j.rho * both_j));
     e.weight = j.m * f.f_i;
     e.per_rho = SPH_R(2) / (i.rho + j.rho);
     e.per_r = SPH_R(1) / (f.r + SPHI_TINY);
