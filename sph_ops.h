@@ -5792,23 +5792,11 @@ SPH_FN sph_wall_sums sphi_wall_pair_unknown(int dim, sph_real rho_j, sph_vec x_i
     return sph_wall_pair_adami(dim, other, none, x_ij, gravity, w);
 }
 
-/* The pressure of sph_wall_adami as rows of a matrix for pressures that are not known yet (projection). The
-   targets are the wall particles w:
-       p_w - sum p_j W / sum W = sum rho_j (g - a_w) . x_wj W / sum W,
-   row[p] = -W / sum W for neighbours that are fluid and 0 for others, diagonal = 1, and the right-hand side
-   is source. These rows are exact where p - rho g . x is constant, thus for fluid at rest. Of wall, share,
-   rho and gravity are read. Without fluid inside the support the row is p_w = 0, with SPH_TOO_FEW. A pair
-   uses (h_i + h_j) / 2 (lists by SPH_MEAN). Adami, Hu & Adams 2012, JCP 231, 7057, (27). The status of out is
-   written, that of source is not. Returns the number of targets that are not SPH_OK, or a negative sph_error.
-   */
-SPH_FN sph_index sph_wall_rows_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall wall, sph_rows_out out,
-                                     sph_scalar_out source)
+SPH_FN sph_index sphi_wall_rows_range(int uniform, sph_kernel k, int dim, sph_cloud cloud, const sph_wall *wall,
+                                      sph_rows_out out, sph_scalar_out source)
 {
     SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
-    int error = sphi_check_sweep(k, dim, cloud, "share", wall.share);
     sph_index i, q, failed = 0;
-    if (!error) error = sphi_check_wall_rows(dim, cloud, wall, cloud.points.n, row, source);
-    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i);
@@ -5816,17 +5804,14 @@ SPH_FN sph_index sph_wall_rows_adami(sph_kernel k, int dim, sph_cloud cloud, sph
         sph_real weight = SPH_R(0), pressure = SPH_R(0);
         sph_wall_sums sums;
         int state = SPH_OK;
-        SPH_EACH(q, cloud.list.start[i], end) {
-            const sph_index j = cloud.list.index[q];
-            const sph_real r =
-                sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)));
-            row[q] = sphi_at(wall.share, j) * sph_kernel_w(k, dim, r, sphi_mean_h(0, cloud.h, h_i, j));
-        }
         SPH_SUM(q, cloud.list.start[i], end, weight, pressure) {
             const sph_index j = cloud.list.index[q];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_real w = sphi_at(wall->share, j) * sph_kernel_w(k, dim, sph_length(dim, x_ij),
+                                                                      sphi_mean_h(uniform, cloud.h, h_i, j));
             const sph_wall_sums c =
-                sphi_wall_pair_unknown(dim, sphi_at(wall.rho, j), x_ij, wall.gravity, row[q]);
+                sphi_wall_pair_unknown(dim, sphi_at(wall->rho, j), x_ij, wall->gravity, w);
+            row[q] = w;
             weight += c.weight;
             pressure += c.p;
         }
@@ -5847,6 +5832,25 @@ SPH_FN sph_index sph_wall_rows_adami(sph_kernel k, int dim, sph_cloud cloud, sph
         failed += state != SPH_OK;
     }
     return failed;
+}
+
+/* The pressure of sph_wall_adami as rows of a matrix for pressures that are not known yet (projection). The
+   targets are the wall particles w:
+       p_w - sum p_j W / sum W = sum rho_j (g - a_w) . x_wj W / sum W,
+   row[p] = -W / sum W for neighbours that are fluid and 0 for others, diagonal = 1, and the right-hand side
+   is source. These rows are exact where p - rho g . x is constant, thus for fluid at rest. Of wall, share,
+   rho and gravity are read. Without fluid inside the support the row is p_w = 0, with SPH_TOO_FEW. A pair
+   uses (h_i + h_j) / 2 (lists by SPH_MEAN). Adami, Hu & Adams 2012, JCP 231, 7057, (27). The status of out is
+   written, that of source is not. Returns the number of targets that are not SPH_OK, or a negative sph_error.
+   */
+SPH_FN sph_index sph_wall_rows_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall wall, sph_rows_out out,
+                                     sph_scalar_out source)
+{
+    int error = sphi_check_sweep(k, dim, cloud, "share", wall.share);
+    if (!error) error = sphi_check_wall_rows(dim, cloud, wall, cloud.points.n, out.row, source);
+    if (error) return sphi_answer_of(error);
+    return cloud.h.stride ? sphi_wall_rows_range(0, k, dim, cloud, &wall, out, source)
+                          : sphi_wall_rows_range(1, k, dim, cloud, &wall, out, source);
 }
 
 /* Takes the unknowns of the wall out of the rows of the fluid, sum_p row[p] (p_j - p_i) = b_i. The pressure
@@ -8119,8 +8123,8 @@ SPH_FN sph_pair_weights sph_pair_weights_of(sph_real m_j, sph_pair_kernel f, sph
                                             sph_real weight_j)
 {
     sph_pair_weights w;
-    w.i = m_j * (f.f_i * weight_i);
-    w.j = m_j * (f.f_j * weight_j);
+    w.i = m_j * f.f_i * weight_i;
+    w.j = m_j * f.f_j * weight_j;
     return w;
 }
 
@@ -8170,7 +8174,7 @@ SPH_FN sphi_meeting sphi_meet(sph_medium_side i, sph_medium_side j, sph_pair_ker
     e.per_rho_i = i.omega * both_i;
     e.per_rho_j = j.omega * both_j;
     e.g = sph_pair_weights_of(j.m, f, e.per_rho_i * both_i, e.per_rho_j * both_j);
-    e.mean_f = SPH_R(0.5) * j.m * (f.f_i * (i.rho * both_i) + f.f_j * (j.rho * both_j));
+    e.mean_f = SPH_R(0.5) * (j.m * f.f_i * (i.rho * both_i) + j.m * f.f_j * (j.rho * both_j));
     e.weight = j.m * f.f_i;
     e.per_rho = SPH_R(2) / (i.rho + j.rho);
     e.per_r = SPH_R(1) / (f.r + SPHI_TINY);
@@ -8433,11 +8437,17 @@ SPH_FN sph_real sphi_within(sph_real support, sph_real h_i, sph_real h_j, sph_re
     return SPH_R(0.5) +
            SPHI_COPYSIGN(SPH_R(0.5), support * SPH_R(0.5) * (h_i + h_j + SPHI_ABS(h_i - h_j)) - r);
 }
-/* The largest of `most` and n numbers. */
+/* The largest of `most` and n numbers. Blocks have several maxima, because a single one would wait for itself in
+   every pass. */
 SPH_FN sph_real sphi_largest(sph_real most, const sph_real *of, int n)
 {
-    int p;
-    for (p = 0; p < n; p++) most = of[p] > most ? of[p] : most;
+    sph_real lane[SPHI_BLOCK];
+    int p, l;
+    for (l = 0; l < SPHI_BLOCK; l++) lane[l] = most;
+    for (p = 0; p + SPHI_BLOCK <= n; p += SPHI_BLOCK)
+        for (l = 0; l < SPHI_BLOCK; l++) lane[l] = of[p + l] > lane[l] ? of[p + l] : lane[l];
+    for (; p < n; p++) most = of[p] > most ? of[p] : most;
+    for (l = 0; l < SPHI_BLOCK; l++) most = lane[l] > most ? lane[l] : most;
     return most;
 }
 
