@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * mathml.h - formulas of the headers' comments, such as "grad f_i = K^-1 sum_j V_j (f_j - f_i) grad_i W_ij", as
- * MathML. What it knows: names with _ and ^ behind them, sum_j, Greek letters, grad, lap, d_a, numbers, signs.
+ * MathML. What it knows: names with _ and ^ behind them, (...)^, sum_j, Greek letters, grad, lap, d_a, numbers, signs.
  */
 #ifndef ATLAS_MATHML_H
 #define ATLAS_MATHML_H
@@ -49,10 +49,9 @@ static inline const char *mathml_index(FILE *to, const char *at)
     return at + length;
 }
 
-static inline void mathml_write(FILE *to, const char *formula)
+static inline void mathml_row(FILE *to, const char *formula, const char *end)
 {
-    fputs("<math display=\"block\">", to);
-    for (const char *at = formula; *at;) {
+    for (const char *at = formula; at < end;) {
         if (isalnum((unsigned char)*at)) {
             int length = 0;
             while (isalnum((unsigned char)at[length])) length++;
@@ -82,6 +81,20 @@ static inline void mathml_write(FILE *to, const char *formula)
             at++;
             continue;
         }
+        if (*at == ')' && at[1] == '^') {
+            fputs("<msup><mo stretchy=\"false\">)</mo>", to);
+            at += 2;
+            if (*at == '(') { /* to the bracket that closes it */
+                const char *const inner = at + 1;
+                for (int open = 1; open && ++at < end;) open += (*at == '(') - (*at == ')');
+                fputs("<mrow>", to);
+                mathml_row(to, inner, at);
+                fputs("</mrow>", to);
+                at++;
+            } else at = mathml_index(to, at);
+            fputs("</msup>", to);
+            continue;
+        }
         if (*at == ';') fputs("<mtext>,</mtext><mspace width=\"1.5em\"/>", to);
         else if (*at == '<' && at[1] != ' ') fputs("<mo stretchy=\"false\">&#10216;</mo>", to);
         else if (*at == '>' && at > formula && at[-1] != ' ' && at[1] != '=') fputs("<mo stretchy=\"false\">&#10217;</mo>", to);
@@ -98,6 +111,11 @@ static inline void mathml_write(FILE *to, const char *formula)
         else fprintf(to, "<mo%s>%c</mo>", strchr("()[]", *at) ? " stretchy=\"false\"" : "", *at);
         at++;
     }
+}
+static inline void mathml_write(FILE *to, const char *formula)
+{
+    fputs("<math display=\"block\">", to);
+    mathml_row(to, formula, formula + strlen(formula));
     fputs("</math>", to);
 }
 

@@ -7,9 +7,9 @@
 #define ATLAS_PAGES_H
 
 #include "../common/part_file.h"
+#include "figures.h"
 #include "header.h"
 #include "mathml.h"
-#include "measure.h"
 #include "svg.h"
 
 typedef struct result {
@@ -91,6 +91,9 @@ static inline void cell(FILE *to, double value, const char *text)
 static inline const char *yes_no(int yes) { return yes ? "yes" : "no"; }
 static inline int is_laplacian(const op *o) { return o->family == LAPLACIAN || o->family == ELLIPTIC; }
 static inline int has_rows(const op *o) { return is_laplacian(o) || o->family == VALUE; }
+/* The portrait that tables of all operators show: of 2D, if the operator is not one of 3D only. */
+static inline const portrait *shown(const op *o, const result *r) { return &r->of[o->family == GRAVITY]; }
+static inline int has_sum(const op *o) { return family(o->family).powers > 0 || o->family > ADAPTIVE; }
 static inline double worse(double a, double b) { return isnan(a) ? b : isnan(b) ? a : fmax(a, b); }
 
 /* What claims are compared with: orders inside lattices, in disorder (the least of three clouds), at boundaries. */
@@ -161,37 +164,48 @@ static inline void family_select(FILE *to)
     fputs("</select></label>\n", to);
 }
 
-static inline void page_index(const atlas *a)
+/* What is above the rows of the table, and the beginning of a row: no number is in it that was measured. */
+static inline void index_words(FILE *to, const config *first)
 {
-    part_file page = page_open(a, "index", "Atlas of operators");
-    FILE *const to = page.to;
-    char text[32];
     static const char *const column[] = {"operator", "exact for", "order inside lattices", "order in disorder", "order at boundaries", "error, lattice", "error, jittered", "error, random",
                                          "error, wall", "error, corner", "sum over all", "one sign", "cost 2D", "cost 3D"};
     fprintf(to, "<p>What each operator does to particles, measured by one program: on lattices, in disorder, at walls, free surfaces and corners. "
-                "Errors are root mean squares, in units of the size of the answer, at 64 particles for a length of one (a wave of the field that is looked at is two and a half long); here in 2D with %s and h = %.1f dx. "
+                "Errors are root mean squares, in units of the size of the answer, at 64 particles for a length of one (a wave of the field that is looked at is two and a half long); here in 2D with %s and h = %.1f dx (gravity: 3D). "
                 "Orders are those against the spacing, for h / dx fixed: 0 means that more particles do not help. "
-                "<a href=\"choose.html\">Which operator shall I take?</a></p>\n", sph_kernel_name(a->configs[0].k), a->configs[0].h_dx);
+                "<a href=\"choose.html\">Which operator shall I take?</a></p>\n", sph_kernel_name(first->k), first->h_dx);
     fputs("<form><label>Words <input name=\"words\" type=\"search\"></label>\n", to);
     family_select(to);
     fputs("<output aria-live=\"polite\"></output></form>\n<div class=\"scroll\" role=\"region\" aria-label=\"all operators\" tabindex=\"0\"><table class=\"sort\">\n"
           "<caption>A heading sorts by its column. Cost: time for a particle, in units of sph_density_summation.</caption>\n<thead><tr>", to);
     for (size_t c = 0; c < sizeof column / sizeof column[0]; c++) fprintf(to, "<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">%s</button></th>", column[c]);
     fputs("</tr></thead>\n<tbody>\n", to);
+}
+static inline void index_row(FILE *to, const op *o)
+{
+    fprintf(to, "<tr data-family=\"%d\" data-good=\"\"><th scope=\"row\"><a href=\"%s.html\">%s</a></th>", o->family, o->id, o->id);
+}
+static inline void page_index(const atlas *a)
+{
+    part_file page = page_open(a, "index", "Atlas of operators");
+    FILE *const to = page.to;
+    char text[32];
+    index_words(to, &a->configs[0]);
     for (int q = 0; q < a->count; q++) {
         const op *const o = &a->operators[q];
         const result *const r = &a->results[q];
+        const portrait *const seen = shown(o, r);
         const errors *const e = &r->at[0];
         double order[3];
         measured_orders(e, order);
-        fprintf(to, "<tr data-family=\"%d\" data-good=\"\"><th scope=\"row\"><a href=\"%s.html\">%s</a></th>", o->family, o->id, o->id);
-        cell(to, r->of[0].exact, degree_text(r->of[0].exact));
+        index_row(to, o);
+        if (o->family < WITH_ERRORS) cell(to, seen->exact, degree_text(seen->exact));
+        else cell(to, (double)NAN, "-");
         for (int c = 0; c < 3; c++) cell(to, order[c], order_text(text, order[c]));
         const double error[5] = {e->rms[SAMPLE_LATTICE][REGION_INSIDE][SHOWN], e->rms[SAMPLE_JITTER][REGION_INSIDE][SHOWN], e->rms[SAMPLE_RANDOM][REGION_INSIDE][SHOWN],
                                  worse(e->rms[SAMPLE_LATTICE][REGION_WALL][SHOWN], e->rms[SAMPLE_LATTICE][REGION_SURFACE][SHOWN]), e->rms[SAMPLE_LATTICE][REGION_CORNER][SHOWN]};
         for (int c = 0; c < 5; c++) cell(to, error[c], error_text(text, error[c]));
-        if (o->family == VALUE) cell(to, (double)NAN, "-");
-        else cell(to, r->of[0].momentum, r->of[0].momentum < 1e-10 ? "kept" : "not kept");
+        if (has_sum(o)) cell(to, seen->momentum, seen->momentum < 1e-10 ? "kept" : "not kept");
+        else cell(to, (double)NAN, "-");
         if (has_rows(o)) cell(to, 1.0 - r->of[0].monotone_all, (snprintf(text, sizeof text, "%.0f %%", 100.0 * r->of[0].monotone_all), text));
         else cell(to, (double)NAN, "-");
         for (int d = 0; d < 2; d++) cell(to, r->cost[d], isnan(r->cost[d]) ? "-" : (snprintf(text, sizeof text, "%.1f", r->cost[d]), text));
@@ -237,14 +251,9 @@ static inline void page_status(FILE *to, const errors *e)
     fputs(any ? "</ul>\n" : "<p>Every particle of every cloud is ok.</p>\n", to);
 }
 
-static inline void page_operator(const atlas *a, int q)
+/* What is read from the table and from sph_ops.h. */
+static inline void operator_words(FILE *to, const op *o, const header *says)
 {
-    const op *const o = &a->operators[q];
-    const result *const r = &a->results[q];
-    const portrait *const p = &r->of[0];
-    part_file page = page_open(a, o->id, o->id);
-    FILE *const to = page.to;
-    char text[32];
     passage comment, signature;
     fprintf(to, "<p>%s. <code>%s</code> of <code>sph_ops.h</code>.</p>\n<div class=\"equation\">", family(o->family).heading, o->function);
     mathml_write(to, o->formula);
@@ -252,20 +261,24 @@ static inline void page_operator(const atlas *a, int q)
     html_text(to, o->source, strlen(o->source));
     fputs("</dd><dt>To know</dt><dd>", to);
     html_text(to, o->note, strlen(o->note));
-    fprintf(to, "</dd><dt>List</dt><dd>%s</dd>", list_kind_text(o->list));
-    if (!isnan(r->cost[0])) fprintf(to, "<dt>Cost</dt><dd>%.1f times that of a density in 2D, %.1f times in 3D (%.0f and %.0f ns for a particle)</dd>", r->cost[0], r->cost[1], r->cost_ns[0], r->cost_ns[1]);
-    fputs("</dl>\n", to);
-    if (header_function(a->says, o->function, &comment, &signature)) {
+    fprintf(to, "</dd><dt>List</dt><dd>%s</dd></dl>\n", list_kind_text(o->list));
+    if (header_function(says, o->function, &comment, &signature)) {
         fputs("<h2>Call</h2>\n<pre>", to);
         html_text(to, signature.from + strlen("SPH_FN "), (size_t)(signature.to - signature.from) - strlen("SPH_FN "));
         fputs("</pre>\n<h2>What the header says</h2>\n<pre>", to);
         html_text(to, comment.from, (size_t)(comment.to - comment.from));
         fputs("</pre>\n", to);
     }
+}
+static inline void claim_words(FILE *to, const claim *c)
+{
+    fprintf(to, "<tr><th scope=\"row\">sph_ops.h</th><td>%s</td><td>%s</td><td>%d</td><td>%d</td><td>%d</td></tr>\n", degree_text(c->exact), degree_text(c->exact_lattice), c->order[0], c->order[1], c->order[2]);
+}
+static inline void page_exactness(FILE *to, const result *r)
+{
+    char text[32];
     fputs("<h2>Exactness and order, said and measured</h2>\n<div class=\"scroll\"><table><thead><tr><th scope=\"col\"></th><th scope=\"col\">exact for</th><th scope=\"col\">inside lattices for</th><th scope=\"col\">order inside lattices</th><th scope=\"col\">in disorder</th><th scope=\"col\">at boundaries</th></tr></thead><tbody>\n", to);
-    if (r->claim.given > 0)
-        fprintf(to, "<tr><th scope=\"row\">sph_ops.h</th><td>%s</td><td>%s</td><td>%d</td><td>%d</td><td>%d</td></tr>\n", degree_text(r->claim.exact), degree_text(r->claim.exact_lattice), r->claim.order[0],
-                r->claim.order[1], r->claim.order[2]);
+    if (r->claim.given > 0) claim_words(to, &r->claim);
     for (int d = 0; d < 2; d++) {
         double order[3];
         measured_orders(&r->at[d], order);
@@ -273,13 +286,20 @@ static inline void page_operator(const atlas *a, int q)
         for (int c = 0; c < 3; c++) fprintf(to, "<td>%s</td>", order_text(text, order[c]));
         fputs("</tr>\n", to);
     }
-    fputs("</tbody></table></div>\n<h2>Errors</h2>\n", to);
+    fputs("</tbody></table></div>\n", to);
+}
+static inline void page_errors(FILE *to, const atlas *a, const result *r)
+{
+    fputs("<h2>Errors</h2>\n", to);
     for (int c = 0; c < 2; c++) page_numbers(to, &r->at[c], &a->configs[c]);
     page_status(to, &r->at[0]);
     if (a->configurations > 2) fputs("<details><summary>Other kernels and lengths</summary>\n", to);
     for (int c = 2; c < a->configurations; c++) page_numbers(to, &r->at[c], &a->configs[c]);
     if (a->configurations > 2) fputs("</details>\n", to);
-
+}
+static inline void page_plots(FILE *to, const op *o, const result *r)
+{
+    const portrait *const p = &r->of[0];
     fputs("<h2>Plots</h2>\n<p>2D, the first of the tables above.</p>\n<div class=\"plots\">\n", to);
     double spacing[LEVELS], away[DISTANCES], waves[WAVES], part[4][WAVES];
     for (int level = 0; level < LEVELS; level++) spacing[level] = level_spacing(level);
@@ -310,7 +330,7 @@ static inline void page_operator(const atlas *a, int q)
         svg_add(&plot, "3D", atlas_jitter, r->of[1].at_jitter, JITTERS);
         svg_write(to, &plot);
     }
-    {
+    if (o->family < LINEAR) {
         svg_plot plot = {"Response to a wave, as a share of the true one", "k dx", "share", 0, 0, 0, -0.5, 1.6, 0, {{0}}};
         for (int w = 0; w < WAVES; w++) {
             waves[w] = acos(-1.0) * (w + 1) / WAVES;
@@ -331,17 +351,47 @@ static inline void page_operator(const atlas *a, int q)
         free(re);
         free(im);
     }
-    fputs("</div>\n<h2>Properties</h2>\n<p>On a small jittered cloud in 2D, without periodic boundaries.</p>\n<dl>\n", to);
+    fputs("</div>\n", to);
+}
+/* The figures of operators that are not linear. */
+static inline void page_figures(FILE *to, const result *r, const config *configs)
+{
+    char text[32];
+    fputs("<h2>Figures</h2>\n<p>On small clouds with the spacing dx, without periodic boundaries.</p>\n", to);
+    for (int d = 0; d < 2; d++) {
+        if (!r->of[d].figure_count) continue;
+        fprintf(to, "<div class=\"scroll\" role=\"region\" aria-label=\"figures in %dD\" tabindex=\"0\"><table><caption>%dD, %s, h = %.1f dx</caption><thead><tr><th scope=\"col\"></th>", configs[d].dim, configs[d].dim,
+                sph_kernel_name(configs[d].k), configs[d].h_dx);
+        for (int kind = 0; kind < SAMPLE_KINDS; kind++) fprintf(to, "<th scope=\"col\">%s</th>", sample_kind_name(kind));
+        fputs("</tr></thead><tbody>\n", to);
+        for (int f = 0; f < r->of[d].figure_count; f++) {
+            fprintf(to, "<tr><th scope=\"row\" class=\"words\">%s</th>", r->of[d].figures[f].name);
+            for (int kind = 0; kind < SAMPLE_KINDS; kind++) {
+                const double value = r->of[d].figures[f].value[kind];
+                fprintf(to, "<td>%s%s</td>", value < 0.0 && value < -1e-11 ? "&#8722;" : "", error_text(text, fabs(value)));
+            }
+            fputs("</tr>\n", to);
+        }
+        fputs("</tbody></table></div>\n", to);
+    }
+}
+static inline void page_properties(FILE *to, const atlas *a, const op *o, const result *r)
+{
+    const portrait *const p = shown(o, r);
+    char text[32];
+    fprintf(to, "<h2>Properties</h2>\n<p>On %s, without periodic boundaries.</p>\n<dl>\n", o->family < LINEAR ? "a small jittered cloud in 2D" : o->family == GRAVITY ? "the clouds of the figures, the worst of all" : "the clouds of the figures in 2D, the worst of all");
     if (has_rows(o)) {
         fprintf(to, "<dt>Signs of the weights</dt><dd>%.0f %% of the rows have neighbours of one sign (inside: %.0f %%)</dd>\n", 100.0 * p->monotone_all, 100.0 * p->monotone_inside);
         fprintf(to, "<dt>Symmetry</dt><dd>V<sub>i</sub> L<sub>ij</sub> differs from V<sub>j</sub> L<sub>ji</sub> by %s of its size</dd>\n", error_text(text, p->symmetry));
     }
     if (p->eigenvalues)
         fprintf(to, "<dt>Spectrum</dt><dd>real parts from %.3g to %.3g, imaginary parts up to %.2g; condition %.3g</dd>\n", p->re_least, p->re_most, p->im_most, p->condition);
-    if (o->family != VALUE) {
-        fprintf(to, "<dt>Sum over all particles</dt><dd>%s of the sum of sizes: it is %s</dd>\n", error_text(text, p->momentum < 1e-11 ? 0.0 : p->momentum), p->momentum < 1e-10 ? "kept" : "not kept");
-        if (family(o->family).out == 1)
+    if (has_sum(o)) {
+        fprintf(to, "<dt>%s</dt><dd>%s of the sum of sizes: it is %s</dd>\n", o->family < LINEAR ? "Sum over all particles" : o->family == SHIFTING ? "Centre of volume" : "Momentum", error_text(text, p->momentum < 1e-11 ? 0.0 : p->momentum), p->momentum < 1e-10 ? "kept" : "not kept");
+        if (family(o->family).out == 1 && o->family != SHIFTING)
             fprintf(to, "<dt>Angular momentum</dt><dd>%s: it is %s</dd>\n", error_text(text, p->angular < 1e-11 ? 0.0 : p->angular), p->angular < 1e-10 ? "kept" : "not kept");
+        if (o->family == RATES || o->family == COLLISIONS) fprintf(to, "<dt>Energy</dt><dd>%s for random velocities</dd>\n", p->energy < 1e-10 ? "never grew" : "grew");
+        if (o->family == GRAVITY) fprintf(to, "<dt>Energy</dt><dd>the work of the forces is that of the potential, but for %s of it</dd>\n", error_text(text, p->energy));
         if (is_laplacian(o) || o->family == VISCOSITY) fprintf(to, "<dt>Energy</dt><dd>the sum of V f L f was %s for random fields</dd>\n", p->energy < 0.0 ? "always negative: it damps" : "not always negative");
     }
     if (p->conjugates) {
@@ -349,7 +399,24 @@ static inline void page_operator(const atlas *a, int q)
         for (int c = 0; c < p->conjugates; c++) fprintf(to, "%s<a href=\"%s.html\">%s</a>", c ? ", " : "", a->operators[p->conjugate[c]].id, a->operators[p->conjugate[c]].id);
         fputs(": the sum of V f div A is minus the sum of V A &#8901; grad f, to rounding</dd>\n", to);
     }
-    fprintf(to, "<dt>Rotation</dt><dd>turning everything changes the result by %s of its size</dd>\n</dl>\n", error_text(text, p->rotation));
+    fprintf(to, "<dt>Rotation</dt><dd>turning everything changes the result by %s of its size</dd>\n", error_text(text, p->rotation));
+    if (!isnan(r->cost[0]) && o->family != GRAVITY) fprintf(to, "<dt>Cost</dt><dd>%.1f times that of a density in 2D, %.1f times in 3D (%.0f and %.0f ns for a particle)</dd>\n", r->cost[0], r->cost[1], r->cost_ns[0], r->cost_ns[1]);
+    if (!isnan(r->cost[1]) && o->family == GRAVITY) fprintf(to, "<dt>Cost</dt><dd>%.0f times that of a density (%.0f ns for a particle)</dd>\n", r->cost[1], r->cost_ns[1]);
+    fputs("</dl>\n", to);
+}
+static inline void page_operator(const atlas *a, int q)
+{
+    const op *const o = &a->operators[q];
+    const result *const r = &a->results[q];
+    part_file page = page_open(a, o->id, o->id);
+    operator_words(page.to, o, a->says);
+    if (o->family < WITH_ERRORS) {
+        page_exactness(page.to, r);
+        page_errors(page.to, a, r);
+        page_plots(page.to, o, r);
+    }
+    if (o->family >= LINEAR) page_figures(page.to, r, a->configs);
+    page_properties(page.to, a, o, r);
     page_close(a, &page);
 }
 
@@ -445,7 +512,7 @@ static inline int answers_well(const atlas *a, int q, int question)
     switch (question) {
     case 0: return order[2] > 0.6;
     case 1: return order[1] > 0.6;
-    case 2: return o->family != VALUE && r->of[0].momentum < 1e-10;
+    case 2: return has_sum(o) && shown(o, r)->momentum < 1e-10;
     case 3: return has_rows(o) && r->of[0].monotone_all > 0.999;
     default: /* not dearer than the middle one of its family */
         if (isnan(r->cost[0])) return 0;
@@ -474,7 +541,11 @@ static inline double answer_figure(const atlas *a, int q, int question, char tex
         snprintf(text, 96, "%s, order %s", error_text(one, error), order_text(two, order[1]));
         return error;
     }
-    case 2: snprintf(text, 96, "%s", error_text(one, r->of[0].momentum < 1e-10 ? 0.0 : r->of[0].momentum)); return r->of[0].momentum;
+    case 2: {
+        const double momentum = shown(&a->operators[q], r)->momentum;
+        snprintf(text, 96, "%s", error_text(one, momentum < 1e-10 ? 0.0 : momentum));
+        return momentum;
+    }
     case 3: snprintf(text, 96, "%.0f %%", 100.0 * r->of[0].monotone_all); return 1.0 - r->of[0].monotone_all;
     default: snprintf(text, 96, "%.1f", r->cost[0]); return r->cost[0];
     }
@@ -488,7 +559,7 @@ static inline void answer_section(FILE *to, const atlas *a, int question, const 
         double value[64];
         char text[96];
         for (int q = 0; q < a->count && count < 64; q++) {
-            if (a->operators[q].family != f || (question == 3 && !has_rows(&a->operators[q])) || (question == 2 && f == VALUE)) continue;
+            if (a->operators[q].family != f || (question == 3 && !has_rows(&a->operators[q])) || (question == 2 && !has_sum(&a->operators[q]))) continue;
             const int good = answers_well(a, q, question);
             const double figure_of = answer_figure(a, q, question, text) + (good ? 0.0 : 1e100);
             int place = count++;
@@ -539,7 +610,8 @@ static inline void page_choose(const atlas *a)
         fprintf(to, "\"><th scope=\"row\"><a href=\"%s.html\">%s</a></th>", o->id, o->id);
         cell(to, -order[2], order_text(word, order[2]));
         cell(to, -order[1], order_text(word, order[1]));
-        cell(to, r->of[0].momentum, yes_no(r->of[0].momentum < 1e-10));
+        if (has_sum(o)) cell(to, shown(o, r)->momentum, yes_no(shown(o, r)->momentum < 1e-10));
+        else cell(to, (double)NAN, "-");
         if (has_rows(o)) cell(to, 1.0 - r->of[0].monotone_all, (snprintf(word, sizeof word, "%.0f %%", 100.0 * r->of[0].monotone_all), word));
         else cell(to, (double)NAN, "-");
         cell(to, r->cost[0], isnan(r->cost[0]) ? "-" : (snprintf(word, sizeof word, "%.1f", r->cost[0]), word));
