@@ -61,6 +61,10 @@ sed 's/Randles/Randle/' $kept/gradient_cspm.html > "$scratch/copy/gradient_cspm.
 sed 's/>hessian_wls</>hessian_wls2</' $kept/choose.html > "$scratch/copy/choose.html"
 rm "$scratch/copy/index.html"
 check "pages that were changed or lost" answers 1 " 3 files" "$atlas" -kept "$scratch/copy"
+cp $kept/gradient_cspm.html "$scratch/copy"
+check "pages that can be mended" answers 1 " 4 files" "$atlas" -kept "$scratch/copy" -headers "$false" -mend
+check "but not those of numbers" answers 1 " 2 files" "$atlas" -kept "$scratch/copy" -headers "$false"
+check "its numbers stay" sh -c "sed '1,/<h2>Exact/d' $kept/gradient_cspm.html > '$scratch/numbers' && sed '1,/<h2>Exact/d' '$scratch/copy/gradient_cspm.html' | cmp - '$scratch/numbers'"
 check "no folder for pages" answers 2 "no/such/folder" one gradient_cspm -pages no/such/folder
 cd "$pages" || exit 2
 scratch=.. # of check

@@ -170,7 +170,7 @@ static void judge(report *r, const header *h)
 int main(int argc, char **argv)
 {
     const char *out = ".", *figures = ".", *headers = ".", *pages = "", *kept = "", *only = "";
-    int full = 0, quiet = 0;
+    int full = 0, quiet = 0, mend = 0;
     report r;
     const option_spec specs[] = {
         {"out", "directory of the table of results", OPTION_TEXT, &out, 0, 0},
@@ -178,6 +178,7 @@ int main(int argc, char **argv)
         {"headers", "directory of sph_ops.h, whose comments are read", OPTION_TEXT, &headers, 0, 0},
         {"pages", "directory of the pages; none are written without", OPTION_TEXT, &pages, 0, 0},
         {"kept", "directory of pages: only tells which of them say something else than the table and sph_ops.h do", OPTION_TEXT, &kept, 0, 0},
+        {"mend", "with -kept: writes anew what operators' pages say beside their numbers", OPTION_FLAG, &mend, 0, 0},
         {"only", "operators whose names contain this", OPTION_TEXT, &only, 0, 0},
         {"full", "all kernels and lengths", OPTION_FLAG, &full, 0, 0},
         {"quiet", "no progress on stderr", OPTION_FLAG, &quiet, 0, 0},
@@ -192,7 +193,7 @@ int main(int argc, char **argv)
     for (int o = 0; o < (int)OPERATORS; o++)
         if (strstr(all_operators[o].id, only)) operators[wanted++] = all_operators[o];
     if (*kept) {
-        const int stale = pages_stale(operators, wanted, &configs[0], &h, kept);
+        const int stale = pages_stale(operators, wanted, &configs[0], &h, kept, mend);
         header_free(&h);
         printf("atlas: %d files in %s are out of date\n", stale, kept);
         return stale ? 1 : 0;

@@ -731,8 +731,21 @@ static inline int kept_close(kept_page *k)
         kept_has(&(page), to); \
     } while (0)
 
-/* The number of pages in the folder that say something else. */
-static inline int pages_stale(const op *o, int count, const config *first, const header *says, const char *folder)
+/* Writes anew what an operator's page reads from the table and from sph_ops.h, and leaves what was measured. */
+static inline void kept_mend(const kept_page *k, const op *o, const header *says, const char *folder)
+{
+    const atlas a = {NULL, NULL, NULL, 0, 0, 0, NULL, folder};
+    const char *const measured = k->text ? strstr(k->text, o->family < WITH_ERRORS ? "<h2>Exactness and order" : "<h2>Figures") : NULL;
+    if (!measured) return;
+    part_file page = page_file(&a, o->id, "html");
+    head_words(page.to, o->id);
+    operator_words(page.to, o, says);
+    fputs(measured, page.to);
+    page_done(&page);
+}
+
+/* The number of files in the folder that say something else. mend: operators' pages are written anew as far as can be. */
+static inline int pages_stale(const op *o, int count, const config *first, const header *says, const char *folder, int mend)
 {
     int stale = 0;
     kept_page page = kept_open(folder, "atlas.css");
@@ -765,6 +778,7 @@ static inline int pages_stale(const op *o, int count, const config *first, const
         KEPT(page, head_words(to, o[q].id));
         KEPT(page, operator_words(to, &o[q], says));
         if (o[q].family < WITH_ERRORS && c.given > 0) KEPT(page, claim_words(to, &c));
+        if (mend && page.stale) kept_mend(&page, &o[q], says, folder);
         stale += kept_close(&page);
     }
     return stale;
