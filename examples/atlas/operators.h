@@ -434,7 +434,7 @@ static inline const char *list_kind_text(int list)
       sph_resistivity_ohmic(k, dim, a.cloud, a.resistive, a.heated)) \
     X(density_adaptive, sph_density_adaptive, ADAPTIVE, GATHER, \
       "h_i = eta (m_i / rho_i)^(1/dim); rho_i = sum_j m_j W_ij(h_i)", "Price & Monaghan 2004", \
-      "Half a density at a free surface, where h grows. Here the h of the tables is the longest that the lists allow; an even cloud has two thirds of it.", \
+      "Half a density at a free surface, where h grows. Close particles take each other for a dense place: at the same h its error on random points is twice that of density_summation. Here the h of the tables is the longest that the lists allow; an even cloud has two thirds of it.", \
       atlas_adaptive(k, dim, &a)) \
     X(rates_monaghan, sph_fluid_rates_monaghan, RATES, MEAN, \
       "a_i = -sum_j m_j (P_ij + Pi_ij) grad_i W_ij", "Monaghan 1992, (3.3)", \

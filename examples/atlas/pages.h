@@ -715,6 +715,7 @@ static inline void kept_has(kept_page *k, FILE *words)
             want[same + 1] = next;
         }
         k->stale = 1;
+        for (char *line = want; (line = strchr(line, '\n')) != NULL;) *line = ' ';
         fprintf(stderr, "atlas: %s does not say: ...%.70s\n", k->path, want + (same > 20 ? same - 20 : 0));
     }
     free(want);
