@@ -8443,8 +8443,8 @@ SPH_FN sph_real sphi_within(sph_real support, sph_real h_i, sph_real h_j, sph_re
     return SPH_R(0.5) +
            SPHI_COPYSIGN(SPH_R(0.5), support * SPH_R(0.5) * (h_i + h_j + SPHI_ABS(h_i - h_j)) - r);
 }
-/* The largest of `most` and n numbers. Blocks have several maxima, because a single one would wait for itself in
-   every pass. */
+/* The largest of `most` and n numbers. A block has as many maxima as numbers, because a single maximum would
+   wait for itself in every pass. */
 SPH_FN sph_real sphi_largest(sph_real most, const sph_real *of, int n)
 {
     sph_real lane[SPHI_BLOCK];
