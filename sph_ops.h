@@ -58,6 +58,9 @@
  *   Exact means at every particle that has an answer, in disorder and at boundaries, too. The order is that
  *   of the root mean square of the error in dx, where h / dx stays as it is: 0 does not fall with more
  *   particles, -1 grows.
+ *   Atlas: keeps momentum and angular momentum; energy never grows.
+ *   This is what operators that are not linear keep to round-off, for any state. Energy is the kinetic and
+ *   the elastic one of a fluid, the kinetic one of collisions, and all of gravity.
  *
  * SYMBOLS that recur, in calls and in comments
  *   k, dim               kernel and dimension (1, 2 or 3)
@@ -1592,7 +1595,8 @@ typedef struct sph_density_out {
    SPH_NOT_FINITE       The sums overflowed. rho and omega are 0; h[i] is where that happened.
    Errors, besides those of all sweeps: SPH_ERROR_H for a guess or a list_radius that is not finite and
    positive, SPH_ERROR_VALUE for eta or tolerance out of range, SPH_ERROR_BOX for a list_radius beyond half
-   the box. Ranges of targets may run in parallel, because a range reads only its own entries of h. */
+   the box. Ranges of targets may run in parallel, because a range reads only its own entries of h.
+   Atlas: value exact for nothing; order 0 inside lattices, 0 in disorder, 0 at boundaries. */
 SPH_FN sph_index sph_density_adaptive(sph_kernel k, int dim, sph_cloud cloud, sph_scalars m,
                                       sph_density_options options, sph_density_out out)
 {
@@ -5502,7 +5506,8 @@ SPH_FN sph_index sphi_fluid_rates(int form, sph_kernel k, int dim, sph_cloud clo
    them). Returns the number of targets of which a result overflowed (it is 0 then), or a negative sph_error:
    SPH_ERROR_VALUE also for densities and masses that are not positive, and sound speeds that are negative.
    Atlas: gradient exact for nothing, inside lattices for constants; order 0 inside lattices, -1 in
-   disorder, -1 at boundaries. */
+   disorder, -1 at boundaries.
+   Atlas: keeps momentum and angular momentum; energy never grows. */
 SPH_FN sph_index sph_fluid_rates_monaghan(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                           sph_fluid_out out)
 {
@@ -6472,7 +6477,8 @@ SPH_FN sph_index sphi_shift_range(int uniform, int tensile, sph_kernel k, int di
    `longest`. The host adds it to the positions; for a velocity of shifting it divides by dt (Sun et al. 2019:
    longest = dt v_max / 2). A pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). With the same strength for all,
    no surface and no limit, sum_i V_i dx_i = 0 to round-off. What it costs stands above. Returns the number of
-   targets whose shift overflowed (it is 0 then), or a negative sph_error. */
+   targets whose shift overflowed (it is 0 then), or a negative sph_error.
+   Atlas: keeps the centre of volume. */
 SPH_FN sph_index sph_shift_displacement(sph_kernel k, int dim, sph_cloud cloud, sph_shift shift,
                                         sph_vector_out out)
 {
@@ -6894,7 +6900,10 @@ SPH_FN sph_index sphi_riemann_range(int uniform, sph_kernel k, int dim, sph_clou
    sph_wall_adami. out.rate, out.heating and out.status may be null. out.rate is that of the velocities given:
    for the order of a step that the chapter above tells, call it again with the new velocities. Returns the
    number of targets of which a result overflowed (it is 0 then), or a negative sph_error: SPH_ERROR_VALUE
-   also for masses, densities and sound speeds that are not positive. */
+   also for masses, densities and sound speeds that are not positive.
+   Atlas: gradient exact for nothing, inside lattices for constants; order 0 inside lattices, -1 in
+   disorder, -1 at boundaries.
+   Atlas: keeps momentum and angular momentum; energy never grows. */
 SPH_FN sph_index sph_fluid_rates_riemann(sph_kernel k, int dim, sph_cloud cloud, sph_fluid fluid,
                                          sph_riemann_options options, sph_fluid_out out)
 {
@@ -7912,7 +7921,8 @@ typedef struct sph_collision_report {
    also if both rows name it. Full lists, or lists with j > i only. Momentum and angular momentum are
    conserved to round-off, and the energy never grows for restitution <= 1. out may be null. Returns the
    number of pairs whose velocities or energy would overflow (they exchange nothing; 0: none), or a
-   negative sph_error. */
+   negative sph_error.
+   Atlas: keeps momentum and angular momentum; energy never grows. */
 SPH_FN sph_index sph_collision_sequential(int dim, sph_cloud cloud, sph_collision collision,
                                           sph_vector_out velocity, sph_collision_report *out)
 {
@@ -8019,7 +8029,8 @@ SPH_FN sph_index sph_collision_count(int dim, sph_cloud cloud, sph_collision col
    for the sources that are not walls. Full lists. The result does not depend on the order, and ranges may
    run in parallel. Momentum and angular momentum are conserved to round-off, and the energy never grows
    for restitution <= 1 (a particle in n > 1 collisions loses some energy also at 1). Returns the number of
-   targets whose result overflowed (it is 0 then), or a negative sph_error. */
+   targets whose result overflowed (it is 0 then), or a negative sph_error.
+   Atlas: keeps momentum and angular momentum; energy never grows. */
 SPH_FN sph_index sph_collision_change_weighted(int dim, sph_cloud cloud, sph_collision collision,
                                                sph_vectors v, const SPH_GLOBAL sph_index *count,
                                                sph_vector_out change)
@@ -10268,7 +10279,8 @@ SPH_FN int sphi_check_gravity(sph_kernel k, sph_cloud cloud, sph_scalars m, sph_
    2 of the targets. newton is G. The sums run over all sources, with the particle itself: n^2 steps, for
    small clouds and to measure trees against. No list is read. The cloud is isolated: the lengths of the
    box are not used. Momentum is conserved to round-off. potential may be without an array. Returns the
-   number of targets of which a result overflowed (it is 0 then), or a negative sph_error. */
+   number of targets of which a result overflowed (it is 0 then), or a negative sph_error.
+   Atlas: keeps momentum and angular momentum; energy is kept. */
 SPH_FN sph_index sph_gravity_direct(sph_kernel k, sph_cloud cloud, sph_scalars m, sph_real newton,
                                     sph_vector_out acceleration, sph_scalar_out potential)
 {

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The atlas: what the comments of sph_ops.h claim of operators is what it measures; false claims are found; its
-# pages are whole: every link leads somewhere, nothing is loaded from elsewhere, every table has headers.
+# The atlas: what the comments of sph_ops.h claim of operators is what it measures; false claims are found; the
+# pages that are kept say what table and comments say; pages are whole: every link leads somewhere, nothing is loaded from elsewhere, every table has headers.
 . tests/check.sh
 atlas=$BUILD/examples/atlas_operators
 if [ ! -x "$atlas" ]; then
@@ -41,12 +41,30 @@ check "too exact, in free words" found 'gradient_mls,.*in the words of the comme
 check "another formula" found 'gradient_symmetric,.*not in sph_ops.h'
 check "no header" answers 2 "cannot read" one gradient_cspm -headers "$scratch/nowhere"
 
-# pages; those of a full run are kept
-kept() {
-    sed -n 's/^    X(\([a-z_]*\), .*/\1/p' examples/atlas/operators.h | while read -r name; do [ -e "examples/atlas/pages/$name.html" ] || echo "$name"; done > "$scratch/lost"
+# pages; those of a full run are kept, and say what the table and the comments say now
+kept=examples/atlas/pages
+check "pages that are kept" answers 0 " 0 files" "$atlas" -kept $kept
+none_left() {
+    ls $kept/*.html | sed 's/.*\///; s/\.html$//' | grep -v -x -e index -e choose -e kernels | while read -r name; do grep -q "^    X($name, " examples/atlas/operators.h || echo "$name"; done > "$scratch/lost"
     ! grep . "$scratch/lost"
 }
-check "every operator has a page that is kept" kept
+check "no page of an operator that is gone" none_left
+cp sph_ops.h "$false/sph_ops.h"
+check "a comment that changes" claim sph_gradient_cspm "grad f_i =|grad f_i  ="
+check "its page is out of date" answers 1 "gradient_cspm.html does not say: .*grad f_i" "$atlas" -kept $kept -headers "$false"
+check "no other is" answers 1 " 1 files" "$atlas" -kept $kept -headers "$false"
+check "a claim that changes" claim sph_gravity_direct "energy is kept|energy never grows"
+check "two pages are out of date" answers 1 " 2 files" "$atlas" -kept $kept -headers "$false"
+mkdir "$scratch/copy"
+cp $kept/*.html $kept/atlas.css "$scratch/copy"
+sed 's/Randles/Randle/' $kept/gradient_cspm.html > "$scratch/copy/gradient_cspm.html"
+sed 's/>hessian_wls</>hessian_wls2</' $kept/choose.html > "$scratch/copy/choose.html"
+rm "$scratch/copy/index.html"
+check "pages that were changed or lost" answers 1 " 3 files" "$atlas" -kept "$scratch/copy"
+cp $kept/gradient_cspm.html "$scratch/copy"
+check "pages that can be mended" answers 1 " 4 files" "$atlas" -kept "$scratch/copy" -headers "$false" -mend
+check "but not those of numbers" answers 1 " 2 files" "$atlas" -kept "$scratch/copy" -headers "$false"
+check "its numbers stay" sh -c "sed '1,/<h2>Exact/d' $kept/gradient_cspm.html > '$scratch/numbers' && sed '1,/<h2>Exact/d' '$scratch/copy/gradient_cspm.html' | cmp - '$scratch/numbers'"
 check "no folder for pages" answers 2 "no/such/folder" one gradient_cspm -pages no/such/folder
 cd "$pages" || exit 2
 scratch=.. # of check

@@ -13,14 +13,15 @@
 #endif
 #include "../common/options.h"
 #include "../common/report.h"
+#include "figures.h"
 #include "header.h"
-#include "measure.h"
 #include "pages.h"
 
 #define ATLAS_CALL(id, function, family, list, formula, source, note, expression) \
     static sph_index call_##id(sph_kernel k, int dim, const sample *s, double *const *in, double *const *out) \
     { \
         const views a = views_of(s, in, out); \
+        (void)k; /* which collisions have not */ \
         return expression; \
     }
 ATLAS_OPERATORS(ATLAS_CALL)
@@ -51,7 +52,7 @@ static void write_numbers(part_file csv, const char *figures, int configurations
 {
     fprintf(csv.to, "operator,dim,kernel,h_dx,cloud,region,spacing,error,worst\n");
     for (int o = 0; o < wanted; o++)
-        for (int c = 0; c < configurations; c++)
+        for (int c = 0; c < configurations && operators[o].family < WITH_ERRORS; c++)
             for (int kind = 0; kind < SAMPLE_KINDS; kind++)
                 for (int region = 0; region < REGIONS; region++)
                     for (int level = 0; level < LEVELS; level++)
@@ -61,11 +62,21 @@ static void write_numbers(part_file csv, const char *figures, int configurations
     if (!part_file_open(&csv, figures, "atlas_transfer", "csv")) failed_to_write(csv.part);
     fprintf(csv.to, "operator,dim,direction,k_dx,real,imaginary\n");
     for (int o = 0; o < wanted; o++)
-        for (int c = 0; c < 2; c++)
+        for (int c = 0; c < 2 && operators[o].family < LINEAR; c++)
             for (int d = 0; d < 2; d++)
                 for (int w = 0; w < WAVES; w++)
                     fprintf(csv.to, "%s,%d,%s,%.5f,%.6f,%.6f\n", operators[o].id, configs[c].dim, d ? "diagonal" : "axis", acos(-1.0) * (w + 1) / WAVES, results[o].of[c].transfer[d][w].re,
                             results[o].of[c].transfer[d][w].im);
+    if (!part_file_close(&csv)) failed_to_write(csv.path);
+    if (!part_file_open(&csv, figures, "atlas_figures", "csv")) failed_to_write(csv.part);
+    fprintf(csv.to, "operator,dim,cloud,figure,value\n");
+    for (int o = 0; o < wanted; o++)
+        for (int c = 0; c < 2; c++)
+            for (int f = 0; f < results[o].of[c].figure_count; f++)
+                for (int kind = 0; kind < SAMPLE_KINDS; kind++) {
+                    const figure *const at_cloud = &results[o].of[c].figures[f];
+                    fprintf(csv.to, "%s,%d,%s,\"%s\",%.4g\n", operators[o].id, configs[c].dim, sample_kind_name(kind), at_cloud->name, at_cloud->value[kind]);
+                }
     if (!part_file_close(&csv)) failed_to_write(csv.path);
 }
 /* The table of atlas_cost, if it has run. */
@@ -107,17 +118,29 @@ static void judge(report *r, const header *h)
         const op *const q = &operators[o];
         claim *const c = &results[o].claim;
         char formula[512];
-        *c = header_claim(h, q->function, family(q->family).word);
-        report_row(report_beside(r, REPORT_THEORY), q->id, q->function, "what sph_ops.h claims", c->given ? c->text : "nothing is claimed", c->given > 0 ? "read" : "not understood", "a line 'Atlas: ...'", NULL,
+        char *const comment = header_comment(h, q->function);
+        if (q->family < WITH_ERRORS) *c = header_claim(h, q->function, family(q->family).word);
+        else { /* what is kept, in one sentence */
+            portrait both = results[o].of[1];
+            for (int d = 0; d < 1 && q->family != GRAVITY; d++) {
+                both.momentum = fmax(both.momentum, results[o].of[d].momentum);
+                both.angular = fmax(both.angular, results[o].of[d].angular);
+                both.energy = fmax(both.energy, results[o].of[d].energy);
+            }
+            kept_text(q->family, &both, c->text);
+            c->given = comment && strstr(comment, c->text) != NULL;
+        }
+        if (q->family >= WITH_ERRORS)
+            report_row(report_beside(r, REPORT_THEORY), q->id, q->function, "what is kept", c->text, c->given ? "said" : "not what sph_ops.h says", "the same sentence", NULL, c->given ? REPORT_MATCH : REPORT_DIFFERS);
+        else report_row(report_beside(r, REPORT_THEORY), q->id, q->function, "what sph_ops.h claims", c->given ? c->text : "nothing is claimed", c->given > 0 ? "read" : "not understood", "a line 'Atlas: ...'", NULL,
                    c->given > 0 ? REPORT_MATCH : REPORT_DIFFERS);
         snprintf(formula, sizeof formula, "%s; %s", q->formula, q->source);
         for (char *part = strtok(formula, ";"); part; part = strtok(NULL, ";")) {
             while (*part == ' ') part++;
             if (!header_says(h, part)) report_row(report_beside(r, REPORT_THEORY), q->id, q->function, "formula and source", part, "not in sph_ops.h", "as in sph_ops.h", NULL, REPORT_DIFFERS);
         }
-        char *const comment = header_comment(h, q->function);
         const char *at_phrase = comment;
-        for (int degree, where; comment && header_phrase(&at_phrase, &degree, &where);)
+        for (int degree, where; comment && q->family < WITH_ERRORS && header_phrase(&at_phrase, &degree, &where);)
             for (int d = 0; d < 2; d++) { /* what is said in other words must not be more than is so */
                 const portrait *const p = &results[o].of[d];
                 const int measured = where ? p->exact_lattice : p->exact;
@@ -125,7 +148,7 @@ static void judge(report *r, const header *h)
                     report_row(report_beside(r, REPORT_THEORY), q->id, q->function, "exact for, in the words of the comment", degree_text(degree), degree_text(measured), "not more", NULL, REPORT_DIFFERS);
             }
         free(comment);
-        for (int d = 0; d < 2 && c->given > 0; d++) {
+        for (int d = 0; d < 2 && c->given > 0 && q->family < WITH_ERRORS; d++) {
             static const char *const where[3] = {"order inside lattices", "order in disorder", "order at boundaries"};
             const portrait *const p = &results[o].of[d];
             char setting[96], said[32], text[32];
@@ -146,27 +169,35 @@ static void judge(report *r, const header *h)
 
 int main(int argc, char **argv)
 {
-    const char *out = ".", *figures = ".", *headers = ".", *pages = "", *only = "";
-    int full = 0, quiet = 0;
+    const char *out = ".", *figures = ".", *headers = ".", *pages = "", *kept = "", *only = "";
+    int full = 0, quiet = 0, mend = 0;
     report r;
     const option_spec specs[] = {
         {"out", "directory of the table of results", OPTION_TEXT, &out, 0, 0},
         {"figures", "directory of the measured numbers", OPTION_TEXT, &figures, 0, 0},
         {"headers", "directory of sph_ops.h, whose comments are read", OPTION_TEXT, &headers, 0, 0},
         {"pages", "directory of the pages; none are written without", OPTION_TEXT, &pages, 0, 0},
+        {"kept", "directory of pages: only tells which of them say something else than the table and sph_ops.h do", OPTION_TEXT, &kept, 0, 0},
+        {"mend", "with -kept: writes anew what operators' pages say beside their numbers", OPTION_FLAG, &mend, 0, 0},
         {"only", "operators whose names contain this", OPTION_TEXT, &only, 0, 0},
         {"full", "all kernels and lengths", OPTION_FLAG, &full, 0, 0},
         {"quiet", "no progress on stderr", OPTION_FLAG, &quiet, 0, 0},
     };
     options_parse(argc, argv, "The atlas: what each operator does, measured.", specs, (int)(sizeof specs / sizeof specs[0]));
     const int configurations = full ? CONFIGS : QUICK_CONFIGS, targets = full ? 100 : 40;
-    const double steps = (double)configurations * SAMPLE_KINDS * LEVELS + 2.0 * 20.0;
+    const double steps = (double)configurations * SAMPLE_KINDS * LEVELS + 2.0 * 30.0;
     double step = 0.0;
     header h = header_read(headers);
     progress bar;
     part_file csv;
     for (int o = 0; o < (int)OPERATORS; o++)
         if (strstr(all_operators[o].id, only)) operators[wanted++] = all_operators[o];
+    if (*kept) {
+        const int stale = pages_stale(operators, wanted, &configs[0], &h, kept, mend);
+        header_free(&h);
+        printf("atlas: %d files in %s are out of date\n", stale, kept);
+        return stale ? 1 : 0;
+    }
     report_open(&r, "atlas_operators", out);
     if (!part_file_open(&csv, figures, "atlas_errors", "csv")) failed_to_write(csv.part);
     progress_begin(&bar, "atlas", quiet);
@@ -184,6 +215,10 @@ int main(int argc, char **argv)
         if (c < 2) {
             measure_portraits(operators, wanted, &configs[c], targets, &results[0].of[c], sizeof results[0]);
             progress_update(&bar, (step += 20.0) / steps);
+            for (int o = 0; o < wanted; o++) {
+                measure_figures(&operators[o], &configs[c], &results[o].of[c]);
+                progress_update(&bar, (step += 10.0 / wanted) / steps);
+            }
         }
     }
     progress_end(&bar);

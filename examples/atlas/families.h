@@ -4,6 +4,8 @@
  *
  * Fields are sums of three waves, or monomials. Those of vectors have no divergence where the operators of
  * the family are made for such fields (viscosities).
+ *
+ * The last families are of operators that are not linear in a field: figures.h says what is measured of them.
  */
 #ifndef ATLAS_FAMILIES_H
 #define ATLAS_FAMILIES_H
@@ -21,10 +23,16 @@
     X(LAPLACIAN, "Laplacians", "Laplacian", 0, 0, 2) \
     X(HESSIAN, "Second derivatives", "Hessian", 0, 3, 2) \
     X(ELLIPTIC, "div(m grad u)", "div(m grad u)", 0, 0, 2) \
-    X(VISCOSITY, "Physical viscosity and resistivity", "Laplacian", 1, 1, 2)
+    X(VISCOSITY, "Physical viscosity and resistivity", "Laplacian", 1, 1, 2) \
+    X(ADAPTIVE, "Density with a smoothing length of its own", "value", 0, 0, 0) \
+    X(RATES, "Rates of a fluid, with dissipation", "", 1, 1, 0) \
+    X(SHIFTING, "Shifting", "", 0, 1, 0) \
+    X(COLLISIONS, "Collisions", "", 1, 1, 0) \
+    X(GRAVITY, "Gravity", "", 0, 1, 0)
 
+/* LINEAR: families below it have a matrix and a response; WITH_ERRORS: those below it have errors against a field. */
 #define FAMILY_ENUM(name, heading, word, in, out, powers) name,
-enum family { ATLAS_FAMILIES(FAMILY_ENUM) FAMILIES };
+enum family { ATLAS_FAMILIES(FAMILY_ENUM) FAMILIES, LINEAR = ADAPTIVE, WITH_ERRORS = RATES };
 typedef struct family_of {
     const char *heading, *word;
     int in, out, powers;
@@ -121,6 +129,12 @@ static inline void family_waves(int which, int dim, wave_field *f)
             const double across[3] = {-k[1] * size, (k[0] - (dim > 2 ? k[2] : 0.0)) * size, k[1] * size}; /* k . across = 0 */
             for (int a = 0; a < 3; a++) f[a].size[w] = a < dim ? across[a] : 0.0;
         }
+    if (which == ADAPTIVE) { /* a positive density: the third wave is 1 */
+        for (int w = 0; w < 2; w++) f[0].size[w] *= 0.4;
+        for (int a = 0; a < 3; a++) f[0].k[2][a] = 0.0;
+        f[0].size[2] = 1.0;
+        f[0].phase[2] = 0.5 * acos(-1.0);
+    }
 }
 
 /* The result that a family should give, from the jets of its inputs and that of the mobility. */
@@ -131,7 +145,8 @@ static inline void family_answer(int which, int dim, const field_jet *f, const f
     for (int c = 0; c < (family(which).in ? dim : 1); c++)
         for (int a = 0; a < dim; a++) laplacian[c] += f[c].hessian[square[a]];
     switch (which) {
-    case VALUE: out[0] = f[0].value; break;
+    case VALUE:
+    case ADAPTIVE: out[0] = f[0].value; break;
     case GRADIENT:
         for (int a = 0; a < dim; a++) out[a] = f[0].d[a];
         break;

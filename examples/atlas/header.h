@@ -43,25 +43,32 @@ static inline void header_squeeze(const char *from, char *to)
     *to = '\0';
 }
 
+/* All of a file, to be freed; null if it cannot be read. */
+static inline char *file_text(const char *path)
+{
+    size_t size = 0, room = 1 << 16;
+    FILE *const file = fopen(path, "rb");
+    if (!file) return NULL;
+    char *text = (char *)need(NULL, room, 1);
+    for (size_t got; (got = fread(text + size, 1, room - size - 1, file)) > 0;) {
+        size += got;
+        if (room - size < 2) text = (char *)need(text, room *= 2, 1);
+    }
+    fclose(file);
+    text[size] = '\0';
+    return text;
+}
 static inline header header_read(const char *folder)
 {
     header h;
     char path[1024];
-    size_t size = 0, room = 1 << 20;
     snprintf(path, sizeof path, "%s/sph_ops.h", folder);
-    FILE *const file = fopen(path, "rb");
-    if (!file) {
+    h.text = file_text(path);
+    if (!h.text) {
         fprintf(stderr, "atlas: cannot read %s: run this in the repository's root, or name the folder by -headers\n", path);
         exit(2);
     }
-    h.text = (char *)need(NULL, room, 1);
-    for (size_t got; (got = fread(h.text + size, 1, room - size - 1, file)) > 0;) {
-        size += got;
-        if (room - size < 2) h.text = (char *)need(h.text, room *= 2, 1);
-    }
-    fclose(file);
-    h.text[size] = '\0';
-    h.plain = (char *)need(NULL, size + 1, 1);
+    h.plain = (char *)need(NULL, strlen(h.text) + 1, 1);
     header_squeeze(h.text, h.plain);
     return h;
 }

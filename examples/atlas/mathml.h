@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * mathml.h - formulas of the headers' comments, such as "grad f_i = K^-1 sum_j V_j (f_j - f_i) grad_i W_ij", as
- * MathML. What it knows: names with _ and ^ behind them, sum_j, Greek letters, grad, lap, d_a, numbers, signs.
+ * MathML. What it knows: names with _, ^ and * behind them, (...)^, sum_j, Greek letters, grad, lap, d_a, numbers, signs.
  */
 #ifndef ATLAS_MATHML_H
 #define ATLAS_MATHML_H
@@ -25,15 +25,23 @@ static inline void mathml_name(FILE *to, const char *from, int length)
     if (length > 63) length = 63;
     memcpy(word, from, (size_t)length);
     word[length] = '\0';
+    if (word[0] == 'd' && mathml_letter(word + 1)) { /* drho */
+        fprintf(to, "<mrow><mi>d</mi><mi>%s</mi></mrow>", mathml_letter(word + 1));
+        return;
+    }
     const char *const letter = mathml_letter(word);
     const int sign = letter && (strcmp(word, "grad") == 0 || strcmp(word, "lap") == 0);
     if (isdigit((unsigned char)word[0])) fprintf(to, "<mn>%s</mn>", word);
     else if (strcmp(word, "and") == 0 || strcmp(word, "with") == 0 || strcmp(word, "in") == 0) fprintf(to, "<mtext>&#160;%s&#160;</mtext>", word);
     else fprintf(to, sign ? "<mi mathvariant=\"normal\">%s</mi>" : "<mi>%s</mi>", letter ? letter : word);
 }
-/* What stands behind _ or ^: a sign, and letters or digits. */
+/* What stands behind _ or ^: a sign, and letters or digits; or a star. */
 static inline const char *mathml_index(FILE *to, const char *at)
 {
+    if (*at == '*') {
+        fputs("<mo>*</mo>", to);
+        return at + 1;
+    }
     fputs("<mrow>", to);
     if (*at == '-') {
         fputs("<mo>&#8722;</mo>", to);
@@ -49,10 +57,9 @@ static inline const char *mathml_index(FILE *to, const char *at)
     return at + length;
 }
 
-static inline void mathml_write(FILE *to, const char *formula)
+static inline void mathml_row(FILE *to, const char *formula, const char *end)
 {
-    fputs("<math display=\"block\">", to);
-    for (const char *at = formula; *at;) {
+    for (const char *at = formula; at < end;) {
         if (isalnum((unsigned char)*at)) {
             int length = 0;
             while (isalnum((unsigned char)at[length])) length++;
@@ -66,7 +73,7 @@ static inline void mathml_write(FILE *to, const char *formula)
             if (*after == '^' && (isalnum((unsigned char)after[1]) || (after[1] == '-' && isalnum((unsigned char)after[2])))) {
                 above = after + 1;
                 for (after += 2; isalnum((unsigned char)*after);) after++;
-            }
+            } else if (*after == '*') above = after++;
             const char *const tag = below && above ? "msubsup" : below ? (is_sum ? "munder" : "msub") : above ? "msup" : NULL;
             if (tag) fprintf(to, "<%s>", tag);
             if (is_sum) fputs("<mo>&#8721;</mo>", to);
@@ -80,6 +87,20 @@ static inline void mathml_write(FILE *to, const char *formula)
         }
         if (*at == ' ') {
             at++;
+            continue;
+        }
+        if (*at == ')' && at[1] == '^') {
+            fputs("<msup><mo stretchy=\"false\">)</mo>", to);
+            at += 2;
+            if (*at == '(') { /* to the bracket that closes it */
+                const char *const inner = at + 1;
+                for (int open = 1; open && ++at < end;) open += (*at == '(') - (*at == ')');
+                fputs("<mrow>", to);
+                mathml_row(to, inner, at);
+                fputs("</mrow>", to);
+                at++;
+            } else at = mathml_index(to, at);
+            fputs("</msup>", to);
             continue;
         }
         if (*at == ';') fputs("<mtext>,</mtext><mspace width=\"1.5em\"/>", to);
@@ -98,6 +119,11 @@ static inline void mathml_write(FILE *to, const char *formula)
         else fprintf(to, "<mo%s>%c</mo>", strchr("()[]", *at) ? " stretchy=\"false\"" : "", *at);
         at++;
     }
+}
+static inline void mathml_write(FILE *to, const char *formula)
+{
+    fputs("<math display=\"block\">", to);
+    mathml_row(to, formula, formula + strlen(formula));
     fputs("</math>", to);
 }
 

@@ -20,7 +20,7 @@ typedef struct op {
 
 /* Spacings 1/16, 1/32, ... 1/512: the waves are some 2 long. */
 /* SHOWN: the level of tables, 1/64 */
-enum { LEVELS = 6, INPUTS = 3, OUTPUTS = 6, SHOWN = 2, WAVES = 24, DISTANCES = 40, JITTERS = 7, STATUSES = 8, BOTH = 2, CONJUGATES = 8 };
+enum { LEVELS = 6, INPUTS = 3, OUTPUTS = 6, SHOWN = 2, WAVES = 24, DISTANCES = 40, JITTERS = 7, STATUSES = 8, BOTH = 2, CONJUGATES = 8, FIGURES = 12 };
 static inline double level_spacing(int level) { return ldexp(1.0, -4 - level); }
 static const double atlas_jitter[JITTERS] = {0.0, 0.01, 0.03, 0.1, 0.2, 0.3, 0.45};
 static const double atlas_default_jitter = 0.2;
@@ -41,6 +41,12 @@ typedef struct errors {
     double worst_error[SAMPLE_KINDS];
 } errors;
 
+/* A number that is measured on each kind of cloud, of an operator that is not linear. */
+typedef struct figure {
+    const char *name;
+    double value[SAMPLE_KINDS];
+} figure;
+
 /* Of one operator, at a standard configuration of each dimension. */
 typedef struct portrait {
     int exact, exact_lattice;                  /* degrees: -1 nothing, 0 constants, 1 linear ... */
@@ -57,6 +63,8 @@ typedef struct portrait {
     double re_most, re_least, im_most, condition; /* eigenvalues times dx^2 */
     pair *eigenvalue;
     int eigenvalues;
+    figure figures[FIGURES];
+    int figure_count;
 } portrait;
 
 /* ---- calls ---- */
@@ -159,6 +167,10 @@ static inline double region_rms(const sample *s, const double *error, int region
 /* Of a sample that is zoomed to a level. */
 static inline void measure_errors(const op *o, sample *s, int level, errors *e)
 {
+    if (o->family >= WITH_ERRORS) { /* none is measured */
+        for (int region = 0; region < REGIONS; region++) e->rms[s->kind][region][level] = e->worst[s->kind][region][level] = (double)NAN;
+        return;
+    }
     arrays a = arrays_of(s->n);
     double *const error = numbers(s->n);
     wave_field f[3];
@@ -199,7 +211,7 @@ static inline int measure_degree(const op *o, sample *s, int region)
     double *const error = numbers(s->n);
     int degree = -1, exact = 1;
     const double far_out = 0.5 * s->side;
-    for (int d = 0; d <= 3 && exact; d++) {
+    for (int d = 0; d <= (o->family == ADAPTIVE ? 0 : 3) && exact; d++) { /* densities are positive */
         for (int x = d; x >= 0 && exact; x--)
             for (int y = d - x; y >= 0 && exact; y--) {
                 const int z = d - x - y;
@@ -522,7 +534,7 @@ static inline void measure_rotation(const op *o, sample *s, sample *turned, port
     arrays_free(&b);
 }
 
-/* All of these for all operators, at one configuration; step is called after each. */
+/* All of these for all operators, at one configuration, as far as their family allows. */
 static inline void measure_portraits(const op *o, int count, const config *c, int targets, portrait *p, size_t stride)
 {
     const sample_wish jitter = {SAMPLE_JITTER, targets, 0, atlas_default_jitter, 5}, regular = {SAMPLE_LATTICE, targets, 0, 0.0, 1};
@@ -534,13 +546,15 @@ static inline void measure_portraits(const op *o, int count, const config *c, in
     sample_turn(&turned);
     sample_zoom(&lattice, 1.0);
     for (int q = 0; q < count; q++) {
+        if (o[q].family != GRAVITY || c->dim == 3) measure_rotation(&o[q], &jittered, &turned, PORTRAIT(q));
+        if (o[q].family >= WITH_ERRORS) continue;
         PORTRAIT(q)->exact = measure_degree(&o[q], &jittered, -1);
         PORTRAIT(q)->exact_lattice = measure_degree(&o[q], &lattice, REGION_INSIDE);
-        measure_rotation(&o[q], &jittered, &turned, PORTRAIT(q));
-        measure_transfer(&o[q], &lattice, PORTRAIT(q));
+        if (o[q].family < LINEAR) measure_transfer(&o[q], &lattice, PORTRAIT(q));
     }
     sample_zoom(&lattice, level_spacing(SHOWN - 1));
-    for (int q = 0; q < count; q++) measure_distance(&o[q], &lattice, PORTRAIT(q));
+    for (int q = 0; q < count; q++)
+        if (o[q].family < WITH_ERRORS) measure_distance(&o[q], &lattice, PORTRAIT(q));
     sample_free(&jittered);
     sample_free(&turned);
     sample_free(&lattice);
@@ -548,14 +562,16 @@ static inline void measure_portraits(const op *o, int count, const config *c, in
         const sample_wish by = {SAMPLE_JITTER, targets, 0, atlas_jitter[j], 11};
         sample s = sample_make(c->k, c->dim, c->h_dx, by);
         sample_zoom(&s, level_spacing(SHOWN - 1));
-        for (int q = 0; q < count; q++) measure_jitter(&o[q], &s, &PORTRAIT(q)->at_jitter[j]);
+        for (int q = 0; q < count; q++)
+            if (o[q].family < WITH_ERRORS) measure_jitter(&o[q], &s, &PORTRAIT(q)->at_jitter[j]);
         sample_free(&s);
     }
     if (c->dim == 2) {
         const sample_wish all = {SAMPLE_JITTER, 0, (int)(2.0 * (double)sph_kernel_support_ratio(c->k) * c->h_dx) + 7, atlas_default_jitter, 7};
         sample few = sample_make(c->k, c->dim, c->h_dx, all);
         sample_zoom(&few, 1.0);
-        for (int q = 0; q < count; q++) measure_matrix(&o[q], &few, PORTRAIT(q));
+        for (int q = 0; q < count; q++)
+            if (o[q].family < LINEAR) measure_matrix(&o[q], &few, PORTRAIT(q));
         for (int q = 0; q < count; q++)
             for (int d = 0; d < count; d++)
                 if ((o[q].family == GRADIENT || o[q].family == PRESSURE) && o[d].family == DIVERGENCE) measure_conjugates(o, q, d, &few, PORTRAIT(q), PORTRAIT(d));

@@ -8,7 +8,7 @@
  * function  whose comment in sph_ops.h is shown, and whose claims are compared with what is measured (see
  *           header.h: a line "Atlas: gradient exact for linear fields; order 2 inside lattices, ...")
  * FAMILY    what goes in and out, and what the result should be (families.h)
- * list      GATHER, MEAN or LARGER: the list that it needs where h varies
+ * list      GATHER, MEAN or LARGER: the list that it needs where h varies; CLOSE or NONE
  * formula, source   must occur in sph_ops.h as they stand here, which the driver looks after
  * call      an expression of the kernel k, dim and the views a, which are below
  *
@@ -20,6 +20,8 @@
 
 #include "sample.h"
 
+/* h may grow by this factor from that of an even cloud: lists reach no farther. */
+static const sph_real atlas_growth = SPH_R(1.5);
 static const sph_real atlas_one = SPH_R(1), atlas_zero = SPH_R(0);
 
 /* What calls are made of: the arrays of a sample as the headers' views. */
@@ -48,6 +50,16 @@ typedef struct views {
     sph_derivatives_options second; /* all zeros are the defaults */
     sph_interpolation_options fit;
     sph_elliptic_options elliptic, trace;
+    /* of operators that are not linear */
+    sph_density_options own;
+    sph_density_out own_h; /* h is the second array, omega the third */
+    sph_fluid flow;        /* all that a fluid has, with the velocity v */
+    sph_fluid_out lossy;   /* rate and heating are the fourth and the fifth array */
+    sph_riemann_options riemann;
+    sph_shift shift, tensile;
+    sph_collision bounce;
+    sph_scalar_out potential; /* the fourth array */
+    double *in[3]; /* as given */
     const sample *s;
 } views;
 
@@ -151,11 +163,39 @@ static inline views views_of(const sample *s, double *const *in, double *const *
     a.sources.points = s->cloud.points;
     a.sources.volume = s->cloud.volume;
     a.trace.trace = 1;
+    a.own.list_radius = sph_scalars_same(&s->list_radius);
+    a.own.eta = s->h_dx / atlas_growth;
+    a.own_h.rho = out[0];
+    a.own_h.h = out[1];
+    a.own_h.omega = out[2];
+    a.own_h.status = s->status;
+    a.flow.m = sph_scalars_array(s->state[STATE_M]);
+    a.flow.rho = sph_scalars_array(s->state[STATE_RHO]);
+    a.flow.p = sph_scalars_array(s->state[STATE_P]);
+    a.flow.c = sph_scalars_array(s->state[STATE_C]);
+    a.flow.v = a.v;
+    a.flow.viscosity = (int)SPH_VISCOSITY_MONAGHAN;
+    a.flow.alpha = SPH_R(0.1);
+    a.lossy.acceleration = a.vector;
+    a.lossy.rate = out[3];
+    a.lossy.heating = out[4];
+    a.lossy.stride = 1;
+    a.lossy.status = s->status;
+    a.pressure.c = a.flow.c;
+    a.shift.strength = a.tensile.strength = sph_scalars_same(&s->strength);
+    a.shift.longest = a.tensile.longest = SPH_R(-1);
+    a.tensile.tensile = SPH_R(0.2);
+    a.tensile.spacing = SPH_R(1) / s->h_dx;
+    a.bounce.distance = SPH_R(0.75) * s->spacing;
+    a.bounce.restitution = SPH_R(0.5);
+    a.bounce.inverse_mass = sph_scalars_array(s->state[STATE_W]);
+    a.potential = sph_scalar_out_array(out[3], s->status);
+    for (int c = 0; c < 3; c++) a.in[c] = in[c];
     return a;
 }
 
 /* Operators that come as rows only are applied as rows. */
-static inline sph_index atlas_anisotropic(sph_kernel k, int dim, const views *a)
+SPH_FN sph_index atlas_anisotropic(sph_kernel k, int dim, const views *a)
 {
     sph_diagonal mobility;
     sph_rows_out rows;
@@ -170,11 +210,35 @@ static inline sph_index atlas_anisotropic(sph_kernel k, int dim, const views *a)
     return failed;
 }
 
-enum list_kind { GATHER, MEAN, LARGER };
+/* The guess of h is that of an even cloud of the density 1. */
+SPH_FN sph_index atlas_adaptive(sph_kernel k, int dim, const views *a)
+{
+    for (sph_index i = a->cloud.first; i < a->cloud.last; i++) a->own_h.h[i] = a->own.eta * a->s->spacing;
+    return sph_density_adaptive(k, dim, a->cloud, a->m_f, a->own, a->own_h);
+}
+
+/* Collisions: the result is the change of the velocity. */
+SPH_FN sph_index atlas_sequential(int dim, const views *a)
+{
+    double *const to[3] = {a->vector.x, a->vector.y, a->vector.z};
+    for (int c = 0; c < dim; c++) memcpy(to[c], a->in[c], (size_t)a->s->n * sizeof *to[c]);
+    const sph_index lost = sph_collision_sequential(dim, a->cloud, a->bounce, a->vector, NULL);
+    for (int c = 0; c < dim; c++)
+        for (sph_index i = 0; i < a->s->n; i++) to[c][i] -= a->in[c][i];
+    return lost;
+}
+SPH_FN sph_index atlas_weighted(int dim, const views *a)
+{
+    expect(sph_collision_count(dim, a->cloud, a->bounce, a->v, a->s->collisions));
+    return sph_collision_change_weighted(dim, a->cloud, a->bounce, a->v, a->s->collisions, a->vector);
+}
+
+enum list_kind { GATHER, MEAN, LARGER, CLOSE, NONE };
 static inline const char *list_kind_text(int list)
 {
     static const char *const text[] = {"gather: all with r < support of the target (SPH_GATHER)", "mean: all with r < support of the mean h (SPH_MEAN)",
-                                       "both sides: all with r < the larger support (SPH_LARGER)"};
+                                       "both sides: all with r < the larger support (SPH_LARGER)",
+                                       "all that are closer than the distance of collisions", "none: all pairs"};
     return text[list];
 }
 
@@ -244,6 +308,10 @@ static inline const char *list_kind_text(int list)
       "a_i = -sum_j m_j (P_ij + Pi_ij) grad_i W_ij", "Monaghan 1992, (3.3)", \
       "Keeps momentum and angular momentum. The forms for jumps of density are the same where there is none, as here.", \
       sph_fluid_rates_monaghan(k, dim, a.cloud, a.pressure, a.rates)) \
+    X(pressure_riemann, sph_fluid_rates_riemann, PRESSURE, MEAN, \
+      "m_i a_i = -2 sum_j V_i V_j P* grad_i W_ij", "Zhang, Hu & Adams 2017, JCP 335, 605", \
+      "At rest: the pressure of the contact is then the mean of the two. rates_riemann is the same sweep with motion.", \
+      sph_fluid_rates_riemann(k, dim, a.cloud, a.pressure, a.riemann, a.rates)) \
     X(pressure_crk, sph_gas_rates_crk, PRESSURE, LARGER, \
       "m_i a_i = -1/2 sum_j V_i V_j (P_i + P_j + Q_ij) (grad W^R_ij - grad W^R_ji)", "Frontiere, Raskin & Owen 2017, JCP 332, 160", \
       "Keeps momentum and energy, not angular momentum. Needs sph_rk_correction first.", \
@@ -363,7 +431,39 @@ static inline const char *list_kind_text(int list)
     X(resistivity_ohmic, sph_resistivity_ohmic, VISCOSITY, LARGER, \
       "b = 2 eta m_j G / (rho_i rho_j)", "Physical (Ohmic) resistivity, (11)", \
       "Brookshaw's form for each component of a field without divergence.", \
-      sph_resistivity_ohmic(k, dim, a.cloud, a.resistive, a.heated))
+      sph_resistivity_ohmic(k, dim, a.cloud, a.resistive, a.heated)) \
+    X(density_adaptive, sph_density_adaptive, ADAPTIVE, GATHER, \
+      "h_i = eta (m_i / rho_i)^(1/dim); rho_i = sum_j m_j W_ij(h_i)", "Price & Monaghan 2004", \
+      "Half a density at a free surface, where h grows. Close particles take each other for a dense place: at the same h its error on random points is twice that of density_summation. Here the h of the tables is the longest that the lists allow; an even cloud has two thirds of it.", \
+      atlas_adaptive(k, dim, &a)) \
+    X(rates_monaghan, sph_fluid_rates_monaghan, RATES, MEAN, \
+      "a_i = -sum_j m_j (P_ij + Pi_ij) grad_i W_ij", "Monaghan 1992, (3.3)", \
+      "With artificial viscosity, alpha = 0.1, beta = 0. Its density rate loses nothing and smooths nothing.", \
+      sph_fluid_rates_monaghan(k, dim, a.cloud, a.flow, a.lossy)) \
+    X(rates_riemann, sph_fluid_rates_riemann, RATES, MEAN, \
+      "m_i a_i = -2 sum_j V_i V_j P* grad_i W_ij; drho_i/dt = 2 rho_i sum_j V_j (v_i - v*) . grad_i W_ij", "Zhang, Hu & Adams 2017, JCP 335, 605", \
+      "With the usual limiter, 3, without gravity. It smooths jumps of pressure, and leaves a contact alone.", \
+      sph_fluid_rates_riemann(k, dim, a.cloud, a.flow, a.riemann, a.lossy)) \
+    X(shift_displacement, sph_shift_displacement, SHIFTING, MEAN, \
+      "dx_i = -strength_i G_i", "Lind, Xu, Stansby & Rogers 2012, JCP 231, 1499", \
+      "Strength 0.4 h^2, without a limit. Without the directions of a free surface it throws particles out there.", \
+      sph_shift_displacement(k, dim, a.cloud, a.shift, a.vector)) \
+    X(shift_tensile, sph_shift_displacement, SHIFTING, MEAN, \
+      "G_i = sum_j V_j (1 + R (W_ij / W(dx))^4) grad_i W_ij", "Sun, Colagrossi, Marrone & Zhang 2017, CMAME 315, 25", \
+      "R = 0.2: pushes close particles a little more apart. Strength 0.4 h^2, without a limit.", \
+      sph_shift_displacement(k, dim, a.cloud, a.tensile, a.vector)) \
+    X(collision_sequential, sph_collision_sequential, COLLISIONS, CLOSE, \
+      "dv_i = -(1 + C_R) w_i / (w_i + w_j) (v_ij . e) e", "Korzilius, Schilders & Anthonissen, section IV", \
+      "One pair after the other; not for ranges of threads. Here the distance is 0.75 dx, C_R = 1/2, and lists are those of the kernel: its own are far shorter, and then it costs less.", \
+      atlas_sequential(dim, &a)) \
+    X(collision_weighted, sph_collision_change_weighted, COLLISIONS, CLOSE, \
+      "dv_i = -(1 + C_R) w_i / (w_i + w_j) (v_ij . e) e", "Korzilius, Schilders & Anthonissen, section IV", \
+      "All pairs at once, in any order and on any number of threads; particles in several collisions lose more energy and stay closer. Distance and lists as in collision_sequential.", \
+      atlas_weighted(dim, &a)) \
+    X(gravity_direct, sph_gravity_direct, GRAVITY, NONE, \
+      "E = G/2 sum_i sum_j m_i m_j (phi(r, h_i) + phi(r, h_j)) / 2", "Price & Monaghan 2007, MNRAS 374, 1347", \
+      "In 3D only. n^2 steps: its cost for a particle is that among 8000 of them. If h follows the density, sph_gravity_correction belongs to it.", \
+      dim == 3 ? sph_gravity_direct(k, a.cloud, a.m_f, SPH_R(1), a.vector, a.potential) : (sph_index)SPH_OK)
 /* clang-format on */
 
 #endif

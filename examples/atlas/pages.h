@@ -2,14 +2,17 @@
  *
  * pages.h - the pages of the atlas: index.html with a table of all operators, choose.html, and one page for each
  * operator. Plain files that load nothing from elsewhere; without scripts all is there but sorting and filters.
+ *
+ * What a page says without having measured it is written by functions named ..._words and ..._row: pages that are
+ * kept are compared with them (pages_stale).
  */
 #ifndef ATLAS_PAGES_H
 #define ATLAS_PAGES_H
 
 #include "../common/part_file.h"
+#include "figures.h"
 #include "header.h"
 #include "mathml.h"
-#include "measure.h"
 #include "svg.h"
 
 typedef struct result {
@@ -52,13 +55,17 @@ static inline void page_done(part_file *page)
     fprintf(stderr, "atlas: %s could not be written: is the disk full?\n", page->path);
     exit(2);
 }
-static inline part_file page_open(const atlas *a, const char *name, const char *title)
+static inline void head_words(FILE *to, const char *title)
 {
-    const part_file page = page_file(a, name, "html");
-    fprintf(page.to, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+    fprintf(to, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                      "<title>%s - atlas of sph.h</title>\n<link rel=\"stylesheet\" href=\"atlas.css\">\n</head>\n<body>\n"
                      "<nav aria-label=\"pages\"><a href=\"index.html\">All operators</a> <a href=\"choose.html\">Which one?</a> <a href=\"kernels.html\">Kernels</a></nav>\n<main>\n<h1>%s</h1>\n",
             title, title);
+}
+static inline part_file page_open(const atlas *a, const char *name, const char *title)
+{
+    const part_file page = page_file(a, name, "html");
+    head_words(page.to, title);
     return page;
 }
 static inline void page_close(const atlas *a, part_file *page)
@@ -91,6 +98,9 @@ static inline void cell(FILE *to, double value, const char *text)
 static inline const char *yes_no(int yes) { return yes ? "yes" : "no"; }
 static inline int is_laplacian(const op *o) { return o->family == LAPLACIAN || o->family == ELLIPTIC; }
 static inline int has_rows(const op *o) { return is_laplacian(o) || o->family == VALUE; }
+/* The portrait that tables of all operators show: of 2D, if the operator is not one of 3D only. */
+static inline const portrait *shown(const op *o, const result *r) { return &r->of[o->family == GRAVITY]; }
+static inline int has_sum(const op *o) { return family(o->family).powers > 0 || o->family > ADAPTIVE; }
 static inline double worse(double a, double b) { return isnan(a) ? b : isnan(b) ? a : fmax(a, b); }
 
 /* What claims are compared with: orders inside lattices, in disorder (the least of three clouds), at boundaries. */
@@ -103,16 +113,14 @@ static inline void measured_orders(const errors *e, double *order)
 
 /* ---- index.html ---- */
 
-static inline void page_style(const atlas *a)
+static inline void style_words(FILE *to)
 {
-    part_file page = page_file(a, "atlas", "css");
-    FILE *const to = page.to;
     fputs(":root{color-scheme:light dark;--ground:#fff;--ink:#1a1a1a;--faint:#5b6066;--line:#d5d9de;--box:#f4f6f8;--link:#0b5cad;--c0:#0b5cad;--c1:#c2410c;--c2:#15803d;--c3:#9333ea;--c4:#a16207;--c5:#be123c;--c6:#0e7490;--c7:#4d4d4d}\n"
           "@media(prefers-color-scheme:dark){:root{--ground:#15181c;--ink:#e8eaed;--faint:#a3aab2;--line:#3a4149;--box:#1f242a;--link:#7db7ff;--c0:#7db7ff;--c1:#ff9a5c;--c2:#5fd68a;--c3:#cf9bff;--c4:#f0c24b;--c5:#ff8096;--c6:#5ad1e6;--c7:#c0c0c0}}\n"
           "*{box-sizing:border-box}body{margin:0 auto;padding:1rem;max-width:110rem;background:var(--ground);color:var(--ink);font:16px/1.5 system-ui,sans-serif}\n"
           "a{color:var(--link)}nav a{margin-right:1.2rem}h1{font-size:1.6rem;overflow-wrap:anywhere}h2{font-size:1.25rem;margin-top:2rem}p,li,dd{max-width:70ch}\n"
           ".scroll{overflow-x:auto;max-width:100%}table{border-collapse:collapse;font-size:.9rem}caption{text-align:left;padding:.3rem 0;color:var(--faint)}th,td{border-bottom:1px solid var(--line);padding:.25rem .6rem;text-align:right;white-space:nowrap}\n"
-          "th:first-child,td:first-child{text-align:left}.sort th:first-child{position:sticky;left:0;background:var(--box)}thead th{background:var(--box);vertical-align:bottom}th button{font:inherit;font-weight:bold;color:inherit;background:none;border:0;padding:.3rem 0;cursor:pointer;text-align:inherit;white-space:normal}\n"
+          "th:first-child,td:first-child{text-align:left}th.words{white-space:normal;min-width:14rem;font-weight:normal}.sort th:first-child{position:sticky;left:0;background:var(--box)}thead th{background:var(--box);vertical-align:bottom}th button{font:inherit;font-weight:bold;color:inherit;background:none;border:0;padding:.3rem 0;cursor:pointer;text-align:inherit;white-space:normal}\n"
           "th[aria-sort=ascending] button::after{content:' \\25B2'}th[aria-sort=descending] button::after{content:' \\25BC'}button:focus-visible,a:focus-visible,input:focus-visible,select:focus-visible{outline:3px solid var(--link);outline-offset:2px}\n"
           "tbody tr:hover{background:var(--box)}td.left{text-align:left}td.note{white-space:normal;min-width:18rem;text-align:left}form{display:flex;flex-wrap:wrap;gap:.6rem 1.5rem;margin:1rem 0}label{display:inline-block;max-width:100%}input,select{max-width:100%;font:inherit;padding:.2rem .4rem;background:var(--ground);color:var(--ink);border:1px solid var(--faint);border-radius:3px}\n"
           "pre{background:var(--box);padding:.8rem;overflow-x:auto;font-size:.85rem}.equation{overflow-x:auto;padding:.5rem;background:var(--box)}math{font-size:1.2rem}\n"
@@ -123,6 +131,11 @@ static inline void page_style(const atlas *a)
     static const char *const dash[SVG_SERIES] = {"none", "7 3", "2 3", "9 3 2 3", "none", "5 5", "1 4", "12 4"};
     for (int s = 0; s < SVG_SERIES; s++) fprintf(to, ".s%d{stroke:var(--c%d);stroke-width:2;fill:none;stroke-dasharray:%s}.m%d{fill:var(--c%d)}\n", s, s, dash[s], s, s);
     fputs("@media print{nav,form{display:none}body{font-size:10pt;max-width:none}figure,tr{break-inside:avoid}:root{--ground:#fff;--ink:#000;--line:#bbb;--box:#f4f4f4}}\n", to);
+}
+static inline void page_style(const atlas *a)
+{
+    part_file page = page_file(a, "atlas", "css");
+    style_words(page.to);
     page_done(&page);
 }
 
@@ -161,37 +174,48 @@ static inline void family_select(FILE *to)
     fputs("</select></label>\n", to);
 }
 
-static inline void page_index(const atlas *a)
+/* What is above the rows of the table, and the beginning of a row: no number is in it that was measured. */
+static inline void index_words(FILE *to, const config *first)
 {
-    part_file page = page_open(a, "index", "Atlas of operators");
-    FILE *const to = page.to;
-    char text[32];
     static const char *const column[] = {"operator", "exact for", "order inside lattices", "order in disorder", "order at boundaries", "error, lattice", "error, jittered", "error, random",
                                          "error, wall", "error, corner", "sum over all", "one sign", "cost 2D", "cost 3D"};
     fprintf(to, "<p>What each operator does to particles, measured by one program: on lattices, in disorder, at walls, free surfaces and corners. "
-                "Errors are root mean squares, in units of the size of the answer, at 64 particles for a length of one (a wave of the field that is looked at is two and a half long); here in 2D with %s and h = %.1f dx. "
+                "Errors are root mean squares, in units of the size of the answer, at 64 particles for a length of one (a wave of the field that is looked at is two and a half long); here in 2D with %s and h = %.1f dx (gravity: 3D). "
                 "Orders are those against the spacing, for h / dx fixed: 0 means that more particles do not help. "
-                "<a href=\"choose.html\">Which operator shall I take?</a></p>\n", sph_kernel_name(a->configs[0].k), a->configs[0].h_dx);
+                "<a href=\"choose.html\">Which operator shall I take?</a></p>\n", sph_kernel_name(first->k), first->h_dx);
     fputs("<form><label>Words <input name=\"words\" type=\"search\"></label>\n", to);
     family_select(to);
     fputs("<output aria-live=\"polite\"></output></form>\n<div class=\"scroll\" role=\"region\" aria-label=\"all operators\" tabindex=\"0\"><table class=\"sort\">\n"
           "<caption>A heading sorts by its column. Cost: time for a particle, in units of sph_density_summation.</caption>\n<thead><tr>", to);
     for (size_t c = 0; c < sizeof column / sizeof column[0]; c++) fprintf(to, "<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">%s</button></th>", column[c]);
     fputs("</tr></thead>\n<tbody>\n", to);
+}
+static inline void index_row(FILE *to, const op *o)
+{
+    fprintf(to, "<tr data-family=\"%d\" data-good=\"\"><th scope=\"row\"><a href=\"%s.html\">%s</a></th>", o->family, o->id, o->id);
+}
+static inline void page_index(const atlas *a)
+{
+    part_file page = page_open(a, "index", "Atlas of operators");
+    FILE *const to = page.to;
+    char text[32];
+    index_words(to, &a->configs[0]);
     for (int q = 0; q < a->count; q++) {
         const op *const o = &a->operators[q];
         const result *const r = &a->results[q];
+        const portrait *const seen = shown(o, r);
         const errors *const e = &r->at[0];
         double order[3];
         measured_orders(e, order);
-        fprintf(to, "<tr data-family=\"%d\" data-good=\"\"><th scope=\"row\"><a href=\"%s.html\">%s</a></th>", o->family, o->id, o->id);
-        cell(to, r->of[0].exact, degree_text(r->of[0].exact));
+        index_row(to, o);
+        if (o->family < WITH_ERRORS) cell(to, seen->exact, degree_text(seen->exact));
+        else cell(to, (double)NAN, "-");
         for (int c = 0; c < 3; c++) cell(to, order[c], order_text(text, order[c]));
         const double error[5] = {e->rms[SAMPLE_LATTICE][REGION_INSIDE][SHOWN], e->rms[SAMPLE_JITTER][REGION_INSIDE][SHOWN], e->rms[SAMPLE_RANDOM][REGION_INSIDE][SHOWN],
                                  worse(e->rms[SAMPLE_LATTICE][REGION_WALL][SHOWN], e->rms[SAMPLE_LATTICE][REGION_SURFACE][SHOWN]), e->rms[SAMPLE_LATTICE][REGION_CORNER][SHOWN]};
         for (int c = 0; c < 5; c++) cell(to, error[c], error_text(text, error[c]));
-        if (o->family == VALUE) cell(to, (double)NAN, "-");
-        else cell(to, r->of[0].momentum, r->of[0].momentum < 1e-10 ? "kept" : "not kept");
+        if (has_sum(o)) cell(to, seen->momentum, seen->momentum < 1e-10 ? "kept" : "not kept");
+        else cell(to, (double)NAN, "-");
         if (has_rows(o)) cell(to, 1.0 - r->of[0].monotone_all, (snprintf(text, sizeof text, "%.0f %%", 100.0 * r->of[0].monotone_all), text));
         else cell(to, (double)NAN, "-");
         for (int d = 0; d < 2; d++) cell(to, r->cost[d], isnan(r->cost[d]) ? "-" : (snprintf(text, sizeof text, "%.1f", r->cost[d]), text));
@@ -237,14 +261,9 @@ static inline void page_status(FILE *to, const errors *e)
     fputs(any ? "</ul>\n" : "<p>Every particle of every cloud is ok.</p>\n", to);
 }
 
-static inline void page_operator(const atlas *a, int q)
+/* What is read from the table and from sph_ops.h. */
+static inline void operator_words(FILE *to, const op *o, const header *says)
 {
-    const op *const o = &a->operators[q];
-    const result *const r = &a->results[q];
-    const portrait *const p = &r->of[0];
-    part_file page = page_open(a, o->id, o->id);
-    FILE *const to = page.to;
-    char text[32];
     passage comment, signature;
     fprintf(to, "<p>%s. <code>%s</code> of <code>sph_ops.h</code>.</p>\n<div class=\"equation\">", family(o->family).heading, o->function);
     mathml_write(to, o->formula);
@@ -252,20 +271,24 @@ static inline void page_operator(const atlas *a, int q)
     html_text(to, o->source, strlen(o->source));
     fputs("</dd><dt>To know</dt><dd>", to);
     html_text(to, o->note, strlen(o->note));
-    fprintf(to, "</dd><dt>List</dt><dd>%s</dd>", list_kind_text(o->list));
-    if (!isnan(r->cost[0])) fprintf(to, "<dt>Cost</dt><dd>%.1f times that of a density in 2D, %.1f times in 3D (%.0f and %.0f ns for a particle)</dd>", r->cost[0], r->cost[1], r->cost_ns[0], r->cost_ns[1]);
-    fputs("</dl>\n", to);
-    if (header_function(a->says, o->function, &comment, &signature)) {
+    fprintf(to, "</dd><dt>List</dt><dd>%s</dd></dl>\n", list_kind_text(o->list));
+    if (header_function(says, o->function, &comment, &signature)) {
         fputs("<h2>Call</h2>\n<pre>", to);
         html_text(to, signature.from + strlen("SPH_FN "), (size_t)(signature.to - signature.from) - strlen("SPH_FN "));
         fputs("</pre>\n<h2>What the header says</h2>\n<pre>", to);
         html_text(to, comment.from, (size_t)(comment.to - comment.from));
         fputs("</pre>\n", to);
     }
+}
+static inline void claim_words(FILE *to, const claim *c)
+{
+    fprintf(to, "<tr><th scope=\"row\">sph_ops.h</th><td>%s</td><td>%s</td><td>%d</td><td>%d</td><td>%d</td></tr>\n", degree_text(c->exact), degree_text(c->exact_lattice), c->order[0], c->order[1], c->order[2]);
+}
+static inline void page_exactness(FILE *to, const result *r)
+{
+    char text[32];
     fputs("<h2>Exactness and order, said and measured</h2>\n<div class=\"scroll\"><table><thead><tr><th scope=\"col\"></th><th scope=\"col\">exact for</th><th scope=\"col\">inside lattices for</th><th scope=\"col\">order inside lattices</th><th scope=\"col\">in disorder</th><th scope=\"col\">at boundaries</th></tr></thead><tbody>\n", to);
-    if (r->claim.given > 0)
-        fprintf(to, "<tr><th scope=\"row\">sph_ops.h</th><td>%s</td><td>%s</td><td>%d</td><td>%d</td><td>%d</td></tr>\n", degree_text(r->claim.exact), degree_text(r->claim.exact_lattice), r->claim.order[0],
-                r->claim.order[1], r->claim.order[2]);
+    if (r->claim.given > 0) claim_words(to, &r->claim);
     for (int d = 0; d < 2; d++) {
         double order[3];
         measured_orders(&r->at[d], order);
@@ -273,13 +296,20 @@ static inline void page_operator(const atlas *a, int q)
         for (int c = 0; c < 3; c++) fprintf(to, "<td>%s</td>", order_text(text, order[c]));
         fputs("</tr>\n", to);
     }
-    fputs("</tbody></table></div>\n<h2>Errors</h2>\n", to);
+    fputs("</tbody></table></div>\n", to);
+}
+static inline void page_errors(FILE *to, const atlas *a, const result *r)
+{
+    fputs("<h2>Errors</h2>\n", to);
     for (int c = 0; c < 2; c++) page_numbers(to, &r->at[c], &a->configs[c]);
     page_status(to, &r->at[0]);
     if (a->configurations > 2) fputs("<details><summary>Other kernels and lengths</summary>\n", to);
     for (int c = 2; c < a->configurations; c++) page_numbers(to, &r->at[c], &a->configs[c]);
     if (a->configurations > 2) fputs("</details>\n", to);
-
+}
+static inline void page_plots(FILE *to, const op *o, const result *r)
+{
+    const portrait *const p = &r->of[0];
     fputs("<h2>Plots</h2>\n<p>2D, the first of the tables above.</p>\n<div class=\"plots\">\n", to);
     double spacing[LEVELS], away[DISTANCES], waves[WAVES], part[4][WAVES];
     for (int level = 0; level < LEVELS; level++) spacing[level] = level_spacing(level);
@@ -310,7 +340,7 @@ static inline void page_operator(const atlas *a, int q)
         svg_add(&plot, "3D", atlas_jitter, r->of[1].at_jitter, JITTERS);
         svg_write(to, &plot);
     }
-    {
+    if (o->family < LINEAR) {
         svg_plot plot = {"Response to a wave, as a share of the true one", "k dx", "share", 0, 0, 0, -0.5, 1.6, 0, {{0}}};
         for (int w = 0; w < WAVES; w++) {
             waves[w] = acos(-1.0) * (w + 1) / WAVES;
@@ -331,17 +361,47 @@ static inline void page_operator(const atlas *a, int q)
         free(re);
         free(im);
     }
-    fputs("</div>\n<h2>Properties</h2>\n<p>On a small jittered cloud in 2D, without periodic boundaries.</p>\n<dl>\n", to);
+    fputs("</div>\n", to);
+}
+/* The figures of operators that are not linear. */
+static inline void page_figures(FILE *to, const result *r, const config *configs)
+{
+    char text[32];
+    fputs("<h2>Figures</h2>\n<p>On small clouds with the spacing dx, without periodic boundaries.</p>\n", to);
+    for (int d = 0; d < 2; d++) {
+        if (!r->of[d].figure_count) continue;
+        fprintf(to, "<div class=\"scroll\" role=\"region\" aria-label=\"figures in %dD\" tabindex=\"0\"><table><caption>%dD, %s, h = %.1f dx</caption><thead><tr><th scope=\"col\"></th>", configs[d].dim, configs[d].dim,
+                sph_kernel_name(configs[d].k), configs[d].h_dx);
+        for (int kind = 0; kind < SAMPLE_KINDS; kind++) fprintf(to, "<th scope=\"col\">%s</th>", sample_kind_name(kind));
+        fputs("</tr></thead><tbody>\n", to);
+        for (int f = 0; f < r->of[d].figure_count; f++) {
+            fprintf(to, "<tr><th scope=\"row\" class=\"words\">%s</th>", r->of[d].figures[f].name);
+            for (int kind = 0; kind < SAMPLE_KINDS; kind++) {
+                const double value = r->of[d].figures[f].value[kind];
+                fprintf(to, "<td>%s%s</td>", value < 0.0 && value < -1e-11 ? "&#8722;" : "", error_text(text, fabs(value)));
+            }
+            fputs("</tr>\n", to);
+        }
+        fputs("</tbody></table></div>\n", to);
+    }
+}
+static inline void page_properties(FILE *to, const atlas *a, const op *o, const result *r)
+{
+    const portrait *const p = shown(o, r);
+    char text[32];
+    fprintf(to, "<h2>Properties</h2>\n<p>On %s, without periodic boundaries.</p>\n<dl>\n", o->family < LINEAR ? "a small jittered cloud in 2D" : o->family == GRAVITY ? "the clouds of the figures, the worst of all" : "the clouds of the figures in 2D, the worst of all");
     if (has_rows(o)) {
         fprintf(to, "<dt>Signs of the weights</dt><dd>%.0f %% of the rows have neighbours of one sign (inside: %.0f %%)</dd>\n", 100.0 * p->monotone_all, 100.0 * p->monotone_inside);
         fprintf(to, "<dt>Symmetry</dt><dd>V<sub>i</sub> L<sub>ij</sub> differs from V<sub>j</sub> L<sub>ji</sub> by %s of its size</dd>\n", error_text(text, p->symmetry));
     }
     if (p->eigenvalues)
         fprintf(to, "<dt>Spectrum</dt><dd>real parts from %.3g to %.3g, imaginary parts up to %.2g; condition %.3g</dd>\n", p->re_least, p->re_most, p->im_most, p->condition);
-    if (o->family != VALUE) {
-        fprintf(to, "<dt>Sum over all particles</dt><dd>%s of the sum of sizes: it is %s</dd>\n", error_text(text, p->momentum < 1e-11 ? 0.0 : p->momentum), p->momentum < 1e-10 ? "kept" : "not kept");
-        if (family(o->family).out == 1)
+    if (has_sum(o)) {
+        fprintf(to, "<dt>%s</dt><dd>%s of the sum of sizes: it is %s</dd>\n", o->family < LINEAR ? "Sum over all particles" : o->family == SHIFTING ? "Centre of volume" : "Momentum", error_text(text, p->momentum < 1e-11 ? 0.0 : p->momentum), p->momentum < 1e-10 ? "kept" : "not kept");
+        if (family(o->family).out == 1 && o->family != SHIFTING)
             fprintf(to, "<dt>Angular momentum</dt><dd>%s: it is %s</dd>\n", error_text(text, p->angular < 1e-11 ? 0.0 : p->angular), p->angular < 1e-10 ? "kept" : "not kept");
+        if (o->family == RATES || o->family == COLLISIONS) fprintf(to, "<dt>Energy</dt><dd>%s for random velocities</dd>\n", p->energy < 1e-10 ? "never grew" : "grew");
+        if (o->family == GRAVITY) fprintf(to, "<dt>Energy</dt><dd>the work of the forces is that of the potential, but for %s of it</dd>\n", error_text(text, p->energy));
         if (is_laplacian(o) || o->family == VISCOSITY) fprintf(to, "<dt>Energy</dt><dd>the sum of V f L f was %s for random fields</dd>\n", p->energy < 0.0 ? "always negative: it damps" : "not always negative");
     }
     if (p->conjugates) {
@@ -349,7 +409,24 @@ static inline void page_operator(const atlas *a, int q)
         for (int c = 0; c < p->conjugates; c++) fprintf(to, "%s<a href=\"%s.html\">%s</a>", c ? ", " : "", a->operators[p->conjugate[c]].id, a->operators[p->conjugate[c]].id);
         fputs(": the sum of V f div A is minus the sum of V A &#8901; grad f, to rounding</dd>\n", to);
     }
-    fprintf(to, "<dt>Rotation</dt><dd>turning everything changes the result by %s of its size</dd>\n</dl>\n", error_text(text, p->rotation));
+    fprintf(to, "<dt>Rotation</dt><dd>turning everything changes the result by %s of its size</dd>\n", error_text(text, p->rotation));
+    if (!isnan(r->cost[0]) && o->family != GRAVITY) fprintf(to, "<dt>Cost</dt><dd>%.1f times that of a density in 2D, %.1f times in 3D (%.0f and %.0f ns for a particle)</dd>\n", r->cost[0], r->cost[1], r->cost_ns[0], r->cost_ns[1]);
+    if (!isnan(r->cost[1]) && o->family == GRAVITY) fprintf(to, "<dt>Cost</dt><dd>%.0f times that of a density (%.0f ns for a particle)</dd>\n", r->cost[1], r->cost_ns[1]);
+    fputs("</dl>\n", to);
+}
+static inline void page_operator(const atlas *a, int q)
+{
+    const op *const o = &a->operators[q];
+    const result *const r = &a->results[q];
+    part_file page = page_open(a, o->id, o->id);
+    operator_words(page.to, o, a->says);
+    if (o->family < WITH_ERRORS) {
+        page_exactness(page.to, r);
+        page_errors(page.to, a, r);
+        page_plots(page.to, o, r);
+    }
+    if (o->family >= LINEAR) page_figures(page.to, r, a->configs);
+    page_properties(page.to, a, o, r);
     page_close(a, &page);
 }
 
@@ -377,6 +454,14 @@ static inline double kernel_density(sph_kernel kernel, int dim, double h_dx)
             for (int x = -reach; x <= reach; x++) sum += (double)sph_kernel_w(kernel, dim, SPH_R(sqrt(x * x + y * y + z * z)), SPH_R(h_dx));
     return sum;
 }
+static inline void kernels_words(FILE *to)
+{
+    fputs("<p>All lengths are in units of the support, so that kernels can be compared at an equal number of neighbours. Where the Fourier transform is negative, particles may pair: "
+          "a wave of that length gains energy (Dehnen &amp; Aly 2012); here it counts from &#8722;1e-5 on. The density is what a perfect lattice of the density 1 sums up.</p>\n<div class=\"scroll\" role=\"region\" aria-label=\"kernels\" tabindex=\"0\"><table class=\"sort\"><thead><tr>", to);
+    static const char *const column[] = {"kernel", "support / h", "usual h / dx", "density, 2D", "density, 3D", "h = 2 dx, 2D", "h = 2 dx, 3D", "least of the transform", "can pair"};
+    for (size_t c = 0; c < sizeof column / sizeof column[0]; c++) fprintf(to, "<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">%s</button></th>", column[c]);
+}
+static inline void kernels_row(FILE *to, sph_kernel kernel) { fprintf(to, "<tr><th scope=\"row\">%s</th>", sph_kernel_name(kernel)); }
 static inline void page_kernels(const atlas *a)
 {
     static double x[KERNEL_POINTS], k[KERNEL_POINTS], length[KERNEL_POINTS], w[SPH_KERNEL_COUNT][KERNEL_POINTS], f[SPH_KERNEL_COUNT][KERNEL_POINTS], transform[SPH_KERNEL_COUNT][KERNEL_POINTS],
@@ -396,10 +481,7 @@ static inline void page_kernels(const atlas *a)
             density[n][q] = kernel_density(kernel, 2, length[q] / ratio) - 1.0;
         }
     }
-    fputs("<p>All lengths are in units of the support, so that kernels can be compared at an equal number of neighbours. Where the Fourier transform is negative, particles may pair: "
-          "a wave of that length gains energy (Dehnen &amp; Aly 2012); here it counts from &#8722;1e-5 on. The density is what a perfect lattice of the density 1 sums up.</p>\n<div class=\"scroll\" role=\"region\" aria-label=\"kernels\" tabindex=\"0\"><table class=\"sort\"><thead><tr>", to);
-    static const char *const column[] = {"kernel", "support / h", "usual h / dx", "density, 2D", "density, 3D", "h = 2 dx, 2D", "h = 2 dx, 3D", "least of the transform", "can pair"};
-    for (size_t c = 0; c < sizeof column / sizeof column[0]; c++) fprintf(to, "<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">%s</button></th>", column[c]);
+    kernels_words(to);
     fputs("</tr></thead>\n<tbody>\n", to);
     for (int n = 0; n < (int)SPH_KERNEL_COUNT; n++) {
         const sph_kernel kernel = (sph_kernel)n;
@@ -407,7 +489,7 @@ static inline void page_kernels(const atlas *a)
         double least = 1.0;
         for (int q = 0; q < 4 * KERNEL_POINTS; q++) least = fmin(least, kernel_transform(kernel, 40.0 * q / (4 * KERNEL_POINTS) / (double)sph_kernel_support_ratio(kernel)));
         const double value[7] = {(double)sph_kernel_support_ratio(kernel), usual, kernel_density(kernel, 2, usual), kernel_density(kernel, 3, usual), kernel_density(kernel, 2, 2.0), kernel_density(kernel, 3, 2.0), least};
-        fprintf(to, "<tr><th scope=\"row\">%s</th>", sph_kernel_name(kernel));
+        kernels_row(to, kernel);
         for (int c = 0; c < 7; c++) fprintf(to, c < 2 ? "<td data-v=\"%.6g\">%.2g</td>" : c < 6 ? "<td data-v=\"%.6g\">%.4f</td>" : "<td data-v=\"%.6g\">%.1e</td>", value[c], fabs(value[c]) < 1e-7 ? 0.0 : value[c]);
         fprintf(to, "<td>%s</td></tr>\n", yes_no(least < -1e-5));
     }
@@ -445,7 +527,7 @@ static inline int answers_well(const atlas *a, int q, int question)
     switch (question) {
     case 0: return order[2] > 0.6;
     case 1: return order[1] > 0.6;
-    case 2: return o->family != VALUE && r->of[0].momentum < 1e-10;
+    case 2: return has_sum(o) && shown(o, r)->momentum < 1e-10;
     case 3: return has_rows(o) && r->of[0].monotone_all > 0.999;
     default: /* not dearer than the middle one of its family */
         if (isnan(r->cost[0])) return 0;
@@ -474,21 +556,39 @@ static inline double answer_figure(const atlas *a, int q, int question, char tex
         snprintf(text, 96, "%s, order %s", error_text(one, error), order_text(two, order[1]));
         return error;
     }
-    case 2: snprintf(text, 96, "%s", error_text(one, r->of[0].momentum < 1e-10 ? 0.0 : r->of[0].momentum)); return r->of[0].momentum;
+    case 2: {
+        const double momentum = shown(&a->operators[q], r)->momentum;
+        snprintf(text, 96, "%s", error_text(one, momentum < 1e-10 ? 0.0 : momentum));
+        return momentum;
+    }
     case 3: snprintf(text, 96, "%.0f %%", 100.0 * r->of[0].monotone_all); return 1.0 - r->of[0].monotone_all;
     default: snprintf(text, 96, "%.1f", r->cost[0]); return r->cost[0];
     }
 }
 /* What follows from a question: of each family the operators that have it, the best first, and those that have not. */
-static inline void answer_section(FILE *to, const atlas *a, int question, const char *heading, const char *follows, const char *figure)
+static inline void answer_words(FILE *to, int question)
 {
-    fprintf(to, "<h2>%s</h2>\n<p>%s In brackets: %s.</p>\n<ul>\n", heading, follows, figure);
+    static const char *const says[QUESTIONS][3] = {
+        {"Boundaries?", "If supports are cut off, take what is renormalised: its error falls there with the spacing. A quadratic fit gains another order for gradients, and is what second derivatives need. "
+         "Without it, keep the uncorrected form and give it particles or integrals behind the boundary.", "error next to a wall or free surface of a lattice at dx = 1/64, and its order"},
+        {"Disorder?", "On a lattice nearly all are of second order, down to what h / dx leaves. On particles that move, only what is exact for linear fields (gradients) or quadratic ones (second derivatives) gets better with more of them.",
+         "error on random particles, inside, at dx = 1/64, and its order"},
+        {"Conservation?", "Forces and fluxes that must not create momentum or heat are sums over pairs with the same weight from both sides. They are inconsistent pointwise, and their particles order themselves instead.",
+         "what is left of the sum over all particles, relative"},
+        {"Signs of the matrix?", "With weights of one sign a maximum does not grow, explicit steps are stable up to a known limit, and simple solvers converge.", "rows with one sign, on a jittered cloud with its edges"},
+        {"Cost?", "If all else is equal. Corrections that are computed once and used often (sph_rk_correction, sph_gradient_correction_iad) are not counted, rows that are computed once and applied often are cheaper than the sweep.",
+         "time as a multiple of a density's, in 2D"}};
+    fprintf(to, "<h2>%s</h2>\n<p>%s In brackets: %s.</p>\n<ul>\n", says[question][0], says[question][1], says[question][2]);
+}
+static inline void answer_section(FILE *to, const atlas *a, int question)
+{
+    answer_words(to, question);
     for (int f = 0; f < FAMILIES; f++) {
         int rank[64], count = 0, good_ones = 0;
         double value[64];
         char text[96];
         for (int q = 0; q < a->count && count < 64; q++) {
-            if (a->operators[q].family != f || (question == 3 && !has_rows(&a->operators[q])) || (question == 2 && f == VALUE)) continue;
+            if (a->operators[q].family != f || (question == 3 && !has_rows(&a->operators[q])) || (question == 2 && !has_sum(&a->operators[q]))) continue;
             const int good = answers_well(a, q, question);
             const double figure_of = answer_figure(a, q, question, text) + (good ? 0.0 : 1e100);
             int place = count++;
@@ -511,23 +611,34 @@ static inline void answer_section(FILE *to, const atlas *a, int question, const 
     }
     fputs("</ul>\n", to);
 }
-static inline void page_choose(const atlas *a)
+static const char *const question_name[QUESTIONS] = {"boundary", "disorder", "conservation", "signs", "cost"};
+static inline void choose_words(FILE *to)
 {
-    static const char *const name[QUESTIONS] = {"boundary", "disorder", "conservation", "signs", "cost"};
     static const char *const text[QUESTIONS] = {"There are boundaries, and errors must fall there with the spacing", "Particles are in disorder, and errors must fall with the spacing",
                                                 "The sum over all particles (momentum, heat) must be kept to rounding", "The matrix must have weights of one sign (maxima do not grow, solvers converge)",
                                                 "It must be cheap: not above the middle of its family"};
     static const char *const what[QUESTIONS] = {"at boundaries", "in disorder", "keeps the sum", "one sign", "cost"};
-    part_file page = page_open(a, "choose", "Which operator shall I take?");
-    FILE *const to = page.to;
-    char word[32];
     fputs("<p>Five questions. Mark what you need; what is left has it, by what was measured (2D). No operator has all: what conserves is inconsistent in disorder, and what is exact there does not conserve. "
           "Where nothing is left, give up the need that costs you least.</p>\n<form>\n", to);
     family_select(to);
-    for (int k = 0; k < QUESTIONS; k++) fprintf(to, "<label><input type=\"checkbox\" name=\"%s\"> %s</label>\n", name[k], text[k]);
+    for (int k = 0; k < QUESTIONS; k++) fprintf(to, "<label><input type=\"checkbox\" name=\"%s\"> %s</label>\n", question_name[k], text[k]);
     fputs("<output aria-live=\"polite\"></output></form>\n<div class=\"scroll\" role=\"region\" aria-label=\"operators by need\" tabindex=\"0\"><table class=\"sort\"><caption>Orders of the error at boundaries and in disorder; the share of rows with one sign; cost in units of a density</caption>\n<thead><tr><th scope=\"col\" aria-sort=\"none\"><button type=\"button\">operator</button></th>", to);
     for (int k = 0; k < QUESTIONS; k++) fprintf(to, "<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">%s</button></th>", what[k]);
     fputs("<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">to know</button></th></tr></thead>\n<tbody>\n", to);
+}
+static inline void choose_row(FILE *to, const op *o) { fprintf(to, "<th scope=\"row\"><a href=\"%s.html\">%s</a></th>", o->id, o->id); }
+static inline void note_words(FILE *to, const op *o)
+{
+    fputs("<td class=\"note\">", to);
+    html_text(to, o->note, strlen(o->note));
+    fputs("</td></tr>\n", to);
+}
+static inline void page_choose(const atlas *a)
+{
+    part_file page = page_open(a, "choose", "Which operator shall I take?");
+    FILE *const to = page.to;
+    char word[32];
+    choose_words(to);
     for (int q = 0; q < a->count; q++) {
         const op *const o = &a->operators[q];
         const result *const r = &a->results[q];
@@ -535,28 +646,20 @@ static inline void page_choose(const atlas *a)
         measured_orders(&r->at[0], order);
         fprintf(to, "<tr data-family=\"%d\" data-good=\"", o->family);
         for (int k = 0; k < QUESTIONS; k++)
-            if (answers_well(a, q, k)) fprintf(to, "%s ", name[k]);
-        fprintf(to, "\"><th scope=\"row\"><a href=\"%s.html\">%s</a></th>", o->id, o->id);
+            if (answers_well(a, q, k)) fprintf(to, "%s ", question_name[k]);
+        fputs("\">", to);
+        choose_row(to, o);
         cell(to, -order[2], order_text(word, order[2]));
         cell(to, -order[1], order_text(word, order[1]));
-        cell(to, r->of[0].momentum, yes_no(r->of[0].momentum < 1e-10));
+        if (has_sum(o)) cell(to, shown(o, r)->momentum, yes_no(shown(o, r)->momentum < 1e-10));
+        else cell(to, (double)NAN, "-");
         if (has_rows(o)) cell(to, 1.0 - r->of[0].monotone_all, (snprintf(word, sizeof word, "%.0f %%", 100.0 * r->of[0].monotone_all), word));
         else cell(to, (double)NAN, "-");
         cell(to, r->cost[0], isnan(r->cost[0]) ? "-" : (snprintf(word, sizeof word, "%.1f", r->cost[0]), word));
-        fputs("<td class=\"note\">", to);
-        html_text(to, o->note, strlen(o->note));
-        fputs("</td></tr>\n", to);
+        note_words(to, o);
     }
     fputs("</tbody></table></div>\n", to);
-    answer_section(to, a, 0, "Boundaries?", "If supports are cut off, take what is renormalised: its error falls there with the spacing. A quadratic fit gains another order for gradients, and is what second derivatives need. "
-                   "Without it, keep the uncorrected form and give it particles or integrals behind the boundary.", "error next to a wall or free surface of a lattice at dx = 1/64, and its order");
-    answer_section(to, a, 1, "Disorder?", "On a lattice nearly all are of second order, down to what h / dx leaves. On particles that move, only what is exact for linear fields (gradients) or quadratic ones (second derivatives) gets better with more of them.",
-                   "error on random particles, inside, at dx = 1/64, and its order");
-    answer_section(to, a, 2, "Conservation?", "Forces and fluxes that must not create momentum or heat are sums over pairs with the same weight from both sides. They are inconsistent pointwise, and their particles order themselves instead.",
-                   "what is left of the sum over all particles, relative");
-    answer_section(to, a, 3, "Signs of the matrix?", "With weights of one sign a maximum does not grow, explicit steps are stable up to a known limit, and simple solvers converge.", "rows with one sign, on a jittered cloud with its edges");
-    answer_section(to, a, 4, "Cost?", "If all else is equal. Corrections that are computed once and used often (sph_rk_correction, sph_gradient_correction_iad) are not counted, rows that are computed once and applied often are cheaper than the sweep.",
-                   "time as a multiple of a density's, in 2D");
+    for (int k = 0; k < QUESTIONS; k++) answer_section(to, a, k);
     fputs(atlas_script, to);
     page_close(a, &page);
 }
@@ -568,6 +671,118 @@ static inline void pages_write(const atlas *a)
     page_index(a);
     page_choose(a);
     for (int q = 0; q < a->count; q++) page_operator(a, q);
+}
+
+/* ---- pages that are kept: do they say what the table and the comments say now? ---- */
+
+typedef struct kept_page {
+    char path[1024], *text;
+    const char *at; /* what comes next is looked for from here */
+    int stale;
+} kept_page;
+static inline kept_page kept_open(const char *folder, const char *name)
+{
+    kept_page k;
+    snprintf(k.path, sizeof k.path, "%s/%s", folder, name);
+    k.at = k.text = file_text(k.path);
+    k.stale = !k.text;
+    if (k.stale) fprintf(stderr, "atlas: no file %s\n", k.path);
+    return k;
+}
+static inline FILE *words_open(void)
+{
+    FILE *const words = tmpfile();
+    if (words) return words;
+    fprintf(stderr, "atlas: no temporary file can be made\n");
+    exit(2);
+}
+/* Looks for these words, and closes them. */
+static inline void kept_has(kept_page *k, FILE *words)
+{
+    const long length = ftell(words);
+    char *const want = (char *)need(NULL, (size_t)length + 1, 1);
+    rewind(words);
+    want[fread(want, 1, (size_t)length, words)] = '\0';
+    fclose(words);
+    const char *const found = k->text ? strstr(k->at, want) : NULL;
+    if (found) k->at = found + length;
+    else if (k->text && !k->stale) {
+        long same = 0; /* how much of it is there */
+        for (int there = 1; there && same < length; same += there) {
+            const char next = want[same + 1];
+            want[same + 1] = '\0';
+            there = strstr(k->at, want) != NULL;
+            want[same + 1] = next;
+        }
+        k->stale = 1;
+        for (char *line = want; (line = strchr(line, '\n')) != NULL;) *line = ' ';
+        fprintf(stderr, "atlas: %s does not say: ...%.70s\n", k->path, want + (same > 20 ? same - 20 : 0));
+    }
+    free(want);
+}
+static inline int kept_close(kept_page *k)
+{
+    free(k->text);
+    return k->stale;
+}
+#define KEPT(page, ...) \
+    do { \
+        FILE *const to = words_open(); \
+        __VA_ARGS__; \
+        kept_has(&(page), to); \
+    } while (0)
+
+/* Writes anew what an operator's page reads from the table and from sph_ops.h, and leaves what was measured. */
+static inline void kept_mend(const kept_page *k, const op *o, const header *says, const char *folder)
+{
+    const atlas a = {NULL, NULL, NULL, 0, 0, 0, NULL, folder};
+    const char *const measured = k->text ? strstr(k->text, o->family < WITH_ERRORS ? "<h2>Exactness and order" : "<h2>Figures") : NULL;
+    if (!measured) return;
+    part_file page = page_file(&a, o->id, "html");
+    head_words(page.to, o->id);
+    operator_words(page.to, o, says);
+    fputs(measured, page.to);
+    page_done(&page);
+}
+
+/* The number of files in the folder that say something else. mend: operators' pages are written anew as far as can be. */
+static inline int pages_stale(const op *o, int count, const config *first, const header *says, const char *folder, int mend)
+{
+    int stale = 0;
+    kept_page page = kept_open(folder, "atlas.css");
+    KEPT(page, style_words(to));
+    stale += kept_close(&page);
+    page = kept_open(folder, "kernels.html");
+    KEPT(page, head_words(to, "Kernels"));
+    KEPT(page, kernels_words(to));
+    for (int n = 0; n < (int)SPH_KERNEL_COUNT; n++) KEPT(page, kernels_row(to, (sph_kernel)n));
+    stale += kept_close(&page);
+    page = kept_open(folder, "index.html");
+    KEPT(page, head_words(to, "Atlas of operators"));
+    KEPT(page, index_words(to, first));
+    for (int q = 0; q < count; q++) KEPT(page, index_row(to, &o[q]));
+    stale += kept_close(&page);
+    page = kept_open(folder, "choose.html");
+    KEPT(page, head_words(to, "Which operator shall I take?"));
+    KEPT(page, choose_words(to));
+    for (int q = 0; q < count; q++) {
+        KEPT(page, choose_row(to, &o[q]));
+        KEPT(page, note_words(to, &o[q]));
+    }
+    for (int k = 0; k < QUESTIONS; k++) KEPT(page, answer_words(to, k));
+    stale += kept_close(&page);
+    for (int q = 0; q < count; q++) {
+        const claim c = header_claim(says, o[q].function, family(o[q].family).word);
+        char name[128];
+        snprintf(name, sizeof name, "%s.html", o[q].id);
+        page = kept_open(folder, name);
+        KEPT(page, head_words(to, o[q].id));
+        KEPT(page, operator_words(to, &o[q], says));
+        if (o[q].family < WITH_ERRORS && c.given > 0) KEPT(page, claim_words(to, &c));
+        if (mend && page.stale) kept_mend(&page, &o[q], says, folder);
+        stale += kept_close(&page);
+    }
+    return stale;
 }
 
 #endif

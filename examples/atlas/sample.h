@@ -35,6 +35,7 @@ static inline const char *sample_region_name(int region)
     return name[region];
 }
 
+enum sample_state { STATE_M, STATE_RHO, STATE_P, STATE_C, STATE_W, STATES }; /* of a fluid; W: 1 / m */
 enum { SAMPLE_CORRECTIONS = 16 + 6 }; /* arrays of reproducing kernels, and of IAD */
 typedef struct sample {
     sph_kernel k;
@@ -53,6 +54,10 @@ typedef struct sample {
     double *conditioning;
     double *scratch[3];
     double *row; /* one weight for each entry of the lists */
+    /* of operators that are not linear: a fluid, which is at rest if nobody fills it otherwise; the number of collisions
+       of a particle; the strength of shifting; and how far the lists reach */
+    double *state[STATES], strength, list_radius;
+    sph_index *collisions;
     search_grid grid;
     search_lists lists, with_self; /* without the particle itself, and with it */
     sph_cloud cloud;
@@ -94,6 +99,8 @@ static inline void sample_alloc(sample *s, sph_index n)
     s->wall_value = numbers(n);
     s->conditioning = numbers(n);
     for (int c = 0; c < SAMPLE_CORRECTIONS; c++) s->correction[c] = numbers(n);
+    for (int c = 0; c < STATES; c++) s->state[c] = numbers(n);
+    s->collisions = (sph_index *)need_zeros((size_t)n, sizeof *s->collisions);
     s->region = (unsigned char *)need_zeros((size_t)n, 1);
     s->status = (unsigned char *)need_zeros((size_t)n, 1);
 }
@@ -109,6 +116,8 @@ static inline void sample_free(sample *s)
         free(s->wall_slope[a]);
     }
     for (int c = 0; c < SAMPLE_CORRECTIONS; c++) free(s->correction[c]);
+    for (int c = 0; c < STATES; c++) free(s->state[c]);
+    free(s->collisions);
     free(s->unit_volume);
     free(s->volume);
     free(s->mobility);
@@ -200,6 +209,14 @@ static inline void sample_zoom(sample *s, double dx)
         for (int a = 0; a < 3; a++) s->x[a][i] = a < s->dim ? dx * (s->unit[a][i] - middle) : 0.0;
         s->volume[i] = volume * s->unit_volume[i];
     }
+    for (sph_index i = 0; i < s->n; i++) {
+        s->state[STATE_M][i] = s->volume[i];
+        s->state[STATE_W][i] = 1.0 / s->volume[i];
+        s->state[STATE_RHO][i] = s->state[STATE_P][i] = 1.0;
+        s->state[STATE_C][i] = 10.0;
+    }
+    s->strength = 0.4 * s->h * s->h;
+    s->list_radius = sample_reach(s) * dx;
     s->cloud = sph_cloud_of(sph_points_separate(s->n, s->x[0], s->x[1], s->x[2]), search_list(&s->lists), sph_scalars_same(&s->h), sph_scalars_array(s->volume));
     s->cloud = sph_cloud_checked(s->dim, s->cloud);
     if (s->corrected_at > 0.0) sample_rescale(s);

@@ -81,7 +81,8 @@ class Operators:
         SPH_NOT_FINITE       The sums overflowed. rho and omega are 0; h[i] is where that happened. Errors,
         besides those of all sweeps: SPH_ERROR_H for a guess or a list_radius that is not finite and positive,
         SPH_ERROR_VALUE for eta or tolerance out of range, SPH_ERROR_BOX for a list_radius beyond half the
-        box. Ranges of targets may run in parallel, because a range reads only its own entries of h.
+        box. Ranges of targets may run in parallel, because a range reads only its own entries of h. Atlas:
+        value exact for nothing; order 0 inside lattices, 0 in disorder, 0 at boundaries.
 
         h: first guess of h
         list_radius: of the targets: list i holds all sources with r < list_radius_i; no default
@@ -919,7 +920,8 @@ class Operators:
         exert no force on each other (sph_coincident_count finds them). Returns the number of targets of which
         a result overflowed (it is 0 then), or a negative sph_error: SPH_ERROR_VALUE also for densities and
         masses that are not positive, and sound speeds that are negative. Atlas: gradient exact for nothing,
-        inside lattices for constants; order 0 inside lattices, -1 in disorder, -1 at boundaries.
+        inside lattices for constants; order 0 inside lattices, -1 in disorder, -1 at boundaries. Atlas: keeps
+        momentum and angular momentum; energy never grows.
 
         m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
         rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
@@ -1451,7 +1453,8 @@ class Operators:
         `longest`. The host adds it to the positions; for a velocity of shifting it divides by dt (Sun et al.
         2019: longest = dt v_max / 2). A pair uses (h_i + h_j) / 2 (lists by SPH_MEAN). With the same strength
         for all, no surface and no limit, sum_i V_i dx_i = 0 to round-off. What it costs stands above. Returns
-        the number of targets whose shift overflowed (it is 0 then), or a negative sph_error.
+        the number of targets whose shift overflowed (it is 0 then), or a negative sph_error. Atlas: keeps the
+        centre of volume.
 
         strength: an area, of each particle or of all. There is no default
         tensile: R; 0: no such term
@@ -1596,7 +1599,8 @@ class Operators:
         is that of the velocities given: for the order of a step that the chapter above tells, call it again
         with the new velocities. Returns the number of targets of which a result overflowed (it is 0 then), or
         a negative sph_error: SPH_ERROR_VALUE also for masses, densities and sound speeds that are not
-        positive.
+        positive. Atlas: gradient exact for nothing, inside lattices for constants; order 0 inside lattices,
+        -1 in disorder, -1 at boundaries. Atlas: keeps momentum and angular momentum; energy never grows.
 
         m: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
         rho: mass, density, pressure, sound speed >= 0 (for artificial viscosity)
@@ -1740,7 +1744,7 @@ class Operators:
         also if both rows name it. Full lists, or lists with j > i only. Momentum and angular momentum are
         conserved to round-off, and the energy never grows for restitution <= 1. out may be null. Returns the
         number of pairs whose velocities or energy would overflow (they exchange nothing; 0: none), or a
-        negative sph_error.
+        negative sph_error. Atlas: keeps momentum and angular momentum; energy never grows.
 
         velocity: is changed in place
         distance: Particles that approach within `distance` collide. restitution: C_R (0 inelastic, 1
@@ -1787,7 +1791,8 @@ class Operators:
         and for the sources that are not walls. Full lists. The result does not depend on the order, and
         ranges may run in parallel. Momentum and angular momentum are conserved to round-off, and the energy
         never grows for restitution <= 1 (a particle in n > 1 collisions loses some energy also at 1). Returns
-        the number of targets whose result overflowed (it is 0 then), or a negative sph_error.
+        the number of targets whose result overflowed (it is 0 then), or a negative sph_error. Atlas: keeps
+        momentum and angular momentum; energy never grows.
 
         distance: Particles that approach within `distance` collide. restitution: C_R (0 inelastic, 1
         elastic).
@@ -2222,7 +2227,8 @@ class Operators:
         / 2 of the targets. newton is G. The sums run over all sources, with the particle itself: n^2 steps,
         for small clouds and to measure trees against. No list is read. The cloud is isolated: the lengths of
         the box are not used. Momentum is conserved to round-off. potential may be without an array. Returns
-        the number of targets of which a result overflowed (it is 0 then), or a negative sph_error.
+        the number of targets of which a result overflowed (it is 0 then), or a negative sph_error. Atlas:
+        keeps momentum and angular momentum; energy is kept.
         """
         return self._call("gravity_direct", locals())
 
