@@ -5797,8 +5797,8 @@ SPH_FN sph_wall_sums sphi_wall_pair_unknown(int dim, sph_real rho_j, sph_vec x_i
     return sph_wall_pair_adami(dim, other, none, x_ij, gravity, w);
 }
 
-SPH_FN sph_index sphi_wall_rows_range(int uniform, sph_kernel k, int dim, sph_cloud cloud, const sph_wall *wall,
-                                      sph_rows_out out, sph_scalar_out source)
+SPH_FN sph_index sphi_wall_rows_range(int uniform, sph_kernel k, int dim, sph_cloud cloud,
+                                      const sph_wall *wall, sph_rows_out out, sph_scalar_out source)
 {
     SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
     sph_index i, q, failed = 0;
@@ -6117,30 +6117,23 @@ SPH_FN sph_index sph_density_diffusion_fourtakas(sph_kernel k, int dim, sph_clou
 {
     return sphi_diffusion(SPHI_FOURTAKAS, k, dim, cloud, diffusion, out);
 }
-/* The D of Molteni & Colagrossi as rows: D_i = sum_p row[p] (rho_j - rho_i), row[p] >= 0, factor 1 and
-   conditioning 1. The rates of sph_density_diffusion_molteni without v agree to round-off. A row that
-   overflows is 0, with SPH_NOT_FINITE. */
-SPH_FN sph_index sph_density_diffusion_rows_molteni(sph_kernel k, int dim, sph_cloud cloud,
-                                                    sph_diffusion diffusion, sph_rows_out out)
+SPH_FN sph_index sphi_diffusion_rows_range(int uniform, sph_kernel k, int dim, sph_cloud cloud,
+                                           const sph_diffusion *d, sph_rows_out out)
 {
     SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
-    const int shared = diffusion.share.p != 0;
-    const sph_real speed = sphi_delta(diffusion.delta) * diffusion.tait.c;
-    int error = sphi_check_diffusion(SPHI_MOLTENI, k, dim, cloud, diffusion);
+    const int shared = d->share.p != 0;
+    const sph_real speed = sphi_delta(d->delta) * d->tait.c;
     sph_index i, p, failed = 0;
-    if (!error && !row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
-    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
-        const sph_real h_i = sphi_at(cloud.h, i),
-                       speed_i = shared ? speed * sphi_at(diffusion.share, i) : speed;
+        const sph_real h_i = sphi_at(cloud.h, i), speed_i = shared ? speed * sphi_at(d->share, i) : speed;
         int lost;
         SPH_EACH(p, cloud.list.start[i], cloud.list.start[i + 1]) {
             const sph_index j = cloud.list.index[p];
             const sph_real r = sph_length(dim, sphi_separation(dim, cloud.points, x_i,
                                                                sphi_point(dim, cloud.points, j))),
-                           h_ij = sphi_mean_h(0, cloud.h, h_i, j),
-                           strength = h_ij * (shared ? speed_i * sphi_at(diffusion.share, j) : speed_i);
+                           h_ij = sphi_mean_h(uniform, cloud.h, h_i, j),
+                           strength = h_ij * (shared ? speed_i * sphi_at(d->share, j) : speed_i);
             row[p] = SPH_R(2) * sph_density_diffusion_weight(sphi_at(cloud.volume, j), strength,
                                                              sph_kernel_f(k, dim, r, h_ij));
         }
@@ -6149,6 +6142,19 @@ SPH_FN sph_index sph_density_diffusion_rows_molteni(sph_kernel k, int dim, sph_c
         failed += lost;
     }
     return failed;
+}
+
+/* The D of Molteni & Colagrossi as rows: D_i = sum_p row[p] (rho_j - rho_i), row[p] >= 0, factor 1 and
+   conditioning 1. The rates of sph_density_diffusion_molteni without v agree to round-off. A row that
+   overflows is 0, with SPH_NOT_FINITE. */
+SPH_FN sph_index sph_density_diffusion_rows_molteni(sph_kernel k, int dim, sph_cloud cloud,
+                                                    sph_diffusion diffusion, sph_rows_out out)
+{
+    int error = sphi_check_diffusion(SPHI_MOLTENI, k, dim, cloud, diffusion);
+    if (!error && !out.row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
+    return cloud.h.stride ? sphi_diffusion_rows_range(0, k, dim, cloud, &diffusion, out)
+                          : sphi_diffusion_rows_range(1, k, dim, cloud, &diffusion, out);
 }
 
 /* The least eigenvalue of a symmetric tensor s: in 3D by the cosine of a third of an angle, in a quarter of
@@ -8448,8 +8454,8 @@ SPH_FN sph_real sphi_within(sph_real support, sph_real h_i, sph_real h_j, sph_re
     return SPH_R(0.5) +
            SPHI_COPYSIGN(SPH_R(0.5), support * SPH_R(0.5) * (h_i + h_j + SPHI_ABS(h_i - h_j)) - r);
 }
-/* The largest of `most` and n numbers. Blocks have several maxima, because a single one would wait for itself in
-   every pass. */
+/* The largest of `most` and n numbers. A block has as many maxima as numbers, because a single maximum would
+   wait for itself in every pass. */
 SPH_FN sph_real sphi_largest(sph_real most, const sph_real *of, int n)
 {
     sph_real lane[SPHI_BLOCK];
