@@ -55,6 +55,8 @@ check "its page is out of date" answers 1 "gradient_cspm.html does not say: .*gr
 check "no other is" answers 1 " 1 files" "$atlas" -kept $kept -headers "$false"
 check "a claim that changes" claim sph_gravity_direct "energy is kept|energy never grows"
 check "two pages are out of date" answers 1 " 2 files" "$atlas" -kept $kept -headers "$false"
+check "it is no claim of what is kept" answers 1 " 1 differs" one gravity -headers "$false"
+check "what is kept" found 'gravity_direct,.*what is kept,.*energy is kept.*,not what sph_ops.h says'
 mkdir "$scratch/copy"
 cp $kept/*.html $kept/atlas.css "$scratch/copy"
 sed 's/Randles/Randle/' $kept/gradient_cspm.html > "$scratch/copy/gradient_cspm.html"

@@ -14,7 +14,7 @@ static inline const char *mathml_letter(const char *word)
 {
     static const char *const known[][2] = {{"rho", "&#961;"},   {"nu", "&#957;"},    {"mu", "&#956;"},    {"eta", "&#951;"},   {"gamma", "&#947;"}, {"Gamma", "&#915;"},
                                            {"Omega", "&#937;"}, {"psi", "&#968;"},   {"sigma", "&#963;"}, {"alpha", "&#945;"}, {"kappa", "&#954;"}, {"xi", "&#958;"},
-                                           {"zeta", "&#950;"},  {"grad", "&#8711;"}, {"lap", "&#916;"},   {"Pi", "&#928;"}};
+                                           {"zeta", "&#950;"},  {"phi", "&#966;"},   {"grad", "&#8711;"}, {"lap", "&#916;"},   {"Pi", "&#928;"}};
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
         if (strcmp(word, known[k][0]) == 0) return known[k][1];
     return NULL;

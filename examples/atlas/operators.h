@@ -190,7 +190,7 @@ static inline views views_of(const sample *s, double *const *in, double *const *
     a.bounce.restitution = SPH_R(0.5);
     a.bounce.inverse_mass = sph_scalars_array(s->state[STATE_W]);
     a.potential = sph_scalar_out_array(out[3], s->status);
-    for (int c = 0; c < 3; c++) a.in[c] = in[c];
+    for (int q = 0; q < 3; q++) a.in[q] = in[q];
     return a;
 }
 

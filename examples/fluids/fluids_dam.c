@@ -221,7 +221,7 @@ static void run_gauge(const liquid_method *m, int seed, const fluids_options *o,
     for (k = 0; k < SENSORS; k++) figure[PEAK + k] = gauge_peak(gauge.t, gauge.p[1 + k], gauge.count);
     liquid_close(&l);
 }
-/* Beside the experiments; with -full the range over seeds of the first method. */
+/* Beside the experiments. seeds: how many, for the range over them; 0: none. */
 static void compare_gauge(report *r, const liquid_method *m, const fluids_options *o, int seeds, FILE *to)
 {
     static const char *const item = "gauge", *const tongue = "the tongue of water is three particles thick",
@@ -248,7 +248,7 @@ static void compare_gauge(report *r, const liquid_method *m, const fluids_option
     known[THRUST] = lobovsky_third;
     for (k = 0; k < SENSORS; k++) known[PEAK + k] = lobovsky_peak[k][0] / lobovsky_mbar;
     for (k = 0; k < GAUGE_FIGURES; k++) {
-        report_beside(r, REPORT_OTHERS);
+        report_beside(r, k == PEAK + 3 && !o->full ? REPORT_PAPER : REPORT_OTHERS);
         switch (k) {
         case ARRIVAL:
         case TOUCH: report_absolute(r, item, m->name, quantity[k], known[k], figure[k], 0.15); break;
@@ -319,7 +319,7 @@ int main(int argc, char **argv)
     to = figure_open(o.figures, "fluids_dam_gauge");
     fprintf(to, "run,t,p,sensor1,sensor2,sensor3,sensor4,front\n");
     for (k = 0; k < BUCHNER; k++) fprintf(to, "buchner,%g,%g\n", buchner_t[k], buchner_p[k]);
-    for (k = 0; k < (o.full ? 4 : 1); k++) compare_gauge(&r, &gauged[k], &o, o.full && k == 0 ? LIQUID_SEEDS : 0, to);
+    for (k = 0; k < (o.full ? 4 : 1); k++) compare_gauge(&r, &gauged[k], &o, k == 0 ? LIQUID_SEEDS : 0, to);
     figure_close(to);
     return report_close(&r) ? 1 : 0;
 }
