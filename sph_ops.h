@@ -5921,7 +5921,9 @@ SPH_FN sph_index sph_wall_rows_eliminate(int dim, sph_cloud cloud, sph_wall wall
  * sinks (its centre by 0.5 % of the depth within 10 sqrt(depth / gravity)). Antuono's and Fourtakas's do not:
  * less than 0.05 %. Antuono's needs the gradient of the density, one sweep more, but no gravity. All make the
  * noise of the pressure in Taylor-Green vortices seven times weaker (tests/test_liquid_flow.c). Where a wall
- * is made of particles, give them the share 0: otherwise they take density from the liquid.
+ * is made of particles, give them the share 0: otherwise they take density from the liquid. With one h for
+ * all, Molteni's adds 5 to 7 % to the time of the rates of a fluid, and Antuono's 20 to 26 %, because it
+ * reads four more arrays (tests/bench/README.md).
  *
  * Sources: Molteni & Colagrossi 2009, Comput. Phys. Commun. 180, 861; Antuono, Colagrossi, Marrone & Molteni
  * 2010, Comput. Phys. Commun. 181, 532; Fourtakas, Vacondio, Dominguez & Rogers 2019, Comput. Fluids 190,
@@ -7105,8 +7107,9 @@ SPH_FN sph_index sph_tension_css(sph_kernel k, int dim, sph_cloud cloud, sph_ten
 /* a_i = sigma kappa_i n_i / rho_i, surface tension by the curvature (CSF; see above), and kappa. W has the h
    of the target. Where n is shorter than least / h, both are 0. Where it is not, but no neighbour has a
    normal that counts, both are 0 with SPH_TOO_FEW; where one overflows, it is 0 with SPH_NOT_FINITE.
-   Brackbill et al. 1992; Morris 2000. Returns the number of targets that are not SPH_OK, or a negative
-   sph_error. */
+   Brackbill et al. 1992; Morris 2000. The direction of each neighbour's normal takes a root and a division:
+   the time is 1.3 to 1.7 times that of sph_divergence_difference. Returns the number of targets that are not
+   SPH_OK, or a negative sph_error. */
 SPH_FN sph_index sph_tension_csf(sph_kernel k, int dim, sph_cloud cloud, sph_tension tension,
                                  sph_tension_out out)
 {
@@ -8570,7 +8573,7 @@ SPH_FN sph_index sphi_gas_some(int uniform, sph_kernel k, int dim, sph_cloud clo
    with its neighbours within the larger of the two supports, for time steps and switches: dt = 0.3 h / v_sig
    is usual. It is not below the target's own sound speed. Gravity is not contained (sph_gravity_direct and
    sph_gravity_correction). The same as sph_mhd_rates with B = 0 and Price's conductivity, in half
-   of its time. */
+   of its time, and in 1.3 to 1.5 times that of sph_fluid_rates_monaghan (tests/bench/README.md). */
 SPH_FN sph_index sph_gas_rates(sph_kernel k, int dim, sph_cloud cloud, sph_gas state, sph_gas_out out)
 {
     int error = sphi_check_medium(k, dim, cloud, state.medium, cloud.points.n);

@@ -43,10 +43,13 @@
 
 #define KERNEL SPH_WENDLAND_C2
 
+/* Fields that a sweep reads are arrays of their own: one array in the place of several would be loaded once. */
+enum { VX, VY, VZ, NX, NY, NZ, PSI, POSITIVE, RHO = POSITIVE, CS, U, ALPHA, ALPHA_B, OMEGA, H, FIELDS };
 typedef struct cloud {
     const char *name, *order;
     sph_index n;
     sph_real *x, *y, *z, *radius, *V, *f;
+    sph_real *more[FIELDS]; /* of the sweeps; null for the search */
     int each;     /* 1: one radius for each particle; 0: radius[0] for all */
     sph_real box; /* 0: open */
     sph_real h;
@@ -84,7 +87,9 @@ typedef struct cloud {
 #define PLAIN_GRADIENT 25
 #define WALL_GRADIENT 26
 #define FACTOR 27
-#define OPERATORS 28
+#define GAS 28
+#define GAS_OWN_H 29
+#define OPERATORS 30
 enum { OUTPUTS = 11 };
 typedef struct outputs {
     sph_real *g[OUTPUTS], *row;
@@ -151,12 +156,19 @@ static double reference(sph_index n, const sph_real *r2, long passes)
     return total;
 }
 
+static sph_vectors vectors_of(const cloud *c, int x)
+{
+    return sph_vectors_separate(c->more[x], c->more[x + 1], c->more[x + 2]);
+}
 #if BENCH_SWEEPS > FLUID
-static sph_fluid fluid_of(sph_scalars V, sph_scalars f, int viscosity)
+static sph_fluid fluid_of(const cloud *c, int viscosity)
 {
     sph_fluid fluid;
-    fluid.m = fluid.rho = fluid.c = V;
-    fluid.p = fluid.v.x = fluid.v.y = fluid.v.z = f;
+    fluid.m = sph_scalars_array(c->V);
+    fluid.rho = sph_scalars_array(c->more[RHO]);
+    fluid.c = sph_scalars_array(c->more[CS]);
+    fluid.p = sph_scalars_array(c->f);
+    fluid.v = vectors_of(c, VX);
     fluid.alpha = fluid.eta = SPH_R(0.1);
     fluid.beta = SPH_R(0);
     fluid.viscosity = viscosity;
@@ -185,8 +197,14 @@ static sph_index sweep_range(int which, sph_index first, sph_index last, const c
     const sph_points x = sph_points_separate(c->n, c->x, c->y, c->z);
     const sph_scalars h = sph_scalars_same(&c->h), V = sph_scalars_array(c->V), f = sph_scalars_array(c->f);
     const sph_cloud targets = sph_cloud_range(sph_cloud_of(x, c->found.list, h, V), first, last);
+    const sph_scalars rho = sph_scalars_array(c->more[RHO]), omega = sph_scalars_array(c->more[OMEGA]);
+    const sph_vectors v = vectors_of(c, VX), n = vectors_of(c, NX);
     const sph_vector_out a = sph_vector_out_separate(o->g[0], o->g[1], o->g[2]);
     (void)f;
+    (void)rho;
+    (void)omega;
+    (void)v;
+    (void)n;
     (void)a;
     (void)targets;
     switch (which) {
@@ -202,7 +220,7 @@ static sph_index sweep_range(int which, sph_index first, sph_index last, const c
 #endif
 #if BENCH_SWEEPS > FLUID
     case FLUID: { /* with artificial viscosity, density rate and heating */
-        const sph_fluid fluid = fluid_of(V, f, SPH_VISCOSITY_MONAGHAN);
+        const sph_fluid fluid = fluid_of(c, SPH_VISCOSITY_MONAGHAN);
         return sph_fluid_rates_monaghan(KERNEL, 3, targets, fluid,
                                         (sph_fluid_out){.acceleration = a, .rate = o->g[3], .heating = o->g[4]});
     }
@@ -211,9 +229,17 @@ static sph_index sweep_range(int which, sph_index first, sph_index last, const c
     case MHD_CLEANED: {
         sph_mhd s;
         sph_mhd_out r = {0};
-        s.medium.m = s.medium.rho = s.medium.omega = s.p = s.u = s.cs = s.alpha = s.alpha_B = V;
-        s.v = s.field = sph_vectors_separate(c->f, c->f, c->f);
-        s.psi = f;
+        s.medium.m = V;
+        s.medium.rho = rho;
+        s.medium.omega = omega;
+        s.p = f;
+        s.u = sph_scalars_array(c->more[U]);
+        s.cs = sph_scalars_array(c->more[CS]);
+        s.alpha = sph_scalars_array(c->more[ALPHA]);
+        s.alpha_B = sph_scalars_array(c->more[ALPHA_B]);
+        s.v = v;
+        s.field = n;
+        s.psi = sph_scalars_array(c->more[PSI]);
         s.ch = s.alpha_u = s.tensile = SPH_R(1);
         s.sigma = SPH_R(0.3);
         s.beta = SPH_R(2);
@@ -235,7 +261,7 @@ static sph_index sweep_range(int which, sph_index first, sph_index last, const c
 #endif
 #if BENCH_SWEEPS > ACCELERATION
     case ACCELERATION: { /* pressure alone */
-        const sph_fluid fluid = fluid_of(V, f, SPH_VISCOSITY_NONE);
+        const sph_fluid fluid = fluid_of(c, SPH_VISCOSITY_NONE);
         return sph_fluid_rates_monaghan(KERNEL, 3, targets, fluid, (sph_fluid_out){.acceleration = a});
     }
 #endif
@@ -260,14 +286,13 @@ static sph_index sweep_range(int which, sph_index first, sph_index last, const c
 #endif
 #if BENCH_SWEEPS > TRANSPORT
     case DENSITY_RATE: {
-        const sph_medium medium = {V, V, V};
-        return sph_divergence_difference(KERNEL, 3, targets, medium, sph_vectors_separate(c->f, c->f, c->f),
-                                         sph_scalar_out_array(o->g[0], 0));
+        const sph_medium medium = {V, rho, omega};
+        return sph_divergence_difference(KERNEL, 3, targets, medium, v, sph_scalar_out_array(o->g[0], 0));
     }
     case MOLTENI:
     case ANTUONO: { /* density rate with density diffusion */
-        const sph_fluid fluid = fluid_of(V, f, SPH_VISCOSITY_NONE);
-        const sph_diffusion d = {.fluid = fluid, .delta = SPH_R(0.1), .tait = {.c = SPH_R(10)}, .gradient = fluid.v};
+        const sph_fluid fluid = fluid_of(c, SPH_VISCOSITY_NONE);
+        const sph_diffusion d = {.fluid = fluid, .delta = SPH_R(0.1), .tait = {.c = SPH_R(10)}, .gradient = n};
         const sph_scalar_out rate = sph_scalar_out_array(o->g[0], 0);
         return which == MOLTENI ? sph_density_diffusion_molteni(KERNEL, 3, targets, d, rate)
                                 : sph_density_diffusion_antuono(KERNEL, 3, targets, d, rate);
@@ -281,12 +306,12 @@ static sph_index sweep_range(int which, sph_index first, sph_index last, const c
     }
     case SHIFT_RATES:
     case TRANSPORT: {
-        const sph_fluid fluid = fluid_of(V, f, SPH_VISCOSITY_NONE);
+        const sph_fluid fluid = fluid_of(c, SPH_VISCOSITY_NONE);
         if (which == SHIFT_RATES)
-            return sph_shift_rates(KERNEL, 3, targets, fluid, fluid.v,
+            return sph_shift_rates(KERNEL, 3, targets, fluid, n,
                                    (sph_fluid_out){.acceleration = a, .rate = o->g[3]});
         return sph_transport_adami(
-            KERNEL, 3, targets, fluid, sph_vectors_separate(c->V, c->f, c->V), SPH_R(1),
+            KERNEL, 3, targets, fluid, n, SPH_R(1),
             (sph_transport_out){a, sph_vector_out_separate(o->g[3], o->g[4], o->g[5]), 0});
     }
 #endif
@@ -294,22 +319,22 @@ static sph_index sweep_range(int which, sph_index first, sph_index last, const c
     case MORRIS:
     case ESPANOL:
     case RIEMANN: {
-        const sph_fluid fluid = fluid_of(V, f, SPH_VISCOSITY_NONE);
-        if (which == MORRIS) return sph_viscosity_mu_morris(KERNEL, 3, targets, fluid, V, a);
-        if (which == ESPANOL) return sph_viscosity_mu_espanol_revenga(KERNEL, 3, targets, fluid, (sph_shear_bulk){V, V}, a);
+        const sph_fluid fluid = fluid_of(c, SPH_VISCOSITY_NONE);
+        const sph_shear_bulk mu = {sph_scalars_array(c->more[ALPHA]), sph_scalars_array(c->more[ALPHA_B])};
+        if (which == MORRIS) return sph_viscosity_mu_morris(KERNEL, 3, targets, fluid, mu.shear, a);
+        if (which == ESPANOL) return sph_viscosity_mu_espanol_revenga(KERNEL, 3, targets, fluid, mu, a);
         return sph_fluid_rates_riemann(KERNEL, 3, targets, fluid, (sph_riemann_options){0},
                                        (sph_fluid_out){.acceleration = a, .rate = o->g[3], .heating = o->g[4]});
     }
     case CSS:
     case CSF: {
-        const sph_tension t = {.rho = V, .normal = sph_vectors_separate(c->f, c->f, c->f), .sigma = SPH_R(1)};
+        const sph_tension t = {.rho = rho, .normal = n, .sigma = SPH_R(1)};
         return which == CSS ? sph_tension_css(KERNEL, 3, targets, t, a)
                             : sph_tension_csf(KERNEL, 3, targets, t, (sph_tension_out){.acceleration = a, .curvature = o->g[3]});
     }
     case WALL:
     case WALL_ROWS: {
-        const sph_vectors v = sph_vectors_separate(c->f, c->f, c->f);
-        const sph_wall wall = {.share = V, .rho = V, .p = f, .v = v, .velocity = v};
+        const sph_wall wall = {.share = V, .rho = rho, .p = f, .v = v, .velocity = n};
         if (which == WALL) return sph_wall_adami(KERNEL, 3, targets, wall, (sph_wall_out){.p = o->g[3], .v = a});
         return sph_wall_rows_adami(KERNEL, 3, targets, wall, (sph_rows_out){.row = o->row}, sph_scalar_out_array(o->g[0], 0));
     }
@@ -319,12 +344,23 @@ static sph_index sweep_range(int which, sph_index first, sph_index last, const c
     case PLAIN_GRADIENT:
         return sph_gradient_difference(KERNEL, 3, targets, f, a);
     case WALL_GRADIENT: {
-        const sph_wall_terms wall = {.gamma = V, .gradient = sph_vectors_separate(c->f, c->f, c->f), .value = f};
+        const sph_wall_terms wall = {.gamma = omega, .gradient = n, .value = sph_scalars_array(c->more[PSI])};
         return sph_wall_gradient(KERNEL, 3, targets, wall, f, a);
     }
     case FACTOR: {
-        const sph_fluid fluid = fluid_of(V, f, SPH_VISCOSITY_NONE);
+        const sph_fluid fluid = fluid_of(c, SPH_VISCOSITY_NONE);
         return sph_pressure_factor_dfsph(KERNEL, 3, targets, fluid, sph_scalars_none(), sph_scalar_out_array(o->g[0], 0));
+    }
+#endif
+#if BENCH_SWEEPS > GAS_OWN_H
+    case GAS:
+    case GAS_OWN_H: { /* with viscosity, Price's conductivity, du/dt, div v and the largest signal speed */
+        const sph_gas gas = {.medium = {V, rho, omega}, .p = f, .u = sph_scalars_array(c->more[U]),
+                             .cs = sph_scalars_array(c->more[CS]), .alpha = sph_scalars_array(c->more[ALPHA]),
+                             .v = v, .beta = SPH_R(2), .alpha_u = SPH_R(1), .conductivity = SPH_CONDUCTIVITY_PRICE};
+        const sph_gas_out r = {.acceleration = a, .rate_u = o->g[3], .div_v = o->g[4], .v_sig = o->g[5]};
+        const sph_cloud own = sph_cloud_range(sph_cloud_of(x, c->found.list, sph_scalars_array(c->more[H]), V), first, last);
+        return which == GAS ? sph_gas_rates(KERNEL, 3, targets, gas, r) : sph_gas_rates(KERNEL, 3, own, gas, r);
     }
 #endif
     default:
@@ -388,32 +424,34 @@ static const struct {
     int in, out, row;
 } operators[OPERATORS] = {{"density", 1, 1, 0},
                           {"corrected gradient", 2, 3, 0},
-                          {"fluid rates", 2, 5, 0},
-                          {"SPMHD with cleaning", 2, 11, 0},
+                          {"fluid rates", 7, 5, 0},
+                          {"SPMHD with cleaning", 15, 11, 0},
                           {"M-SPH rows", 1, 1, 1},
-                          {"acceleration by pressure", 2, 3, 0},
+                          {"acceleration by pressure", 3, 3, 0},
                           {"Brookshaw Laplacian", 2, 1, 0},
                           {"Brookshaw rows", 1, 0, 1},
                           {"apply stored rows", 1, 1, 1},
                           {"ICSPM derivatives", 2, 10, 0},
-                          {"density rate", 2, 1, 0},
-                          {"with Molteni's diffusion", 2, 1, 0},
-                          {"with Antuono's diffusion", 2, 1, 0},
+                          {"density rate", 6, 1, 0},
+                          {"with Molteni's diffusion", 5, 1, 0},
+                          {"with Antuono's diffusion", 8, 1, 0},
                           {"free surface", 1, 5, 0},
                           {"shift", 1, 3, 0},
-                          {"rates of shifting", 2, 4, 0},
-                          {"transport velocity", 2, 6, 0},
-                          {"Morris's viscosity", 2, 3, 0},
-                          {"Espanol & Revenga's viscosity", 2, 3, 0},
-                          {"Riemann solver", 2, 5, 0},
-                          {"tension by the stress", 2, 3, 0},
-                          {"tension by the curvature", 2, 4, 0},
-                          {"wall particles", 2, 4, 0},
-                          {"rows of wall particles", 1, 1, 1},
+                          {"rates of shifting", 9, 4, 0},
+                          {"transport velocity", 9, 6, 0},
+                          {"Morris's viscosity", 6, 3, 0},
+                          {"Espanol & Revenga's viscosity", 7, 3, 0},
+                          {"Riemann solver", 7, 5, 0},
+                          {"tension by the stress", 5, 3, 0},
+                          {"tension by the curvature", 5, 4, 0},
+                          {"wall particles", 9, 4, 0},
+                          {"rows of wall particles", 2, 1, 1},
                           {"linear fit", 2, 4, 0},
                           {"plain gradient", 2, 3, 0},
-                          {"gradient with gamma", 2, 3, 0},
-                          {"factor of DFSPH", 1, 1, 0}};
+                          {"gradient with gamma", 7, 3, 0},
+                          {"factor of DFSPH", 2, 1, 0},
+                          {"gas rates", 10, 6, 0},
+                          {"gas rates with its own h", 11, 6, 0}};
 
 static void stop(const char *why, long code)
 {
@@ -546,6 +584,19 @@ static cloud cloud_new(int which, sph_index wanted, int sorted)
     free(q);
     return c;
 }
+/* Smooth fields, alike in size and all different. */
+static void cloud_fields(cloud *c)
+{
+    sph_index i;
+    int k;
+    for (k = 0; k < FIELDS; k++) {
+        c->more[k] = reals(c->n);
+        for (i = 0; i < c->n; i++) {
+            const double wave = sin(0.1 * (double)c->x[i] + 0.07 * (double)c->y[i] + 0.13 * (double)c->z[i] + k);
+            c->more[k][i] = k == H ? c->h : k < POSITIVE ? SPH_R(wave) : SPH_R(1.0 + 0.1 * wave);
+        }
+    }
+}
 /* One block for all forms, which may differ in pairs at the edge. */
 static void cloud_search(cloud *c, const form *f)
 {
@@ -559,12 +610,14 @@ static void cloud_search(cloud *c, const form *f)
 }
 static void cloud_free(cloud *c)
 {
+    int k;
     free(c->x);
     free(c->y);
     free(c->z);
     free(c->radius);
     free(c->V);
     free(c->f);
+    for (k = 0; k < FIELDS; k++) free(c->more[k]);
     free(c->memory);
 }
 
@@ -717,6 +770,7 @@ static void bench_sweeps(sph_index n, int rounds)
     copy_to = (double *)memory(COPIED * sizeof *copy_to);
     for (k = 0; k < 2; k++) {
         c[k] = cloud_new(LATTICE, n, !k);
+        cloud_fields(c + k);
         cloud_search(c + k, forms[0].form);
     }
     for (k = 0; k < OUTPUTS; k++) out.g[k] = reals(c[0].n);
