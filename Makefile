@@ -111,8 +111,10 @@ define run
 	@mkdir -p "$(RESULTS)" "$(FIGURES)"
 	+@$(MAKE) --no-print-directory $(call jobs,$(PROCESSORS)) $(addprefix $(BUILD)/examples/,$(call long_first,$(LONG_COMPILES),$(call drivers_of,$(1))) scoreboard)
 	+@rm -f $(patsubst %,"$(RESULTS)/%.csv",$(call drivers_of,$(1))); failed=0; \
+	$(if $(filter 1,$(AT_A_TIME)),,BUILD="$(BUILD)" sh examples/common/progress.sh reproduce-$(1)$(2) "$(RESULTS)/*.csv" $(call drivers_of,$(1)) & watcher=$$!;) \
 	$(if $(filter 1,$(AT_A_TIME)),,CI=1) $(MAKE) --no-print-directory --keep-going $(call jobs,$(AT_A_TIME)) $(if $(filter 1,$(AT_A_TIME)),,--output-sync=target) \
 	    OPTIONS=$(2) THREADS=$(SHARE) $(addprefix driver-,$(call long_first,$(LONG_RUNS),$(call drivers_of,$(1)))) || failed=1; \
+	$(if $(filter 1,$(AT_A_TIME)),,kill $$watcher 2> /dev/null; wait $$watcher;) \
 	$(MAKE) --no-print-directory figures || failed=1; \
 	echo; $(BUILD)/examples/scoreboard -kept $(KEPT) $(if $(2),-compare) $(patsubst %,"$(RESULTS)/%.csv",$(call drivers_of,$(1))) || failed=1; \
 	$(if $(2),if [ $$failed -eq 0 ]; then rm -f "$(RESULTS)"/*.restart; fi;) exit $$failed

@@ -5331,7 +5331,9 @@ SPH_FN sph_real sph_time_step_force(sph_real h, sph_real acceleration)
     SPH_ASSERT(h > SPH_R(0) && acceleration >= SPH_R(0));
     return SPH_R(0.25) * SPHI_SQRT(sphi_limit(h, acceleration));
 }
-/* The longest step by viscosity: 0.125 h^2 / nu, with the kinematic viscosity nu. Needs nu >= 0. */
+/* The longest step by viscosity: 0.125 h^2 / nu, with the kinematic viscosity nu. A form that resists compression
+   with more than it resists shear needs the larger of the two: 3 nu for Monaghan & Cleary, (2 - 2 / dim) nu plus
+   the bulk viscosity for Espanol & Revenga. Needs nu >= 0. */
 SPH_FN sph_real sph_time_step_viscous_nu(sph_real h, sph_real nu)
 {
     SPH_ASSERT(h > SPH_R(0) && nu >= SPH_R(0));
@@ -5797,23 +5799,11 @@ SPH_FN sph_wall_sums sphi_wall_pair_unknown(int dim, sph_real rho_j, sph_vec x_i
     return sph_wall_pair_adami(dim, other, none, x_ij, gravity, w);
 }
 
-/* The pressure of sph_wall_adami as rows of a matrix for pressures that are not known yet (projection). The
-   targets are the wall particles w:
-       p_w - sum p_j W / sum W = sum rho_j (g - a_w) . x_wj W / sum W,
-   row[p] = -W / sum W for neighbours that are fluid and 0 for others, diagonal = 1, and the right-hand side
-   is source. These rows are exact where p - rho g . x is constant, thus for fluid at rest. Of wall, share,
-   rho and gravity are read. Without fluid inside the support the row is p_w = 0, with SPH_TOO_FEW. A pair
-   uses (h_i + h_j) / 2 (lists by SPH_MEAN). Adami, Hu & Adams 2012, JCP 231, 7057, (27). The status of out is
-   written, that of source is not. Returns the number of targets that are not SPH_OK, or a negative sph_error.
-   */
-SPH_FN sph_index sph_wall_rows_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall wall, sph_rows_out out,
-                                     sph_scalar_out source)
+SPH_FN sph_index sphi_wall_rows_range(int uniform, sph_kernel k, int dim, sph_cloud cloud,
+                                      const sph_wall *wall, sph_rows_out out, sph_scalar_out source)
 {
     SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
-    int error = sphi_check_sweep(k, dim, cloud, "share", wall.share);
     sph_index i, q, failed = 0;
-    if (!error) error = sphi_check_wall_rows(dim, cloud, wall, cloud.points.n, row, source);
-    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
         const sph_real h_i = sphi_at(cloud.h, i);
@@ -5821,17 +5811,14 @@ SPH_FN sph_index sph_wall_rows_adami(sph_kernel k, int dim, sph_cloud cloud, sph
         sph_real weight = SPH_R(0), pressure = SPH_R(0);
         sph_wall_sums sums;
         int state = SPH_OK;
-        SPH_EACH(q, cloud.list.start[i], end) {
-            const sph_index j = cloud.list.index[q];
-            const sph_real r =
-                sph_length(dim, sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j)));
-            row[q] = sphi_at(wall.share, j) * sph_kernel_w(k, dim, r, sphi_mean_h(0, cloud.h, h_i, j));
-        }
         SPH_SUM(q, cloud.list.start[i], end, weight, pressure) {
             const sph_index j = cloud.list.index[q];
             const sph_vec x_ij = sphi_separation(dim, cloud.points, x_i, sphi_point(dim, cloud.points, j));
+            const sph_real w = sphi_at(wall->share, j) * sph_kernel_w(k, dim, sph_length(dim, x_ij),
+                                                                      sphi_mean_h(uniform, cloud.h, h_i, j));
             const sph_wall_sums c =
-                sphi_wall_pair_unknown(dim, sphi_at(wall.rho, j), x_ij, wall.gravity, row[q]);
+                sphi_wall_pair_unknown(dim, sphi_at(wall->rho, j), x_ij, wall->gravity, w);
+            row[q] = w;
             weight += c.weight;
             pressure += c.p;
         }
@@ -5852,6 +5839,25 @@ SPH_FN sph_index sph_wall_rows_adami(sph_kernel k, int dim, sph_cloud cloud, sph
         failed += state != SPH_OK;
     }
     return failed;
+}
+
+/* The pressure of sph_wall_adami as rows of a matrix for pressures that are not known yet (projection). The
+   targets are the wall particles w:
+       p_w - sum p_j W / sum W = sum rho_j (g - a_w) . x_wj W / sum W,
+   row[p] = -W / sum W for neighbours that are fluid and 0 for others, diagonal = 1, and the right-hand side
+   is source. These rows are exact where p - rho g . x is constant, thus for fluid at rest. Of wall, share,
+   rho and gravity are read. Without fluid inside the support the row is p_w = 0, with SPH_TOO_FEW. A pair
+   uses (h_i + h_j) / 2 (lists by SPH_MEAN). Adami, Hu & Adams 2012, JCP 231, 7057, (27). The status of out is
+   written, that of source is not. Returns the number of targets that are not SPH_OK, or a negative sph_error.
+   */
+SPH_FN sph_index sph_wall_rows_adami(sph_kernel k, int dim, sph_cloud cloud, sph_wall wall, sph_rows_out out,
+                                     sph_scalar_out source)
+{
+    int error = sphi_check_sweep(k, dim, cloud, "share", wall.share);
+    if (!error) error = sphi_check_wall_rows(dim, cloud, wall, cloud.points.n, out.row, source);
+    if (error) return sphi_answer_of(error);
+    return cloud.h.stride ? sphi_wall_rows_range(0, k, dim, cloud, &wall, out, source)
+                          : sphi_wall_rows_range(1, k, dim, cloud, &wall, out, source);
 }
 
 /* Takes the unknowns of the wall out of the rows of the fluid, sum_p row[p] (p_j - p_i) = b_i. The pressure
@@ -6113,30 +6119,23 @@ SPH_FN sph_index sph_density_diffusion_fourtakas(sph_kernel k, int dim, sph_clou
 {
     return sphi_diffusion(SPHI_FOURTAKAS, k, dim, cloud, diffusion, out);
 }
-/* The D of Molteni & Colagrossi as rows: D_i = sum_p row[p] (rho_j - rho_i), row[p] >= 0, factor 1 and
-   conditioning 1. The rates of sph_density_diffusion_molteni without v agree to round-off. A row that
-   overflows is 0, with SPH_NOT_FINITE. */
-SPH_FN sph_index sph_density_diffusion_rows_molteni(sph_kernel k, int dim, sph_cloud cloud,
-                                                    sph_diffusion diffusion, sph_rows_out out)
+SPH_FN sph_index sphi_diffusion_rows_range(int uniform, sph_kernel k, int dim, sph_cloud cloud,
+                                           const sph_diffusion *d, sph_rows_out out)
 {
     SPH_GLOBAL sph_real *const SPH_RESTRICT row = out.row;
-    const int shared = diffusion.share.p != 0;
-    const sph_real speed = sphi_delta(diffusion.delta) * diffusion.tait.c;
-    int error = sphi_check_diffusion(SPHI_MOLTENI, k, dim, cloud, diffusion);
+    const int shared = d->share.p != 0;
+    const sph_real speed = sphi_delta(d->delta) * d->tait.c;
     sph_index i, p, failed = 0;
-    if (!error && !row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
-    if (error) return sphi_answer_of(error);
     for (i = cloud.first; i < cloud.last; i++) {
         const sph_vec x_i = sphi_point(dim, cloud.points, i);
-        const sph_real h_i = sphi_at(cloud.h, i),
-                       speed_i = shared ? speed * sphi_at(diffusion.share, i) : speed;
+        const sph_real h_i = sphi_at(cloud.h, i), speed_i = shared ? speed * sphi_at(d->share, i) : speed;
         int lost;
         SPH_EACH(p, cloud.list.start[i], cloud.list.start[i + 1]) {
             const sph_index j = cloud.list.index[p];
             const sph_real r = sph_length(dim, sphi_separation(dim, cloud.points, x_i,
                                                                sphi_point(dim, cloud.points, j))),
-                           h_ij = sphi_mean_h(0, cloud.h, h_i, j),
-                           strength = h_ij * (shared ? speed_i * sphi_at(diffusion.share, j) : speed_i);
+                           h_ij = sphi_mean_h(uniform, cloud.h, h_i, j),
+                           strength = h_ij * (shared ? speed_i * sphi_at(d->share, j) : speed_i);
             row[p] = SPH_R(2) * sph_density_diffusion_weight(sphi_at(cloud.volume, j), strength,
                                                              sph_kernel_f(k, dim, r, h_ij));
         }
@@ -6145,6 +6144,19 @@ SPH_FN sph_index sph_density_diffusion_rows_molteni(sph_kernel k, int dim, sph_c
         failed += lost;
     }
     return failed;
+}
+
+/* The D of Molteni & Colagrossi as rows: D_i = sum_p row[p] (rho_j - rho_i), row[p] >= 0, factor 1 and
+   conditioning 1. The rates of sph_density_diffusion_molteni without v agree to round-off. A row that
+   overflows is 0, with SPH_NOT_FINITE. */
+SPH_FN sph_index sph_density_diffusion_rows_molteni(sph_kernel k, int dim, sph_cloud cloud,
+                                                    sph_diffusion diffusion, sph_rows_out out)
+{
+    int error = sphi_check_diffusion(SPHI_MOLTENI, k, dim, cloud, diffusion);
+    if (!error && !out.row) error = sphi_refuse("out.row", -1, SPH_ERROR_NULL);
+    if (error) return sphi_answer_of(error);
+    return cloud.h.stride ? sphi_diffusion_rows_range(0, k, dim, cloud, &diffusion, out)
+                          : sphi_diffusion_rows_range(1, k, dim, cloud, &diffusion, out);
 }
 
 /* The least eigenvalue of a symmetric tensor s: in 3D by the cosine of a third of an angle, in a quarter of
@@ -8130,8 +8142,8 @@ SPH_FN sph_pair_weights sph_pair_weights_of(sph_real m_j, sph_pair_kernel f, sph
                                             sph_real weight_j)
 {
     sph_pair_weights w;
-    w.i = m_j * (f.f_i * weight_i);
-    w.j = m_j * (f.f_j * weight_j);
+    w.i = m_j * f.f_i * weight_i;
+    w.j = m_j * f.f_j * weight_j;
     return w;
 }
 
@@ -8181,7 +8193,7 @@ SPH_FN sphi_meeting sphi_meet(sph_medium_side i, sph_medium_side j, sph_pair_ker
     e.per_rho_i = i.omega * both_i;
     e.per_rho_j = j.omega * both_j;
     e.g = sph_pair_weights_of(j.m, f, e.per_rho_i * both_i, e.per_rho_j * both_j);
-    e.mean_f = SPH_R(0.5) * j.m * (f.f_i * (i.rho * both_i) + f.f_j * (j.rho * both_j));
+    e.mean_f = SPH_R(0.5) * (j.m * f.f_i * (i.rho * both_i) + j.m * f.f_j * (j.rho * both_j));
     e.weight = j.m * f.f_i;
     e.per_rho = SPH_R(2) / (i.rho + j.rho);
     e.per_r = SPH_R(1) / (f.r + SPHI_TINY);
@@ -8444,11 +8456,17 @@ SPH_FN sph_real sphi_within(sph_real support, sph_real h_i, sph_real h_j, sph_re
     return SPH_R(0.5) +
            SPHI_COPYSIGN(SPH_R(0.5), support * SPH_R(0.5) * (h_i + h_j + SPHI_ABS(h_i - h_j)) - r);
 }
-/* The largest of `most` and n numbers. */
+/* The largest of `most` and n numbers. A block has as many maxima as numbers, because a single maximum would
+   wait for itself in every pass. */
 SPH_FN sph_real sphi_largest(sph_real most, const sph_real *of, int n)
 {
-    int p;
-    for (p = 0; p < n; p++) most = of[p] > most ? of[p] : most;
+    sph_real lane[SPHI_BLOCK];
+    int p, l;
+    for (l = 0; l < SPHI_BLOCK; l++) lane[l] = most;
+    for (p = 0; p + SPHI_BLOCK <= n; p += SPHI_BLOCK)
+        for (l = 0; l < SPHI_BLOCK; l++) lane[l] = of[p + l] > lane[l] ? of[p + l] : lane[l];
+    for (; p < n; p++) most = of[p] > most ? of[p] : most;
+    for (l = 0; l < SPHI_BLOCK; l++) most = lane[l] > most ? lane[l] : most;
     return most;
 }
 

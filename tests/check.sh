@@ -27,16 +27,20 @@ CC=${CC:-cc}
 scratch=$BUILD/scratch/$(basename "$0" .sh)
 rm -rf "$scratch"
 mkdir -p "$scratch" || exit 2
+. examples/common/progress.sh
+progress_begin "$(basename "$0" .sh)"
 passed=0
 failed=0
 broken=0 # what is installed, and does not work
 check() {
     what=$1
     shift
+    progress $((passed + failed)) "$what"
     if "$@" > "$scratch/log" 2>&1; then
         passed=$((passed + 1))
     else
         failed=$((failed + 1))
+        progress_hide
         echo "failed: $what: $*"
         head -n 5 "$scratch/log"
     fi
@@ -51,7 +55,10 @@ answers() { # status, text that must be printed, command ...
     head -n 3 "$scratch/output"
     return 1
 }
-skip() { echo "skipped: $1: $2"; }
+skip() {
+    progress_hide
+    echo "skipped: $1: $2"
+}
 installed() {
     for tool in "$@"; do command -v "$tool" > /dev/null 2>&1 || return 1; done
 }
@@ -121,6 +128,8 @@ works() {
     return 1
 }
 finish() {
+    progress $((passed + failed))
+    progress_end
     if [ $((passed + failed)) -eq 0 ] && [ $broken -gt 0 ]; then
         echo "failed: $1: nothing was tested, and not for want of tools: what is installed does not work"
         failed=1

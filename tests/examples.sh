@@ -62,4 +62,13 @@ END
 check "a table of one row" "$CC" -std=c99 -I. "$scratch/refused.c" -o "$scratch/refused" -lm
 check "a range with the published value" answers 0 "1 match" "$scratch/refused" "$scratch"
 check "a range without it" answers 2 "value to compare with is 1, and the criterion 'in \[1.5, 3\]' excludes it" "$scratch/refused" "$scratch" without
+
+# how far a command is: told on a terminal, and nowhere else
+: > "$scratch/one.done"
+watched="BUILD='$scratch' sh examples/common/progress.sh try '$scratch/*.done' one two & sleep 1.5; kill \$! 2> /dev/null; wait"
+check "no progress in a pipe" test -z "$(unset CI; sh -c "$watched" 2>&1)"
+if needs "progress on a terminal" script && works "progress on a terminal" script -qec true /dev/null; then
+    check "progress on a terminal" sh -c 'unset CI; script -qec "$1" /dev/null | grep "try: 1 of 2 done, "' watched "$watched"
+    check "no progress with CI set" sh -c 'test -z "$(CI=1 script -qec "$1" /dev/null)"' watched "$watched"
+fi
 finish examples

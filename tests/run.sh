@@ -8,6 +8,8 @@ export BUILD
 logs=$BUILD/scratch/run
 rm -rf "$logs"
 mkdir -p "$logs" || exit 2
+sh examples/common/progress.sh tests "$logs/*.status" $(echo "$@" | tr / _) &
+watcher=$!
 # one that is long comes first, so that it does not run alone at the end; printed in the order of the command line
 {
     for t in "$@"; do case $t in *.sh) echo "$t" ;; esac done
@@ -16,6 +18,8 @@ mkdir -p "$logs" || exit 2
     log=$LOGS/$(echo "$1" | tr / _)
     case $1 in *.sh) sh "$1" ;; *) "$1" ;; esac > "$log" 2>&1
     echo $? > "$log.status"' run
+kill $watcher 2> /dev/null
+wait $watcher
 passed=0 failed=0
 for t in "$@"; do
     log=$logs/$(echo "$t" | tr / _)

@@ -10,10 +10,9 @@ build() { # the cc line with this compiler, warnings as errors, into the scratch
     $CC -Wall -Wextra -Werror $(echo "${1#cc }" | sed "s|-o $name|-o $scratch/$name|")
 }
 
-one_copy='-DSPH_FN=static __attribute__((noinline, unused))' # seconds to compile
 changed() { # name, what sed changes: builds that into the scratch directory, with the doctor
     sed -e 's/^#define EXAMINE 0/#define EXAMINE 1/' -e "$2" "examples/$1.c" > "$scratch/$1-changed.c"
-    $CC -std=c99 -O1 "$one_copy" -I. -o "$scratch/$1-changed" "$scratch/$1-changed.c" -lm
+    $CC -std=c99 -O1 -I. -o "$scratch/$1-changed" "$scratch/$1-changed.c" -lm
 }
 quiet() { "$@" 2>&1 > /dev/null | { ! grep .; }; }
 limited() { (ulimit -f 4 && exec "$@"); }

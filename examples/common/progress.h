@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * progress.h - one line on stderr for runs of more than a few seconds, written
- * over about once a second.  C99 cannot ask whether stderr is a terminal: the
- * caller's quiet flag turns the line off.
+ * over about once a second, where stderr is a terminal.  C99 cannot ask that:
+ * on other systems than these the caller's quiet flag turns the line off.
  */
 #ifndef PROGRESS_H
 #define PROGRESS_H
@@ -10,6 +10,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
+#if defined(__unix__) || defined(__APPLE__)
+#  include <unistd.h>
+#  define PROGRESS_SEEN isatty(2)
+#else
+#  define PROGRESS_SEEN 1
+#endif
 
 typedef struct progress {
     const char *label;
@@ -21,7 +27,7 @@ static inline void progress_begin(progress *p, const char *label, int quiet)
 {
     p->label = label;
     p->start = p->shown = time(NULL);
-    p->quiet = quiet || getenv("CI"); /* nobody watches a continuous-integration run, and its log keeps every line */
+    p->quiet = quiet || !PROGRESS_SEEN || getenv("CI"); /* nobody watches a continuous-integration run, and its log keeps every line */
 }
 
 /* fraction: the share of the work that is done.  Cheap enough for inner loops

@@ -569,12 +569,15 @@ typedef struct liquid_case {
     const char *quantity[LIQUID_FIGURES];
     double factor[LIQUID_FIGURES]; /* by which a figure may differ from what is known; flows are chaotic */
     void (*run)(const liquid_method *m, int seed, const fluids_options *o, double *figure);
+    int random; /* 1: the start is random. Seeds 1, 2, 3, always; a figure is the mean over them */
 } liquid_case;
 
 enum { LIQUID_SEEDS = 3, LIQUID_METHODS = 16 };
-/* What the methods have shown: figures, and CPU time of a particle and step in microseconds. */
+/* What the methods have shown: figures, those of each seed if there are seeds, and CPU time of a particle and step
+   in microseconds. */
 typedef struct liquid_results {
-    double figure[LIQUID_METHODS][LIQUID_FIGURES], cost[LIQUID_METHODS];
+    double figure[LIQUID_METHODS][LIQUID_FIGURES], seen[LIQUID_METHODS][LIQUID_SEEDS][LIQUID_FIGURES],
+        cost[LIQUID_METHODS];
 } liquid_results;
 static double liquid_cost; /* of the run that has ended last */
 
@@ -625,26 +628,41 @@ static inline int liquid_wanted(const liquid_trial *t, const fluids_options *o)
 {
     return o->method ? strcmp(t->method.file, o->method) == 0 : o->full || !t->full;
 }
-/* A row for each figure of each method; with -full the range over seeds as well. Then the table: a line for
-   each method. */
+/* The row 'three seeds': the range of `value`, one for each seed, `stride` numbers apart. */
+static inline void liquid_range(report *r, const char *item, const char *setting, const char *quantity,
+                                const double *value, int stride)
+{
+    double low = value[0], high = value[0];
+    char text[64];
+    int s;
+    for (s = 1; s < LIQUID_SEEDS; s++) {
+        low = fmin(low, value[s * stride]);
+        high = fmax(high, value[s * stride]);
+    }
+    snprintf(text, sizeof text, "%.4g to %.4g", low, high);
+    report_row(r, item, setting, quantity, NULL, text, "three seeds", NULL, REPORT_INFO);
+}
+/* A row for each figure of each method; with -full, and if the start is random, the range over seeds as well. Then
+   the table: a line for each method. */
 static inline void liquid_compare(report *r, const liquid_case *c, const liquid_trial *trial, int count,
                                   const fluids_options *o, liquid_results *x)
 {
     int t, k, s, tried = 0;
     for (t = 0; t < count; t++) {
         const liquid_method *const m = &trial[t].method;
+        const int seeds = c->random || o->full ? LIQUID_SEEDS : 0;
         if (!liquid_wanted(&trial[t], o)) continue;
         tried++;
-        double low[LIQUID_FIGURES], high[LIQUID_FIGURES];
-        c->run(m, 0, o, x->figure[t]);
-        x->cost[t] = liquid_cost;
-        for (s = 1; s <= LIQUID_SEEDS && o->full; s++) {
-            double seen[LIQUID_FIGURES];
-            c->run(m, s, o, seen);
-            for (k = 0; k < c->figures; k++) {
-                low[k] = s == 1 ? seen[k] : fmin(low[k], seen[k]);
-                high[k] = s == 1 ? seen[k] : fmax(high[k], seen[k]);
-            }
+        if (!c->random) {
+            c->run(m, 0, o, x->figure[t]);
+            x->cost[t] = liquid_cost;
+        }
+        for (s = 0; s < seeds; s++) {
+            c->run(m, s + 1, o, x->seen[t][s]);
+            if (!c->random) continue;
+            x->cost[t] = s ? x->cost[t] + liquid_cost / LIQUID_SEEDS : liquid_cost / LIQUID_SEEDS;
+            for (k = 0; k < c->figures; k++)
+                x->figure[t][k] = (s ? x->figure[t][k] : 0) + x->seen[t][s][k] / LIQUID_SEEDS;
         }
         for (k = 0; k < c->figures; k++) {
             const double known = trial[t].known[k], a = known / c->factor[k], b = known * c->factor[k];
@@ -652,11 +670,7 @@ static inline void liquid_compare(report *r, const liquid_case *c, const liquid_
                 report_range(report_beside(r, REPORT_REGRESSION), c->item, m->name, c->quantity[k], known,
                              x->figure[t][k], fmin(a, b), fmax(a, b));
             else report_info(r, c->item, m->name, c->quantity[k], x->figure[t][k]);
-            if (o->full) {
-                char text[64];
-                snprintf(text, sizeof text, "%.4g to %.4g", low[k], high[k]);
-                report_row(r, c->item, m->name, c->quantity[k], NULL, text, "three seeds", NULL, REPORT_INFO);
-            }
+            if (seeds) liquid_range(r, c->item, m->name, c->quantity[k], &x->seen[t][0][k], LIQUID_FIGURES);
         }
         report_info(r, c->item, m->name, "CPU time of a particle and step [us]", x->cost[t]);
     }

@@ -17,6 +17,11 @@
  * and the pressure on the wall 0.117 to 0.267 H above the floor, beside that of B. Buchner, Green water on ship-type
  * offshore structures, thesis, Delft 2002. His gauge had its centre where this one has its top: all who compute this
  * flow shift it (Greco 2001; Adami, Hu & Adams 2012), because the experiment is not sure of it either.
+ *
+ * L. Lobovsky, E. Botia-Vera, F. Castellana, J. Mas-Soler & A. Souto-Iglesias 2014, J. Fluids Struct. 48, 407
+ * (arXiv:1308.0115) measured the same tank a hundred times, with H = 0.3 m: the front, and four sensors of 4.2 mm, 3,
+ * 15, 30 and 80 mm above the floor. Beside them stand sensors of ours, points at the same heights: 0.01, 0.05, 0.1 and
+ * 0.267 H. The largest pressure of ours is that of its mean over 0.05 sqrt(H / g), which is what sound needs to cross H.
  */
 #include "fluids.h"
 #include "../common/column.h"
@@ -91,29 +96,43 @@ static const double buchner_p[BUCHNER] = {-.018, .010, -.015, .077, .154, .265, 
                                           .662,  .687, .672,  .661, .646, .643, .579, .546, .541, .541,
                                           .556,  .555, .543,  .517, .514, .526, .549, .588, .634, .675,
                                           .716,  .877, .839,  .765, .648, .579, .556, .497, .502};
-enum { GAUGE_SAMPLES = 2000, GAUGE_POINTS = 4 };
+/* Lobovsky et al. 2014. Front: x / H from the gate, fig. 12 (H = 0.3 m), the authors' numbers as kept with AQUAgpusph
+   (examples/lobovsky_etal_jfs_2013/doc), between its samples. The wall is at 3.367. Sensors: height / H; median, 2.5 and
+   97.5 % of the largest pressure in a hundred runs, table 2, in mbar, as printed for warpSPH (scripts/
+   probe_acsphDambreakLobovsky.py). The mean of the third from t = 2.6 to 3.1: the authors' one run of fig. 18, as kept
+   with TNL-SPH (examples/resources/damBreak2D), whose largest pressure is 1.54 rho g H. */
+enum { FRONTS = 4, SENSORS = 4, THIRD = 2 };
+static const double lobovsky_t[FRONTS] = {1, 1.5, 2, 2.4}, lobovsky_x[FRONTS] = {.906, 1.594, 2.365, 3.040},
+                    lobovsky_arrival = 2.573, lobovsky_third = 1.36, lobovsky_mbar = 997 * 9.81 * 0.3 / 100;
+static const double sensor_height[SENSORS] = {0.01, 0.05, 0.1, 0.08 / 0.3};
+static const double lobovsky_peak[SENSORS][3] = {
+    {91.44, 75.06, 130.98}, {57.49, 53.26, 63.31}, {43.76, 39.79, 49.62}, {30.15, 24.18, 36.32}};
+
+enum { GAUGE_SAMPLES = 2000, GAUGE_POINTS = 4, GAUGES = 1 + SENSORS };
+/* p: mean of Buchner's gauge, and the sensors of Lobovsky; x: the front, from the gate */
 typedef struct gauge_record {
     int count;
-    double wall, t[GAUGE_SAMPLES], p[GAUGE_SAMPLES];
+    double wall, t[GAUGE_SAMPLES], p[GAUGES][GAUGE_SAMPLES], x[GAUGE_SAMPLES];
 } gauge_record;
 static gauge_record gauge;
 
-/* mean over points of the wall of the fit to the water in front of it; where there is none, 0 */
+/* at points of the wall, of the fit to the water in front of it; where there is none, 0 */
 static void read_gauge(flow *f)
 {
     const double every = 0.01, reach = sph_kernel_support_ratio(f->kernel) * f->h;
-    double x[GAUGE_POINTS], y[GAUGE_POINTS], p[GAUGE_POINTS], mean = 0;
+    enum { POINTS = GAUGE_POINTS + SENSORS };
+    double x[POINTS], y[POINTS], p[POINTS], mean = 0;
     search_grid grid = {0};
     search_lists lists = {0};
-    sph_points water = flow_points(f), points = sph_points_separate(GAUGE_POINTS, x, y, NULL);
+    sph_points water = flow_points(f), points = sph_points_separate(POINTS, x, y, NULL);
     const sph_interpolation_options options = {.conditioning_min = 0.05};
     const sph_interpolation_out out = {.value = p};
     sph_sources sources;
     int k;
     if (gauge.count == GAUGE_SAMPLES || f->t < gauge.count * every) return;
-    for (k = 0; k < GAUGE_POINTS; k++) {
+    for (k = 0; k < POINTS; k++) {
         x[k] = gauge.wall;
-        y[k] = 0.267 - 0.15 * (k + 0.5) / GAUGE_POINTS;
+        y[k] = k < GAUGE_POINTS ? 0.267 - 0.15 * (k + 0.5) / GAUGE_POINTS : sensor_height[k - GAUGE_POINTS];
     }
     water.n = f->n_fluid;
     liquid_volumes(f);
@@ -126,7 +145,9 @@ static void read_gauge(flow *f)
                                sph_scalars_array(f->p), options, out));
     for (k = 0; k < GAUGE_POINTS; k++) mean += p[k] / GAUGE_POINTS;
     gauge.t[gauge.count] = f->t;
-    gauge.p[gauge.count++] = mean;
+    gauge.p[0][gauge.count] = mean;
+    for (k = 0; k < SENSORS; k++) gauge.p[1 + k][gauge.count] = p[GAUGE_POINTS + k];
+    gauge.x[gauge.count++] = farthest(f) - 2;
     search_lists_close(&lists);
     search_grid_close(&grid);
 }
@@ -141,19 +162,37 @@ static double gauge_mean(const double *t, const double *p, int count, double fro
         }
     return sum / time;
 }
-static double gauge_arrival(const double *t, const double *p, int count)
+static double gauge_first(const double *t, const double *value, int count, double limit)
 {
     int k;
     for (k = 0; k < count; k++)
-        if (p[k] > 0.2) return t[k];
+        if (value[k] > limit) return t[k];
     return (double)NAN;
 }
-static void run_gauge(report *r, const liquid_method *m, const fluids_options *o, FILE *to)
+/* the largest mean over 0.05 */
+static double gauge_peak(const double *t, const double *p, int count)
+{
+    double most = 0;
+    int k;
+    for (k = 0; k < count; k++)
+        if (t[k] + 0.05 < t[count - 1]) most = fmax(most, gauge_mean(t, p, count, t[k], t[k] + 0.05));
+    return most;
+}
+static double gauge_front_at(double t)
+{
+    int k = 1;
+    while (k < gauge.count - 1 && gauge.t[k] < t) k++;
+    return gauge.x[k - 1] + (gauge.x[k] - gauge.x[k - 1]) * (t - gauge.t[k - 1]) / (gauge.t[k] - gauge.t[k - 1]);
+}
+/* What the gauges show. */
+enum { ARRIVAL, IMPACT, PLATEAU, TOUCH, SPEED, THRUST, PEAK, GAUGE_FIGURES = PEAK + SENSORS };
+static void run_gauge(const liquid_method *m, int seed, const fluids_options *o, FILE *to, double *figure)
 {
     const int side = o->full ? 40 : 32, columns = (int)(5.366 * side + 0.5);
     const double dx = 1.0 / side;
+    double front_x[FRONTS];
     liquid l;
-    int i, j;
+    int i, j, k;
     liquid_open(&l, m, dx, 1.6 * dx, 20, 0.02);
     l.f.gravity_y = -1;
     l.surface = 1;
@@ -162,18 +201,71 @@ static void run_gauge(report *r, const liquid_method *m, const fluids_options *o
         for (i = 0; i < 2 * side; i++) liquid_add(&l, (i + 0.5) * dx, (j + 0.5) * dx, 1 - (j + 0.5) * dx);
     liquid_add_tank(&l, columns, 3 * side);
     liquid_start(&l, 0, o);
+    liquid_shake(&l, seed);
     memset(&gauge, 0, sizeof gauge);
     gauge.wall = columns * dx;
     l.f.after = read_gauge;
     flow_require(&l.f, flow_run(&l.f, o->full ? 7.3 : 4.8));
-    for (i = 0; i < gauge.count; i++) fprintf(to, "%s,%.6g,%.6g\n", m->file, gauge.t[i], gauge.p[i]);
-    report_absolute(report_beside(r, REPORT_OTHERS), "gauge", m->name, "arrival: p > 0.2 rho g H (Buchner)",
-                    gauge_arrival(buchner_t, buchner_p, BUCHNER), gauge_arrival(gauge.t, gauge.p, gauge.count), 0.15);
-    report_relative(report_beside(r, REPORT_OTHERS), "gauge", m->name, "mean, t = 2.6 to 3.1 / rho g H (Buchner)",
-                    gauge_mean(buchner_t, buchner_p, BUCHNER, 2.6, 3.1), gauge_mean(gauge.t, gauge.p, gauge.count, 2.6, 3.1), 0.3);
-    report_relative(report_beside(r, REPORT_OTHERS), "gauge", m->name, "mean, t = 3.2 to 4.8 / rho g H (Buchner)",
-                    gauge_mean(buchner_t, buchner_p, BUCHNER, 3.2, 4.8), gauge_mean(gauge.t, gauge.p, gauge.count, 3.2, 4.8), 0.2);
+    for (i = 0; i < gauge.count && seed == 0; i++) {
+        fprintf(to, "%s,%.6g", m->file, gauge.t[i]);
+        for (k = 0; k < GAUGES; k++) fprintf(to, ",%.6g", gauge.p[k][i]);
+        fprintf(to, ",%.6g\n", gauge.x[i]);
+    }
+    figure[ARRIVAL] = gauge_first(gauge.t, gauge.p[0], gauge.count, 0.2);
+    figure[IMPACT] = gauge_mean(gauge.t, gauge.p[0], gauge.count, 2.6, 3.1);
+    figure[PLATEAU] = gauge_mean(gauge.t, gauge.p[0], gauge.count, 3.2, 4.8);
+    figure[TOUCH] = gauge_first(gauge.t, gauge.x, gauge.count, gauge.wall - 2 - 0.5 * dx);
+    for (k = 0; k < FRONTS; k++) front_x[k] = gauge_front_at(lobovsky_t[k]);
+    figure[SPEED] = statistics_slope(lobovsky_t, front_x, FRONTS);
+    figure[THRUST] = gauge_mean(gauge.t, gauge.p[1 + THIRD], gauge.count, 2.6, 3.1);
+    for (k = 0; k < SENSORS; k++) figure[PEAK + k] = gauge_peak(gauge.t, gauge.p[1 + k], gauge.count);
     liquid_close(&l);
+}
+/* Beside the experiments. seeds: how many, for the range over them; 0: none. */
+static void compare_gauge(report *r, const liquid_method *m, const fluids_options *o, int seeds, FILE *to)
+{
+    static const char *const item = "gauge", *const tongue = "the tongue of water is three particles thick",
+                            *const sound = "a blow of c0 = 20 sqrt(gH), which real water does not feel";
+    static const char *const quantity[GAUGE_FIGURES] = {"arrival: p > 0.2 rho g H (Buchner)",
+                                                        "mean, t = 2.6 to 3.1 / rho g H (Buchner)",
+                                                        "mean, t = 3.2 to 4.8 / rho g H (Buchner)",
+                                                        "front at the wall (Lobovsky et al.)",
+                                                        "dx/dt of the front, t = 1 to 2.4 (Lobovsky et al.)",
+                                                        "sensor 3, mean, t = 2.6 to 3.1 (Lobovsky et al.)",
+                                                        "sensor 1, largest (Lobovsky et al.)",
+                                                        "sensor 2, largest (Lobovsky et al.)",
+                                                        "sensor 3, largest (Lobovsky et al.)",
+                                                        "sensor 4, largest (Lobovsky et al.)"};
+    double figure[GAUGE_FIGURES], seen[LIQUID_SEEDS][GAUGE_FIGURES], known[GAUGE_FIGURES];
+    int k, s;
+    run_gauge(m, 0, o, to, figure);
+    for (s = 0; s < seeds; s++) run_gauge(m, s + 1, o, to, seen[s]);
+    known[ARRIVAL] = gauge_first(buchner_t, buchner_p, BUCHNER, 0.2);
+    known[IMPACT] = gauge_mean(buchner_t, buchner_p, BUCHNER, 2.6, 3.1);
+    known[PLATEAU] = gauge_mean(buchner_t, buchner_p, BUCHNER, 3.2, 4.8);
+    known[TOUCH] = lobovsky_arrival;
+    known[SPEED] = statistics_slope(lobovsky_t, lobovsky_x, FRONTS);
+    known[THRUST] = lobovsky_third;
+    for (k = 0; k < SENSORS; k++) known[PEAK + k] = lobovsky_peak[k][0] / lobovsky_mbar;
+    for (k = 0; k < GAUGE_FIGURES; k++) {
+        report_beside(r, k == PEAK + 3 && !o->full ? REPORT_PAPER : REPORT_OTHERS);
+        switch (k) {
+        case ARRIVAL:
+        case TOUCH: report_absolute(r, item, m->name, quantity[k], known[k], figure[k], 0.15); break;
+        case IMPACT: report_relative(r, item, m->name, quantity[k], known[k], figure[k], 0.3); break;
+        case PLATEAU: report_relative(r, item, m->name, quantity[k], known[k], figure[k], 0.2); break;
+        case SPEED: report_relative(r, item, m->name, quantity[k], known[k], figure[k], 0.05); break;
+        case THRUST: report_band(r, item, m->name, quantity[k], known[k], figure[k], figure[k] / 1.3, figure[k] * 1.3, REPORT_NOT_REPRODUCED, tongue); break;
+        default: { /* the band of the experiment */
+            const double *const peak = lobovsky_peak[k - PEAK];
+            if (k == PEAK + 3 && !o->full) report_info(r, item, m->name, "sensor 4, largest until t = 4.8", figure[k]);
+            else if (figure[k] >= peak[1] / lobovsky_mbar && figure[k] <= peak[2] / lobovsky_mbar)
+                report_range(r, item, m->name, quantity[k], known[k], figure[k], peak[1] / lobovsky_mbar, peak[2] / lobovsky_mbar);
+            else report_not_reproduced(r, item, m->name, quantity[k], known[k], figure[k], sound);
+        }
+        }
+        if (seeds) liquid_range(r, item, m->name, quantity[k], &seen[0][k], GAUGE_FIGURES);
+    }
 }
 
 int main(int argc, char **argv)
@@ -183,7 +275,7 @@ int main(int argc, char **argv)
         5,
         {"noise at t = 1.2", "noise at t = 2.4", "front at t = 1.2", "f(<0.5) at t = 2.4", "energy at t = 1.2"},
         {1.5, 2.5, 1.02, 4, 1.02},
-        run};
+        run, 0};
     enum { PLAIN, MOLTENI, ANTUONO, FOURTAKAS, SUN, RIEMANN, METHODS = RIEMANN + 5 };
     static const liquid_trial trial[METHODS] = {{METHOD_PLAIN, {.497, 0, 2.174, .106}, 0},
                                                 {METHOD_MOLTENI, {.0769, 0, 2.178}, 0},
@@ -225,9 +317,9 @@ int main(int argc, char **argv)
 
     report_section(&r, "A gauge in the wall, where the front hits it");
     to = figure_open(o.figures, "fluids_dam_gauge");
-    fprintf(to, "run,t,p\n");
+    fprintf(to, "run,t,p,sensor1,sensor2,sensor3,sensor4,front\n");
     for (k = 0; k < BUCHNER; k++) fprintf(to, "buchner,%g,%g\n", buchner_t[k], buchner_p[k]);
-    for (k = 0; k < (o.full ? 4 : 1); k++) run_gauge(&r, &gauged[k], &o, to);
+    for (k = 0; k < (o.full ? 4 : 1); k++) compare_gauge(&r, &gauged[k], &o, k == 0 ? LIQUID_SEEDS : 0, to);
     figure_close(to);
     return report_close(&r) ? 1 : 0;
 }

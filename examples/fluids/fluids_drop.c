@@ -170,11 +170,11 @@ static void run(const liquid_method *m, int seed, const fluids_options *o, doubl
 
 int main(int argc, char **argv)
 {
-#define FIGURES 4, {"jump / (sigma / R)", "mu U / sigma", "momentum", "length / 2 pi R"}, {2, 2, 2, 2}, run
+#define FIGURES 4, {"jump / (sigma / R)", "mu U / sigma", "momentum", "length / 2 pi R"}, {2, 2, 2, 2}, run, 0
     static const liquid_case cases[SHAPES] = {
         {"at rest", FIGURES},
         {"from a square", FIGURES},
-        {"ellipse", 3, {"period / exact", "stretch after half of it", "momentum"}, {2, 2, 2}, run}};
+        {"ellipse", 3, {"period / exact", "stretch after half of it", "momentum"}, {2, 2, 2}, run, 0}};
     enum { CSS, CSF, METHODS = CSF + 3 };
     static const liquid_trial trial[METHODS] = {
         {METHOD_CSS, {0}, 0}, {METHOD_CSF, {0}, 0}, {METHOD_CSS_SUN, {0}, 1}, {METHOD_CSS_ANTUONO, {0}, 1}};

@@ -7,7 +7,7 @@
  *     fluids_hydrostatic -out DIR -figures DIR [-full]       (-h for help)
  *
  * A unit square of n x n particles, n = 16, 32, 64 (-full: 128, too), periodic sideways, on three rows of wall
- * particles; lattice, or moved by up to 0.2 dx; h = 1.6 dx. At rest a projection solves lap p = 0 with
+ * particles; lattice, or moved by up to 0.2 dx, with three seeds; h = 1.6 dx. At rest a projection solves lap p = 0 with
  *     p = rho g (1 - y) on the particles of the surface, which the cone of sph_free_surface_cone finds;
  *     the rows of sph_wall_rows_adami for the wall particles, or none: sph_wall_rows_eliminate.
  * Figures: rms error of p of the liquid in rho g H. Rows that are exact for linear fields leave what the solver
@@ -183,11 +183,11 @@ static answer solve(int side, double jitter, int seed, rows_of which, int elimin
 int main(int argc, char **argv)
 {
     const char *out = ".", *figures = ".";
-    int full = 0, which, jittered, eliminate, n;
+    int full = 0, which, jittered, eliminate, n, seed;
     const option_spec specs[] = {{"out", "folder of the result table", OPTION_TEXT, &out, 0, 0},
                                  {"figures", "folder of the figures' data", OPTION_TEXT, &figures, 0, 0},
                                  {"full", "128 x 128 particles, too", OPTION_FLAG, &full, 0, 0}};
-    enum { SIDES = 4 };
+    enum { SIDES = 4, SEEDS = 3 };
     static const int sides[SIDES] = {16, 32, 64, 128};
     /* rms error of Brookshaw's rows in an earlier trial, lattice, with the rows of walls */
     static const double known[SIDES] = {1.5e-2, 7.5e-3, 3.8e-3, 0};
@@ -203,12 +203,20 @@ int main(int argc, char **argv)
         for (which = 0; which < ROWS; which++)
             for (jittered = 0; jittered < 2; jittered++)
                 for (n = 0; n < (full ? SIDES : SIDES - 1); n++) {
-                    const answer a = solve(sides[n], jittered ? 0.2 : 0, 2026, (rows_of)which, eliminate,
-                                           !eliminate && jittered && n == 0 ? profile : NULL);
                     const char *const item = eliminate ? "eliminated" : "rows";
+                    answer a = solve(sides[n], jittered ? 0.2 : 0, 2026, (rows_of)which, eliminate,
+                                     !eliminate && jittered && n == 0 ? profile : NULL);
+                    double least = a.rms;
                     char setting[96], text[96];
+                    for (seed = 1; jittered && seed < SEEDS; seed++) { /* the worst of all is judged */
+                        const answer b = solve(sides[n], 0.2, 2026 + seed, (rows_of)which, eliminate, NULL);
+                        const int surface = abs(b.surface - sides[n]) > abs(a.surface - sides[n]) ? b.surface : a.surface;
+                        least = fmin(least, b.rms);
+                        if (!(b.rms <= a.rms)) a = b;
+                        a.surface = surface;
+                    }
                     snprintf(setting, sizeof setting, "%s, %s, %d x %d", rows_name[which],
-                             jittered ? "jitter 0.2" : "lattice", sides[n], sides[n]);
+                             jittered ? "jitter 0.2, worst of three" : "lattice", sides[n], sides[n]);
                     if (which != BROOKSHAW)
                         report_range(report_beside(&r, REPORT_THEORY), item, setting, "rms error / rho g H", 0, a.rms, 0,
                                      1e-9);
@@ -217,6 +225,10 @@ int main(int argc, char **argv)
                                         "rms error / rho g H: not exact", known[n], a.rms, 0.03);
                     else
                         report_range(&r, item, setting, "rms error / rho g H: not exact", (double)NAN, a.rms, 1e-3, 1);
+                    if (jittered) {
+                        snprintf(text, sizeof text, "%.3g to %.3g", least, a.rms);
+                        report_row(&r, item, setting, "rms error / rho g H", NULL, text, "three seeds", NULL, REPORT_INFO);
+                    }
                     snprintf(text, sizeof text, "largest %.2g; %d products; %d of %d rows monotone", a.worst,
                              a.iterations, a.monotone, sides[n] * (sides[n] - 1));
                     report_row(&r, item, setting, "error, solver, signs", NULL, text, NULL, NULL, REPORT_INFO);

@@ -63,7 +63,7 @@ int main(int argc, char **argv)
                                       4,
                                       {"noise", "f(<0.5)", "kinetic energy", "angular momentum"},
                                       {2, 3, 1.02, 1.003},
-                                      run};
+                                      run, 0};
     enum { INVISCID, PLAIN, ANTUONO_INVISCID, ANTUONO, SUN, RIEMANN, RIEMANN_SUN, METHODS = RIEMANN_SUN + 3 };
     static const liquid_trial trial[METHODS] = {{METHOD_INVISCID, {.422, .44, 0, 1}, 0},
                                                 {METHOD_PLAIN, {0}, 0},

@@ -49,7 +49,7 @@ int main(int argc, char **argv)
 {
     static const liquid_case tank = {
         "tank", 3, {"rise of the centre of mass / H", "pressure error / rho g H", "noise / rho g H"},
-        {2, 2, 2}, run};
+        {2, 2, 2}, run, 0};
     enum { PLAIN, MOLTENI, ANTUONO, FOURTAKAS, SUN, RIEMANN, RIEMANN_GRAVITY, METHODS = RIEMANN_GRAVITY + 5 };
     static const liquid_trial trial[METHODS] = {{METHOD_PLAIN, {-2.0e-4, .0269}, 0},
                                                 {METHOD_MOLTENI, {-5.5e-3, .0177}, 0},

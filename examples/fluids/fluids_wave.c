@@ -96,7 +96,7 @@ static void run(const liquid_method *m, int seed, const fluids_options *o, doubl
 
 int main(int argc, char **argv)
 {
-#define FIGURES 4, {"period / exact", "viscosity / nu", "noise", "maximum of E / E0"}, {1.1, 1.5, 2, 1.5}, run
+#define FIGURES 4, {"period / exact", "viscosity / nu", "noise", "maximum of E / E0"}, {1.1, 1.5, 2, 1.5}, run, 0
     static const liquid_case cases[2] = {{"wave, 16 rows", FIGURES}, {"wave, 32 rows", FIGURES}};
     enum { PLAIN, ANTUONO, MORRIS, FOURTAKAS, SUN, RIEMANN, METHODS = RIEMANN + 3 };
     static const liquid_trial trial[METHODS] = {{METHOD_PLAIN, {0}, 0},

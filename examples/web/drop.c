@@ -89,7 +89,8 @@ static int rates(void)
 }
 static void longest_step(void)
 {
-    dt = fmin(sph_time_step_sound(h, liquid.c, 1), sph_time_step_viscous_nu(h, controls[NU].value));
+    const double stiff = 3 * controls[NU].value; /* what Monaghan & Cleary's form has against compression */
+    dt = fmin(sph_time_step_sound(h, liquid.c, 1), sph_time_step_viscous_nu(h, stiff));
 }
 static int reset(void)
 {

@@ -204,7 +204,8 @@ done
 
 for cc in $c; do
     for f in $(ls tests/test_*.c | grep -v -e test_gsl -e test_common); do
-        for single in 0 1; do job "$f, $cc, SPH_SINGLE=$single" $cc -std=c99 "$basic" -DSPH_SINGLE=$single -fsyntax-only "$f"; done
+        case "$full$c, $cc" in " gcc clang, gcc") precisions=0 ;; " gcc clang, clang") precisions=1 ;; *) precisions="0 1" ;; esac
+        for single in $precisions; do job "$f, $cc, SPH_SINGLE=$single" $cc -std=c99 "$basic" -DSPH_SINGLE=$single -fsyntax-only "$f"; done
     done
     for f in tests/test_common.c tests/embedded/selfcheck.c examples/*.c examples/[!h]*/*.c; do
         job "$f, $cc" $cc -std=c99 "$basic" "-I$scratch" -fsyntax-only "$f"
@@ -261,11 +262,13 @@ pair "mingw-w64" "$windows" "$windows" x86_64-w64-mingw32-gcc '' 'wine64|/usr/li
 
 # ---------------------------------------------------------------- all of them
 
-i=0
-while [ $i -lt $jobs ]; do
-    i=$((i + 1))
-    echo $i
-done | SCRATCH=$scratch xargs -P "${JOBS:-1}" -n 1 sh -c 'sh "$SCRATCH/jobs/$1" > "$SCRATCH/jobs/$1.log" 2>&1 < /dev/null; echo $? > "$SCRATCH/jobs/$1.status"' job
+numbers=$(awk -v jobs=$jobs 'BEGIN { for (i = 1; i <= jobs; i++) print i }')
+# shellcheck disable=SC2086
+sh examples/common/progress.sh "matrix${full:+-full}" "$scratch/jobs/*.status" $numbers &
+watcher=$!
+echo "$numbers" | SCRATCH=$scratch xargs -P "${JOBS:-1}" -n 1 sh -c 'sh "$SCRATCH/jobs/$1" > "$SCRATCH/jobs/$1.log" 2>&1 < /dev/null; echo $? > "$SCRATCH/jobs/$1.status"' job
+kill $watcher 2> /dev/null
+wait $watcher
 i=0
 while [ $i -lt $jobs ]; do
     i=$((i + 1))

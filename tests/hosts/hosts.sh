@@ -81,7 +81,10 @@ if built "the shim, an object," "$scratch/sph_shim.o" $CC -std=c99 $warn -O2 -fP
                 mkdir -p "$scratch/beside" # the library lies beside the module, as pip would have it
                 cp -R $hosts/sph "$scratch/libsph_shim.so" "$scratch/beside"
                 mv "$scratch/beside/libsph_shim.so" "$scratch/beside/sph"
-                run "Python, the notebook" env MPLBACKEND=agg PYTHONPATH="$scratch/beside" "$numpy" examples/notebooks/first_laplacian.py "$scratch/notebook.png"
+                notebook=examples/notebooks/first_laplacian.py
+                run "Python, the notebook" sh -c "MPLBACKEND=agg PYTHONPATH='$scratch/beside' '$numpy' $notebook '$scratch/notebook.png' > '$scratch/notebook.said'"
+                run "the notebook with its results" sh -c "python3 -S examples/notebooks/render.py -check $notebook < '$scratch/notebook.said'"
+                run "the notebook with other results" sh -c "! echo other | python3 -S examples/notebooks/render.py -check $notebook"
                 check "the notebook draws" test -s "$scratch/notebook.png"
             else
                 skip "Python, the notebook (Debian: python3-matplotlib)" "$(tail -n 1 "$scratch/why")"

@@ -2676,7 +2676,9 @@ def time_step_force(h: float, acceleration: float) -> float:
 def time_step_viscous_nu(h: float, nu: float) -> float:
     """sph_time_step_viscous_nu.
 
-    The longest step by viscosity: 0.125 h^2 / nu, with the kinematic viscosity nu. Needs nu >= 0.
+    The longest step by viscosity: 0.125 h^2 / nu, with the kinematic viscosity nu. A form that resists
+    compression with more than it resists shear needs the larger of the two: 3 nu for Monaghan & Cleary, (2 -
+    2 / dim) nu plus the bulk viscosity for Espanol & Revenga. Needs nu >= 0.
     """
     return _number("time_step_viscous_nu", h, nu)
 
