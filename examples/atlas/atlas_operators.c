@@ -119,21 +119,20 @@ static void judge(report *r, const header *h)
         claim *const c = &results[o].claim;
         char formula[512];
         char *const comment = header_comment(h, q->function);
-        if (q->family < WITH_ERRORS) *c = header_claim(h, q->function, family(q->family).word);
-        else { /* what is kept, in one sentence */
+        if (q->family < WITH_ERRORS) {
+            *c = header_claim(h, q->function, family(q->family).word);
+            report_row(report_beside(r, REPORT_THEORY), q->id, q->function, "what sph_ops.h claims", c->given ? c->text : "nothing is claimed", c->given > 0 ? "read" : "not understood", "a line 'Atlas: ...'", NULL,
+                       c->given > 0 ? REPORT_MATCH : REPORT_DIFFERS);
+        } else { /* what is kept, in one sentence */
+            const portrait *const in_2d = &results[o].of[q->family == GRAVITY]; /* gravity is of 3D only */
             portrait both = results[o].of[1];
-            for (int d = 0; d < 1 && q->family != GRAVITY; d++) {
-                both.momentum = fmax(both.momentum, results[o].of[d].momentum);
-                both.angular = fmax(both.angular, results[o].of[d].angular);
-                both.energy = fmax(both.energy, results[o].of[d].energy);
-            }
+            both.momentum = fmax(both.momentum, in_2d->momentum);
+            both.angular = fmax(both.angular, in_2d->angular);
+            both.energy = fmax(both.energy, in_2d->energy);
             kept_text(q->family, &both, c->text);
             c->given = comment && strstr(comment, c->text) != NULL;
-        }
-        if (q->family >= WITH_ERRORS)
             report_row(report_beside(r, REPORT_THEORY), q->id, q->function, "what is kept", c->text, c->given ? "said" : "not what sph_ops.h says", "the same sentence", NULL, c->given ? REPORT_MATCH : REPORT_DIFFERS);
-        else report_row(report_beside(r, REPORT_THEORY), q->id, q->function, "what sph_ops.h claims", c->given ? c->text : "nothing is claimed", c->given > 0 ? "read" : "not understood", "a line 'Atlas: ...'", NULL,
-                   c->given > 0 ? REPORT_MATCH : REPORT_DIFFERS);
+        }
         snprintf(formula, sizeof formula, "%s; %s", q->formula, q->source);
         for (char *part = strtok(formula, ";"); part; part = strtok(NULL, ";")) {
             while (*part == ' ') part++;
