@@ -684,12 +684,14 @@ static flow periodic_lattice(int hexagonal, double h_over_dx, double jitter, sph
     free(work);
     return f;
 }
-/* The viscosity that damps the wave v = t sin(k . x), over the given one. t is at right angles to k, which goes once
-   around the box along x, or along both axes. */
-static double shear_viscosity(const flow *f, sph_kernel kernel, const double box[2], int form, int diagonal)
+/* The viscosity that damps the wave v = t sin(k . x), over the given one. t is at right angles to k (a shear), or
+   along k (a compression), which goes once around the box along x, or along both axes. form 0: Morris, 1: Monaghan &
+   Cleary, 2: Espanol & Revenga with the bulk viscosity 0.5. */
+static double wave_viscosity(const flow *f, sph_kernel kernel, const double box[2], int form, int diagonal, int compression)
 {
     const double kx = 2.0 * PI / box[0], ky = diagonal ? 2.0 * PI / box[1] : 0.0, k = hypot(kx, ky);
-    const sph_real mu = SPH_R(1);
+    const sph_real mu = SPH_R(1), zeta = SPH_R(0.5);
+    const sph_shear_bulk both = {sph_scalars_same(&mu), sph_scalars_same(&zeta)};
     const sph_cloud all = sph_cloud_of(sph_points_periodic(cloud_points(&f->c), SPH_R(box[0]), SPH_R(box[1]), SPH_R(0)),
                                        cloud_list(&f->c), cloud_h(&f->c), sph_scalars_none());
     const sph_fluid s = fluid(f, SPH_VISCOSITY_NONE, 0.0, 0.0);
@@ -697,16 +699,34 @@ static double shear_viscosity(const flow *f, sph_kernel kernel, const double box
     sph_index i;
     for (i = 0; i < f->c.n; i++) {
         const double wave = sin(kx * (double)f->c.x[i] + ky * (double)f->c.y[i]);
-        f->v[0][i] = SPH_R(-ky / k * wave);
-        f->v[1][i] = SPH_R(kx / k * wave);
+        f->v[0][i] = SPH_R((compression ? kx : -ky) / k * wave);
+        f->v[1][i] = SPH_R((compression ? ky : kx) / k * wave);
     }
-    CHECK((form ? sph_viscosity_mu_monaghan_cleary(kernel, 2, all, s, sph_scalars_same(&mu), flow_a(f))
-                : sph_viscosity_mu_morris(kernel, 2, all, s, sph_scalars_same(&mu), flow_a(f))) == 0);
+    CHECK((form == 2   ? sph_viscosity_mu_espanol_revenga(kernel, 2, all, s, both, flow_a(f))
+           : form == 1 ? sph_viscosity_mu_monaghan_cleary(kernel, 2, all, s, sph_scalars_same(&mu), flow_a(f))
+                       : sph_viscosity_mu_morris(kernel, 2, all, s, sph_scalars_same(&mu), flow_a(f))) == 0);
     for (i = 0; i < f->c.n; i++) {
         loss -= (double)f->a[0][i] * (double)f->v[0][i] + (double)f->a[1][i] * (double)f->v[1][i];
         size += (double)f->v[0][i] * (double)f->v[0][i] + (double)f->v[1][i] * (double)f->v[1][i];
     }
     return loss / (size * k * k);
+}
+static double shear_viscosity(const flow *f, sph_kernel kernel, const double box[2], int form, int diagonal)
+{
+    return wave_viscosity(f, kernel, box, form, diagonal, 0);
+}
+/* What sph_time_step_viscous_nu says of compressions: 1, 3, and in 2D 1 + zeta / mu times the shear viscosity. */
+static void test_compression_waves(void)
+{
+    static const double more[3] = {1.0, 3.0, 1.5};
+    double box[2];
+    flow f = periodic_lattice(1, 1.3, 0.0, SPH_WENDLAND_C2, box); /* hexagonal: no direction is another */
+    int form, diagonal;
+    for (form = 0; form < 3; form++)
+        for (diagonal = 0; diagonal < 2; diagonal++)
+            CHECK_RELATIVE(wave_viscosity(&f, SPH_WENDLAND_C2, box, form, diagonal, 1),
+                           more[form] * wave_viscosity(&f, SPH_WENDLAND_C2, box, form, diagonal, 0), 0.01);
+    flow_free(&f);
 }
 static void test_shear_waves(void)
 {
@@ -817,6 +837,7 @@ int main(void)
     test_conservation();
     test_linear();
     test_shear_waves();
+    test_compression_waves();
     test_order_of_a_step();
     test_jump();
     test_xsph();

@@ -252,10 +252,23 @@ static void compare_gauge(report *r, const liquid_method *m, const fluids_option
         switch (k) {
         case ARRIVAL:
         case TOUCH: report_absolute(r, item, m->name, quantity[k], known[k], figure[k], 0.15); break;
-        case IMPACT: report_relative(r, item, m->name, quantity[k], known[k], figure[k], 0.3); break;
+        case IMPACT: /* noise: another seed, another blow */
+            if (seeds == 0) report_number_row(r, item, m->name, quantity[k], known[k], figure[k], NULL, NULL, REPORT_INFO);
+            else {
+                double low = figure[k], high = figure[k];
+                for (s = 0; s < seeds; s++) {
+                    low = fmin(low, seen[s][k]);
+                    high = fmax(high, seen[s][k]);
+                }
+                report_band(r, item, m->name, quantity[k], known[k], figure[k], low, high, REPORT_NOT_REPRODUCED, tongue);
+            }
+            break;
         case PLATEAU: report_relative(r, item, m->name, quantity[k], known[k], figure[k], 0.2); break;
         case SPEED: report_relative(r, item, m->name, quantity[k], known[k], figure[k], 0.05); break;
-        case THRUST: report_band(r, item, m->name, quantity[k], known[k], figure[k], figure[k] / 1.3, figure[k] * 1.3, REPORT_NOT_REPRODUCED, tongue); break;
+        case THRUST:
+            report_band(r, item, m->name, quantity[k], known[k], figure[k], figure[k] / 1.3, figure[k] * 1.3, REPORT_NOT_REPRODUCED,
+                        tongue);
+            break;
         default: { /* the band of the experiment */
             const double *const peak = lobovsky_peak[k - PEAK];
             if (k == PEAK + 3 && !o->full) report_info(r, item, m->name, "sensor 4, largest until t = 4.8", figure[k]);
