@@ -99,8 +99,9 @@ static const double buchner_p[BUCHNER] = {-.018, .010, -.015, .077, .154, .265, 
 /* Lobovsky et al. 2014. Front: x / H from the gate, fig. 12 (H = 0.3 m), the authors' numbers as kept with AQUAgpusph
    (examples/lobovsky_etal_jfs_2013/doc), between its samples. The wall is at 3.367. Sensors: height / H; median of the
    largest pressure in a hundred runs, table 2, in mbar, as printed for warpSPH (scripts/
-   probe_acsphDambreakLobovsky.py), with 2.5 and 97.5 %: 75.06, 130.98; 53.26, 63.31; 39.79, 49.62; 24.18, 36.32. The mean of the third from t = 2.6 to 3.1: the authors' one run of fig. 18, as kept
-   with TNL-SPH (examples/resources/damBreak2D), whose largest pressure is 1.54 rho g H. */
+   probe_acsphDambreakLobovsky.py), where 2.5 and 97.5 % are 75.06, 130.98; 53.26, 63.31; 39.79, 49.62; 24.18, 36.32.
+   The mean of the third from t = 2.6 to 3.1: the authors' one run of fig. 18, as kept with TNL-SPH
+   (examples/resources/damBreak2D), whose largest pressure is 1.54 rho g H. */
 enum { FRONTS = 4, SENSORS = 4, THIRD = 2 };
 static const double lobovsky_t[FRONTS] = {1, 1.5, 2, 2.4}, lobovsky_x[FRONTS] = {.906, 1.594, 2.365, 3.040},
                     lobovsky_arrival = 2.573, lobovsky_third = 1.36, lobovsky_mbar = 997 * 9.81 * 0.3 / 100;
