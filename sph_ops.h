@@ -5331,9 +5331,9 @@ SPH_FN sph_real sph_time_step_force(sph_real h, sph_real acceleration)
     SPH_ASSERT(h > SPH_R(0) && acceleration >= SPH_R(0));
     return SPH_R(0.25) * SPHI_SQRT(sphi_limit(h, acceleration));
 }
-/* The longest step by viscosity: 0.125 h^2 / nu, with the kinematic viscosity nu. A form that resists compression
-   with more than it resists shear needs the larger of the two: 3 nu for Monaghan & Cleary, (2 - 2 / dim) nu plus
-   the bulk viscosity for Espanol & Revenga. Needs nu >= 0. */
+/* The longest step by viscosity: 0.125 h^2 / nu, with the kinematic viscosity nu. A form that resists
+   compression with more than it resists shear needs the larger of the two: 3 nu for Monaghan & Cleary,
+   (2 - 2 / dim) nu plus the bulk viscosity for Espanol & Revenga. Needs nu >= 0. */
 SPH_FN sph_real sph_time_step_viscous_nu(sph_real h, sph_real nu)
 {
     SPH_ASSERT(h > SPH_R(0) && nu >= SPH_R(0));
