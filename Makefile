@@ -150,8 +150,8 @@ $(BUILD)/examples/%: %.c $(BUILD)/common/host_search.o $(COMMON) $(HEADERS)
 # make reproduce PETSC=N: this one solves by PETSc, too, on N ranks (the program is made anew if it has been made without)
 ifdef PETSC
 PETSC_PACKAGES = PETSc $(shell pkg-config --exists mpi && echo mpi)
-$(BUILD)/examples/elliptic_spe10: private CFLAGS += -DHAVE_PETSC=1 $(patsubst -I%,-isystem %,$(shell pkg-config --cflags $(PETSC_PACKAGES)))
-$(BUILD)/examples/elliptic_spe10: private LDLIBS += $(shell pkg-config --libs $(PETSC_PACKAGES))
+$(BUILD)/examples/elliptic_spe10: private override CFLAGS += -DHAVE_PETSC=1 $(patsubst -I%,-isystem %,$(shell pkg-config --cflags $(PETSC_PACKAGES)))
+$(BUILD)/examples/elliptic_spe10: private override LDLIBS += $(shell pkg-config --libs $(PETSC_PACKAGES))
 $(BUILD)/examples/elliptic_spe10: $(shell f="$(BUILD)/examples/elliptic_spe10"; [ ! -e "$$f" ] || nm "$$f" 2> /dev/null | grep -q PetscInitialize || rm -f "$$f")
 driver-elliptic_spe10: LAUNCH = mpirun -n $(PETSC)
 endif
