@@ -21,7 +21,7 @@ int main(void) { return check_report("test_atlas"); }
 #define SAYS(what, holds) CHECK_AT(what, 0L, holds)
 
 /* The distance from a value to the nearest eigenvalue. */
-static double nearest(int n, const pair *value, double re, double im)
+static double nearest(int n, const complex_pair *value, double re, double im)
 {
     double least = HUGE_VAL;
     for (int k = 0; k < n; k++) least = fmin(least, hypot(value[k].re - re, value[k].im - im));
@@ -31,7 +31,7 @@ static void test_eigenvalues(void)
 {
     enum { MOST = 24 };
     double a[MOST * MOST];
-    pair value[MOST];
+    complex_pair value[MOST];
     pcg32 g;
     /* second differences: -4 sin^2(pi k / (2 (n + 1))) */
     for (int q = 0; q < MOST * MOST; q++) a[q] = q / MOST == q % MOST ? -2.0 : abs(q / MOST - q % MOST) == 1 ? 1.0 : 0.0;

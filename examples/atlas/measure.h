@@ -52,7 +52,7 @@ typedef struct portrait {
     int exact, exact_lattice;                  /* degrees: -1 nothing, 0 constants, 1 linear ... */
     double at_distance[BOTH][DISTANCES];       /* error against the distance from wall and surface, in half spacings */
     double at_jitter[JITTERS];
-    pair transfer[BOTH][WAVES];                /* along an axis and a diagonal, k dx = pi (w + 1) / WAVES */
+    complex_pair transfer[BOTH][WAVES];        /* along an axis and a diagonal, k dx = pi (w + 1) / WAVES */
     double monotone_inside, monotone_all;      /* share of rows whose other weights have one sign */
     double row_sum;                            /* the largest, in units of the sum of absolute values */
     double symmetry;                           /* |V_i L_ij - V_j L_ji| / |V_i L_ij|, root mean squares */
@@ -61,7 +61,7 @@ typedef struct portrait {
     int conjugate[CONJUGATES];
     double rotation;                           /* what a rotation of everything changes, relative */
     double re_most, re_least, im_most, condition; /* eigenvalues times dx^2 */
-    pair *eigenvalue;
+    complex_pair *eigenvalue;
     int eigenvalues;
     figure figures[FIGURES];
     int figure_count;
@@ -280,7 +280,7 @@ static inline void measure_jitter(const op *o, sample *s, double *at)
 /* ---- the response to a wave ---- */
 
 /* For exp(i k x) the factor that a derivative should have: 1, i k, -k^2; the response is what is found divided by it. */
-static inline pair family_response(int which, double k, double re, double im)
+static inline complex_pair family_response(int which, double k, double re, double im)
 {
     const double power = which == PRESSURE ? -k : k;
     switch (family(which).powers) {
@@ -395,7 +395,7 @@ static inline void measure_matrix(const op *o, sample *s, portrait *p)
             double *const block = (double *)need_zeros((size_t)m * (size_t)m, sizeof *block);
             for (int r = 0; r < m; r++)
                 for (int c = 0; c < m; c++) block[r * m + c] = matrix[keep[r] * n + keep[c]];
-            p->eigenvalue = (pair *)need_zeros((size_t)m, sizeof *p->eigenvalue);
+            p->eigenvalue = (complex_pair *)need_zeros((size_t)m, sizeof *p->eigenvalue);
             p->eigenvalues = eigenvalues(m, block, p->eigenvalue) ? m : 0;
             double least = HUGE_VAL, most = 0.0;
             p->re_most = -HUGE_VAL;
