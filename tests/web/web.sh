@@ -19,6 +19,16 @@ if [ -e "$scratch/native" ] && [ -e "$scratch/scalar.wasm" ] && [ -e "$scratch/s
     check "the checks end" test $status -lt 2
 fi
 
+# another browser: a picture of the page; without scripts or without the module it takes 54 kB
+firefox=firefox
+installed firefox-esr && firefox=firefox-esr
+if [ -e "$scratch/simd.wasm" ] && needs "the page in Firefox (Debian: firefox-esr)" $firefox && works "the page in Firefox" $firefox --version; then
+    mkdir -p "$scratch/firefox"
+    here=$(cd "$scratch" && pwd)
+    check "the page in Firefox" $bounded $firefox --headless --no-remote --profile "$here/firefox" --window-size=1280,900 --screenshot "$here/firefox.png" "file://$here/simd.html"
+    check "Firefox draws" test "$(wc -c < "$scratch/firefox.png")" -gt 80000
+fi
+
 package="the npm package (Debian: npm)"
 if needs "$package" npm && works "$package" npm --version && [ -e "$scratch/native" ] && [ -e "$scratch/simd.wasm" ]; then
     # the cache is of this run, and nothing is asked of a registry
