@@ -180,7 +180,7 @@ test: $(TEST_PROGRAMS) $(DRIVERS:%=$(BUILD)/examples/%) $(BUILD)/examples/scoreb
 # not forced inline: what the sanitizers look at does not depend on it, and they take minutes to compile the copies.
 # Two tests run flows for minutes there, of sweeps that the others call, too.
 test-sanitize:
-	$(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize CFLAGS="-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -DSPH_FN='static __attribute__((noinline, unused))'" TESTS_FLOAT= TESTS_DOUBLE="$(filter-out liquid_flow conservation_cost,$(TESTS_DOUBLE))" DRIVERS="icspm_uniform icspm_random elliptic_slit elliptic_spe10" TEST_SCRIPTS=tests/examples.sh test
+	$(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize CFLAGS="-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -DSPH_FN='static __attribute__((noinline, unused))'" TESTS="$(TESTS)" TESTS_FLOAT= TESTS_DOUBLE="$(filter-out liquid_flow conservation_cost,$(TESTS_DOUBLE))" DRIVERS="icspm_uniform icspm_random elliptic_slit elliptic_spe10" TEST_SCRIPTS=tests/examples.sh test
 
 $(BUILD)/tests/%-float: tests/test_%.c $(wildcard tests/*.h) $(COMMON) $(HEADERS)
 	@mkdir -p $(@D)
