@@ -102,6 +102,7 @@ long_first = $(filter $(2),$(1)) $(filter-out $(1),$(2))
 PROCESSORS := $(shell getconf _NPROCESSORS_ONLN 2> /dev/null || getconf NPROCESSORS_ONLN 2> /dev/null || echo 1)
 asked_jobs = $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS)))
 AT_A_TIME = $(or $(asked_jobs),$(shell echo $$(($(PROCESSORS) < 4 ? $(PROCESSORS) : 4))))
+SIDE_BY_SIDE = $(filter-out 1,$(AT_A_TIME))
 SHARE = $(shell echo $$(($(PROCESSORS) > $(AT_A_TIME) ? $(PROCESSORS) / $(AT_A_TIME) : 1)))
 jobs = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(1))
 
@@ -111,10 +112,10 @@ define run
 	@mkdir -p "$(RESULTS)" "$(FIGURES)"
 	+@$(MAKE) --no-print-directory $(call jobs,$(PROCESSORS)) $(addprefix $(BUILD)/examples/,$(call long_first,$(LONG_COMPILES),$(call drivers_of,$(1))) scoreboard)
 	+@rm -f $(patsubst %,"$(RESULTS)/%.csv",$(call drivers_of,$(1))); failed=0; \
-	$(if $(filter 1,$(AT_A_TIME)),,BUILD="$(BUILD)" sh examples/common/progress.sh reproduce-$(1)$(2) "$(RESULTS)/*.csv" $(call drivers_of,$(1)) & watcher=$$!;) \
-	$(if $(filter 1,$(AT_A_TIME)),,CI=1) $(MAKE) --no-print-directory --keep-going $(call jobs,$(AT_A_TIME)) $(if $(filter 1,$(AT_A_TIME)),,--output-sync=target) \
+	$(if $(SIDE_BY_SIDE),BUILD="$(BUILD)" sh examples/common/progress.sh reproduce-$(1)$(2) "$(RESULTS)/*.csv" $(call drivers_of,$(1)) & watcher=$$!;) \
+	$(if $(SIDE_BY_SIDE),CI=1) $(MAKE) --no-print-directory --keep-going $(call jobs,$(AT_A_TIME)) $(if $(SIDE_BY_SIDE),--output-sync=target) \
 	    OPTIONS=$(2) THREADS=$(SHARE) $(addprefix driver-,$(call long_first,$(LONG_RUNS),$(call drivers_of,$(1)))) || failed=1; \
-	$(if $(filter 1,$(AT_A_TIME)),,kill $$watcher 2> /dev/null; wait $$watcher;) \
+	$(if $(SIDE_BY_SIDE),kill $$watcher 2> /dev/null; wait $$watcher;) \
 	$(MAKE) --no-print-directory figures || failed=1; \
 	echo; $(BUILD)/examples/scoreboard -kept $(KEPT) $(if $(2),-compare) $(patsubst %,"$(RESULTS)/%.csv",$(call drivers_of,$(1))) || failed=1; \
 	$(if $(2),if [ $$failed -eq 0 ]; then rm -f "$(RESULTS)"/*.restart; fi;) exit $$failed

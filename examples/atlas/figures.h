@@ -238,24 +238,35 @@ static inline void figures_rates(const op *o, sample *s, arrays *a, portrait *p)
 
 /* ---- shifting ---- */
 
-/* How evenly the particles lie that nothing cuts: nearest neighbours, and the density that all sum up. */
-static inline void figures_evenness(sample *s, arrays *a, portrait *p, const char *const *name, const unsigned char *moves)
+/* Nearest neighbours, of particles that count (null: of all). */
+static inline void figures_nearest(const sample *s, arrays *a, portrait *p, const char *const *name, const unsigned char *counts)
 {
-    double mean = 0.0, least = HUGE_VAL, density = 0.0, square = 0.0;
+    double least = HUGE_VAL, sum = 0.0;
     long count = 0;
     expect_all(sph_nearest_distance(s->dim, s->cloud, s->cloud.points, sph_scalar_out_array(a->other[0], NULL)));
+    for (sph_index i = 0; i < s->n; i++) {
+        if (counts && !counts[i]) continue;
+        least = fmin(least, a->other[0][i]);
+        sum += a->other[0][i];
+        count++;
+    }
+    figure_set(p, s, name[0], least);
+    figure_set(p, s, name[1], sum / (double)count);
+}
+/* How evenly the particles lie that move: nearest neighbours, and the density that all sum up. */
+static inline void figures_evenness(const sample *s, arrays *a, portrait *p, const char *const *name, const unsigned char *moves)
+{
+    double density = 0.0, square = 0.0;
+    long count = 0;
+    figures_nearest(s, a, p, name, moves);
     expect_all(sph_density_summation(s->k, s->dim, s->cloud, sph_scalars_same(&atlas_one), sph_scalar_out_array(a->other[1], NULL)));
     for (sph_index i = 0; i < s->n; i++) {
         if (!moves[i]) continue;
-        mean += a->other[0][i];
-        least = fmin(least, a->other[0][i]);
         density += a->other[1][i];
         square += a->other[1][i] * a->other[1][i];
         count++;
     }
     density /= (double)count;
-    figure_set(p, s, name[0], least);
-    figure_set(p, s, name[1], mean / (double)count);
     figure_set(p, s, name[2], sqrt(fmax(0.0, square / (double)count - density * density)) / density);
 }
 static inline void figures_shifting(const op *o, sample *s, arrays *a, portrait *p)
@@ -323,19 +334,9 @@ static inline double kinetic(const sample *s, double *const *v)
         for (int c = 0; c < s->dim; c++) sum += 0.5 * s->state[STATE_M][i] * v[c][i] * v[c][i];
     return sum;
 }
-static inline void figures_nearest(const sample *s, arrays *a, portrait *p, const char *least_name, const char *mean_name)
-{
-    double least = HUGE_VAL, mean = 0.0;
-    expect_all(sph_nearest_distance(s->dim, s->cloud, s->cloud.points, sph_scalar_out_array(a->other[0], NULL)));
-    for (sph_index i = 0; i < s->n; i++) {
-        least = fmin(least, a->other[0][i]);
-        mean += a->other[0][i] / (double)s->n;
-    }
-    figure_set(p, s, least_name, least);
-    figure_set(p, s, mean_name, mean);
-}
 static inline void figures_collisions(const op *o, sample *s, arrays *a, portrait *p)
 {
+    static const char *const before_all[2] = {"nearest neighbour, least, in dx: before", "nearest neighbour, mean, in dx: before"};
     static const char *const name[2][2] = {{"least, after a flight without collisions", "mean, after a flight without collisions"}, {"least, after a flight with collisions", "mean, after a flight with collisions"}};
     double *start[3];
     for (int c = 0; c < 3; c++) {
@@ -353,7 +354,7 @@ static inline void figures_collisions(const op *o, sample *s, arrays *a, portrai
     const double change = kinetic(s, a->in) / before - 1.0;
     figure_set(p, s, "change of the kinetic energy by one call, of all", change);
     p->energy = fmax(p->energy, change);
-    figures_nearest(s, a, p, "nearest neighbour, least, in dx: before", "nearest neighbour, mean, in dx: before");
+    figures_nearest(s, a, p, before_all, NULL);
     for (int with = 0; with < 2; with++) { /* 20 steps of a twentieth of a spacing at most, along an axis */
         for (int c = 0; c < 3; c++) memcpy(s->unit[c], start[c], (size_t)s->n * sizeof *start[c]);
         for (int step = 0; step < 20; step++) {
@@ -370,7 +371,7 @@ static inline void figures_collisions(const op *o, sample *s, arrays *a, portrai
         }
         sample_lists(s);
         sample_zoom(s, 1.0);
-        figures_nearest(s, a, p, name[with][0], name[with][1]);
+        figures_nearest(s, a, p, name[with], NULL);
     }
     for (int c = 0; c < 3; c++) free(start[c]);
 }

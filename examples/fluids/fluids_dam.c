@@ -261,8 +261,9 @@ static void compare_gauge(report *r, const liquid_method *m, const fluids_option
             continue;
         }
         report_beside(r, REPORT_OTHERS);
-        if (tolerance[k] > 0 && m->riemann && fabs(figure[k] - known[k]) > tolerance[k])
-            report_not_reproduced(r, item, m->name, quantity[k], known[k], figure[k], friction);
+        if (m->riemann && (k == ARRIVAL || k == PLATEAU || k == TOUCH)) /* known to be apart: it differs if it is not */
+            report_number_row(r, item, m->name, quantity[k], known[k], figure[k], NULL, friction,
+                              fabs(figure[k] - known[k]) > tolerance[k] ? REPORT_NOT_REPRODUCED : REPORT_DIFFERS);
         else if (tolerance[k] > 0)
             report_absolute(r, item, m->name, quantity[k], known[k], figure[k], tolerance[k]);
         else if (seeds > 0)

@@ -68,6 +68,8 @@ static void run(const liquid_method *m, int seed, const fluids_options *o, doubl
     snprintf(what, sizeof what, "vortices_%d", side);
     liquid_end(&l, what, packed ? seed - 1 : seed, o);
 }
+/* The order of the error, from the figures of one cloud and of one with half of its spacing. */
+static double order_of(const double *coarse, const double *fine) { return log(coarse[ERROR] / fine[ERROR]) / log(2.0); }
 
 int main(int argc, char **argv)
 {
@@ -134,9 +136,9 @@ int main(int argc, char **argv)
             if (!liquid_wanted(&fine[t], &o)) continue;
             snprintf(text, sizeof text, "order of the error, %d to %d", sides[g - 1], side);
             report_info(&r, "even", fine[t].method.name, text,
-                        log(z[g - 1].figure[t][ERROR] / z[g].figure[t][ERROR]) / log(2.0));
+                        order_of(z[g - 1].figure[t], z[g].figure[t]));
             for (s = 0; s < LIQUID_SEEDS; s++)
-                order[t][s] = log(z[g - 1].seen[t][s][ERROR] / z[g].seen[t][s][ERROR]) / log(2.0);
+                order[t][s] = order_of(z[g - 1].seen[t][s], z[g].seen[t][s]);
             liquid_range(&r, "even", fine[t].method.name, text, order[t], 1);
         }
     }
@@ -156,7 +158,7 @@ int main(int argc, char **argv)
     for (s = 0; s < LIQUID_SEEDS; s++) {
         snprintf(text, sizeof text, "order of the error, %d to %d, cloud %d", sides[0], sides[1], s + 1);
         report_range(&r, "vortices", "even, Antuono, Sun 2017", text, (double)NAN,
-                     log(z[0].seen[FINE_SUN][s][ERROR] / z[1].seen[FINE_SUN][s][ERROR]) / log(2.0), 0.5, 2.5);
+                     order_of(z[0].seen[FINE_SUN][s], z[1].seen[FINE_SUN][s]), 0.5, 2.5);
     }
     report_range(&r, "vortices", "30 x 30, pressure half a step late", "kinetic energy: it grows", (double)NAN,
                  x.figure[LATE][ENERGY], 1.2, 1e3);

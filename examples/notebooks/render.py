@@ -14,8 +14,10 @@ import subprocess
 import sys
 
 
-def cells_of(text):
+def cells_of(source):
     """[("markdown" or "code", its text)]; what comes before the first mark is the header"""
+    with open(source, encoding="utf-8") as file:
+        text = file.read()
     cells = []
     for part in ("\n" + text).split("\n# %%")[1:]:
         mark, body = part.split("\n", 1)
@@ -35,10 +37,8 @@ def render(source):
     import nbformat
     from nbconvert.preprocessors import ExecutePreprocessor
 
-    with open(source, encoding="utf-8") as file:
-        cells = cells_of(file.read())
     new = {"markdown": nbformat.v4.new_markdown_cell, "code": nbformat.v4.new_code_cell}
-    notebook = nbformat.v4.new_notebook(cells=[new[kind](body) for kind, body in cells])
+    notebook = nbformat.v4.new_notebook(cells=[new[kind](body) for kind, body in cells_of(source)])
     notebook.metadata["kernelspec"] = {"display_name": "Python 3", "language": "python", "name": "python3"}
     ExecutePreprocessor(timeout=600).preprocess(notebook)
     for number, cell in enumerate(notebook.cells):  # the same file, if nothing has changed
@@ -53,11 +53,9 @@ def render(source):
 
 def check(source, said):
     """sentences on what is not as it should be"""
-    with open(source, encoding="utf-8") as file:
-        cells = cells_of(file.read())
     with open(source[:-3] + ".ipynb", encoding="utf-8") as file:
         kept = json.load(file)["cells"]
-    if [(cell["cell_type"], "".join(cell["source"])) for cell in kept] != cells:
+    if [(cell["cell_type"], "".join(cell["source"])) for cell in kept] != cells_of(source):
         yield "its cells are not those of " + source
     outputs = [output for cell in kept for output in cell.get("outputs", [])]
     if "".join("".join(o["text"]) for o in outputs if o.get("name") == "stdout") != said:
