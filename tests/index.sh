@@ -19,6 +19,14 @@ bad() {
     echo "index.sh: failed: $1" >&2
 }
 
+# Each of the names $2 is one of $1.
+named() {
+    unknown=$(printf '%s\n' "$2" | grep -v -x -F -e "$1")
+    for name in $unknown; do bad "$3: $name"; done
+    # shellcheck disable=SC2086
+    passed=$((passed + $(set -- $2; echo $#) - $(set -- $unknown; echo $#)))
+}
+
 # The code alone: comments, strings and character constants become a blank.
 code() {
     awk '
@@ -38,7 +46,11 @@ code() {
                 line = substr(line, 2)
                 while (line != "" && substr(line, 1, 1) != first) line = substr(line, substr(line, 1, 1) == "\\" ? 3 : 2)
                 line = substr(line, 2); out = out " "
-            } else { out = out first; line = substr(line, 2) }
+            } else { # as far as one of these may begin
+                n = match(substr(line, 2), /[\/"\047]/)
+                if (!n) n = length(line)
+                out = out substr(line, 1, n); line = substr(line, n + 1)
+            }
         }
         print out
     }' "$1"
@@ -58,6 +70,7 @@ functions_of() {
     code "$1" | sed -n 's/^SPH_FN[^(]*[ *]\(sph_[a-z0-9_]*\)(.*/\1/p'
 }
 
+types=$(for header in $headers; do code "$header"; done | sed -n -E 's/^(typedef [^{(]*[ *]|} )(sph_[a-z0-9_]*);.*/\2/p')
 for header in $headers; do
     if [ ! -f "$header" ]; then
         bad "no $header"
@@ -68,20 +81,12 @@ for header in $headers; do
     code=$(code "$header")
 
     [ -n "$functions" ] && good || bad "$header: no function found"
-    for name in $functions; do
-        if printf '%s\n' "$index" | grep -qx "$name"; then good; else bad "$header: $name is not in the INDEX"; fi
-    done
-
-    # Names in the INDEX: functions of this header, types, or macros.
-    for name in $(printf '%s\n' "$index" | grep -E '^(sph|SPH)_' | sort -u); do
-        case $name in
-        SPH_*) printf '%s\n' "$code" | grep -q "^# *define $name[( ]" && good || bad "$header: no macro $name" ;;
-        *)
-            if printf '%s\n' "$functions" | grep -qx "$name"; then good
-            elif for other in $headers; do code "$other"; done | grep -Eq "^(typedef [^{(]*[ *]|} )$name;"; then good
-            else bad "$header: the INDEX has $name, which does not exist"; fi ;;
-        esac
-    done
+    named "$index" "$functions" "$header: not in the INDEX"
+    # Names in the INDEX: macros and functions of this header, or types.
+    macros=$(printf '%s\n' "$code" | sed -n 's/^# *define \(SPH_[A-Za-z0-9_]*\).*/\1/p')
+    named "$macros
+$functions
+$types" "$(printf '%s\n' "$index" | grep -E '^(sph|SPH)_' | sort -u)" "$header: the INDEX has what does not exist"
 
     for word in malloc calloc realloc free printf fprintf puts exit abort errno; do
         if printf '%s\n' "$code" | grep -qw "$word"; then bad "$header: $word"; else good; fi

@@ -12,10 +12,10 @@ program() { # PAGE TEXT: the page's only program, and what it must print
 program README.md "^f'' = 2.0000000000 at the end of the line, 2.0000000000 in the middle$"
 program examples/USING.md "^gradient in the corner: 2.000000 -*0.000000 -*0.000000$"
 program examples/hosts/BEYOND.md "^densities agree, momentum conserved$"
+known=$(grep -o -h -w 'sph_[a-z0-9_]*' sph_kernels.h sph_ops.h sph.h | sort -u)
 for page in $pages; do
-    for name in $(grep -o 'sph_[a-z0-9_]*' "$page" | grep -v -x -e sph_kernels -e sph_ops | sort -u); do
-        check "$page names $name" grep -q -w -e "$name" sph_kernels.h sph_ops.h sph.h
-    done
+    named=$(grep -o 'sph_[a-z0-9_]*' "$page" | grep -v -x -F -e "$known" -e sph_kernels -e sph_ops | sort -u)
+    check "$page names these, which do not exist: $named" test -z "$named"
     for file in $(grep -o '`[a-z_/]*\.[a-z]*`' "$page" | tr -d '`' | grep / | sort -u); do
         check "$page names $file" test -e "$file"
     done

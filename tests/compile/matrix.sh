@@ -7,9 +7,9 @@
 # code       every function of the headers compiled, not only parsed, so that warnings that need the optimiser come up, too: -O2, and -O3 -march=native -ffast-math (full: -O0, and both
 #            precisions of all)
 # sources    every test and example under the same warnings
-# calls      one call of every function that takes arrays (calls.sh), which is what users compile: C, in 2D, at -O2
-#            -ffast-math (full: C and C++, in every dimension and both precisions, from -O2 to -Ofast, with
-#            -ffast-math and -march=native)
+# calls      one call of every function that takes arrays (calls.sh), which is what users compile: C, in 2D, at -Og;
+#            sweeps.sh compiles sweeps at -O2 (full: C and C++, in every dimension and both precisions, from -Og to
+#            -Ofast, with -ffast-math and -march=native)
 # packages   such calls (full: all of them) in both precisions as one shared library, by the flags of a Linux distribution for
 #            packages, with link-time optimisation: Fedora's (full: those of others, too)
 # runs       the self-check of tests/embedded, one program of a float part in C and a double part in C or C++:
@@ -152,9 +152,9 @@ user() { # COMPILER LEVEL
     job "calls, $1 $2" "$1 $2 $called $scratch/double.c"
     [ -z "$full" ] || job "calls, $1 $2, SPH_SINGLE=1" "$1 $2 $called -DSPH_SINGLE=1 $scratch/float.c"
 }
-[ "$full" ] || user "gcc -std=c99" "-O2 -ffast-math"
+[ "$full" ] || user "gcc -std=c99" -Og
 [ "$full" ] && for cc in "gcc -std=c99" "clang -std=c99" "g++ -x c++ -std=c++11" "clang++ -x c++ -std=c++11"; do
-    for level in -O2 "-O2 -ffast-math" "-O2 -march=native -fopenmp-simd -DSPH_SIMD=1" -O3 "-O3 -march=native" \
+    for level in -Og -O2 "-O2 -ffast-math" "-O2 -march=native -fopenmp-simd -DSPH_SIMD=1" -O3 "-O3 -march=native" \
         "-O3 -march=native -ffast-math" -Ofast; do user "$cc" "$level"; done
 done
 

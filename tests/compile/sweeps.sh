@@ -118,7 +118,7 @@ for cc in gcc "gcc -DLISTS_ALONE -fopenmp-simd -DSPH_SIMD=1" clang; do
         skip "assembly of the sweeps by $cc" "not for x86-64"
         continue
     fi
-    check "$cc" $cc -std=c99 -O2 -I. -S "$scratch/sweeps.c" -o "$scratch/sweeps.s"
+    check "$cc" $cc -std=c99 -O2 -Wall -Wextra -Wno-pass-failed -Werror -I. -S "$scratch/sweeps.c" -o "$scratch/sweeps.s"
     count "$scratch/sweeps.s" > "$scratch/counts"
     check "$cc: $sweeps sweeps" test "$(wc -l < "$scratch/counts")" -eq $sweeps
     check "$cc: no call" obeys "$scratch/counts" '$2 == 0'
