@@ -108,13 +108,15 @@ if (there("clustering_dam_collisions_100")) {
     unset multiplot
     if (there("clustering_dam_collisions_700")) {
         set output "clustering_fig9.png"
-        set terminal pngcairo size 900,1500 font "sans,12"
+        set terminal pngcairo size 1000,1590 font "sans,12"
+        stats late[3].".csv" every ::1 using 1 nooutput
+        dot = STATS_records > 10000 ? 0.4 : 0.7
         set multiplot layout 3,1
         do for [k = 1:3] {
             set title late_title[k]
-            plot late[k].".csv" using ($8 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.7 linecolor rgb "#b0b0b0", \
-                "" using ($8 == 0 && $7 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.7 linecolor rgb "#56a0e9", \
-                "" using ($8 == 0 && $7 == 0 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize 0.7 linecolor rgb "black"
+            plot late[k].".csv" using ($8 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize dot linecolor rgb "#b0b0b0", \
+                "" using ($8 == 0 && $7 == 1 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize dot linecolor rgb "#56a0e9", \
+                "" using ($8 == 0 && $7 == 0 ? $1 : NaN):2 every ::1 with points pointtype 7 pointsize dot linecolor rgb "black"
         }
         unset multiplot
     }

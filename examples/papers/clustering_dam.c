@@ -39,7 +39,8 @@ typedef struct outcome {
     double t; /* of the end */
     char blow_up[160];
     flow_distribution d;
-    double front; /* at t */
+    double front;  /* at t */
+    double centre; /* of mass of the water: x */
     int lost;     /* fluid particles outside of the tank by more than dref / 2 */
     double kinetic_energy, fastest, microseconds;
     double steps_per_list; /* how long neighbour lists lasted */
@@ -125,15 +126,21 @@ static void measure(flow *f, const tank *b, outcome *o)
 {
     const flow_domain all = {0, b->width, 0, b->height};
     const double half = 0.5 * f->dref;
+    double mass = 0;
     int i;
     o->t = f->t;
     o->lost = 0;
-    o->fastest = 0;
+    o->fastest = o->centre = 0;
     for (i = 0; i < f->n_fluid; i++) {
+        if (f->phase[i] == WATER) {
+            mass += f->m[i];
+            o->centre += f->m[i] * f->x[i];
+        }
         o->lost +=
             !(f->x[i] > -half && f->x[i] < b->width + half && f->y[i] > -half && f->y[i] < b->height + half);
         o->fastest = fmax(o->fastest, sqrt(f->vx[i] * f->vx[i] + f->vy[i] * f->vy[i]));
     }
+    o->centre /= mass;
     o->front = front(f, ((const watch *)f->data)->below);
     o->kinetic_energy = flow_kinetic_energy(f);
     o->microseconds = flow_microseconds(f);
@@ -240,8 +247,9 @@ static void early(report *r, const outcome *o, int full)
                            : "Figure 8: t = 0.1, dref = 1/100 (paper: 1/200)");
     for (k = UNTREATED; k <= COLLISIONS; k++)
         distribution_rows(r, "Figure 8", methods[k].name, &o[k], full ? known[k] : NULL);
-    report_range(r, "Figure 8", methods[COLLISIONS].name, "'great improvement': f(<0.5)", (double)NAN,
-                 o[COLLISIONS].d.below_50, 0, 0);
+    /* not 0: at dref = 1/200 one pair of 23000 particles is closer */
+    report_range(r, "Figure 8", methods[COLLISIONS].name, "'great improvement': f(<0.5), with / without",
+                 (double)NAN, o[COLLISIONS].d.below_50 / o[UNTREATED].d.below_50, 0, 0.01);
     report_range(r, "Figure 8", methods[COLLISIONS].name,
                  "'the interface looks very good': void, to four decimals", (double)NAN,
                  o[COLLISIONS].d.void_share, 0, 5e-5);
@@ -289,10 +297,10 @@ static void fronts(report *r, const outcome *o, const clustering_options *c)
     clustering_figure_close(&to);
 }
 
-/* o: of t = 0.3 or later, all with the same dref; what was not run for as long is left out. */
-static void who_is_slower(report *r, const outcome *o, double dref)
+/* Beyond the paper, which looks at t = 0.7 (below). o: of t = 0.3 or later, all with the same dref; what was
+   not run for as long is left out. */
+static void slower_fronts(report *r, const outcome *o, double dref)
 {
-    const double with_air = front_at(&o[UNTREATED].front_of, 0.3), alone = front_at(&o[SINGLE].front_of, 0.3);
     char text[96], setting[64];
     int k;
     for (k = 0; k < 2; k++) {
@@ -302,23 +310,20 @@ static void who_is_slower(report *r, const outcome *o, double dref)
         snprintf(setting, sizeof setting, "%s, dref = 1/%.0f", k ? "water only" : "water and air", 1 / dref);
         snprintf(text, sizeof text, "%.2f m/s without, %.2f m/s with: %+.0f %%; x(0.3) = %.3f, %.3f", a, b,
                  100 * (b / a - 1), front_at(&o[without].front_of, 0.3), front_at(&o[with].front_of, 0.3));
-        report_claim_known(r, k ? "beyond" : "Figure 9", setting, "'the flow with collisions is not slower'",
-                           k ? "" : "pictures", text, "within 2 %", b >= 0.98 * a, !k && dref < 0.006,
-                           k ? "collisions are a viscosity: the less, the finer the lattice"
-                             : "a coarse lattice: 6 % slower at 1/100, 1 % at the paper's 1/200");
+        report_claim_known(r, "beyond", setting, "the front with collisions is not slower, t = 0.2 to 0.3", "",
+                           text, "within 2 %", b >= 0.98 * a, 0,
+                           "collisions are a viscosity: the less, the finer the lattice");
     }
-    if (isnan(with_air) || isnan(alone)) return;
-    snprintf(setting, sizeof setting, "without collisions, dref = 1/%.0f", 1 / dref);
-    snprintf(text, sizeof text, "x(0.3) = %.3f with air, %.3f without", with_air, alone);
-    report_claim(r, "Figure 9", setting, "'the multiphase flow is slower than the single phase flow'",
-                 "pictures", text, "front less far at t = 0.3", with_air < alone);
 }
 
 /* ---------------------------------------------------------------- figure 9: t = 0.7 */
 
+/* how far the water's centre of mass has come */
+static double way(const outcome *o) { return o->centre - 0.5 * dam.water_width; }
 static void late(report *r, const outcome *o, double dref)
 {
-    char text[96];
+    const double with = way(&o[COLLISIONS]), without = way(&o[UNTREATED]), alone = way(&o[SINGLE]);
+    char text[160];
     int k;
     snprintf(text, sizeof text, "Figure 9: t = 0.7, dref = 1/%.0f (paper: 1/200)", 1 / dref);
     report_section(r, text);
@@ -338,6 +343,22 @@ static void late(report *r, const outcome *o, double dref)
                  text, "void < 0.002, f(<0.5) < 0.05",
                  o[COLLISIONS].answer == FLOW_DONE && o[COLLISIONS].d.void_share < 0.002 &&
                      o[COLLISIONS].d.below_50 < 0.05);
+    for (k = 0; k < METHODS; k++)
+        if (k != CONVEX && o[k].answer == FLOW_DONE)
+            info(r, "Figure 9", methods[k].name, "the water's centre of mass has moved by [m]", way(&o[k]),
+                 (double)NAN);
+    snprintf(text, sizeof text, "the water's centre has moved %.4f m without, %.4f m with: %+.1f %%", without,
+             with, 100 * (with / without - 1));
+    report_claim_known(r, "Figure 9", "water and air", "'the flow with collisions is not slower'", "pictures",
+                       text, "at most 2 % less", with >= 0.98 * without, dref < 0.006,
+                       "a coarse lattice: at the paper's 1/200 it is not");
+    snprintf(text, sizeof text, "%.4f m with air, %.4f m without: %+.1f %%; front at t = 0.3: %.3f, %.3f m",
+             without, alone, 100 * (without / alone - 1), front_at(&o[UNTREATED].front_of, 0.3),
+             front_at(&o[SINGLE].front_of, 0.3));
+    report_claim_known(r, "Figure 9", "without collisions",
+                       "'the multiphase flow is slower than the single phase flow'", "pictures", text,
+                       "less far", without < alone, 0,
+                       "only the front is, and less so the finer the lattice");
 }
 
 /* ---------------------------------------------------------------- which equations, and what walls need */
@@ -523,7 +544,7 @@ int main(int argc, char **argv)
     early(&r, at, c.full);
     for (k = 0; k < METHODS; k++) at[k] = o[k][c.full || (k != UNTREATED && k != CONVEX) ? THIRD : FIRST];
     fronts(&r, at, &c);
-    if (!c.full) who_is_slower(&r, at, dref);
+    if (!c.full) slower_fronts(&r, at, dref);
     for (k = 0; k < METHODS; k++) {
         if (!c.full && k != CONVEX)
             run(&c, &methods[k], &dam, 0.02, 1.5, 2 * dt, times + LAST, 1, "dam", &o[k][LAST]);
@@ -531,7 +552,7 @@ int main(int argc, char **argv)
     }
     if (!c.full) dref = 0.02;
     late(&r, at, dref);
-    who_is_slower(&r, at, dref);
+    slower_fronts(&r, at, dref);
     equations(&r, &c, c.full ? 0.01 : 0.02, c.full ? 5e-5 : 2e-4);
     experiments(&r, &c, c.full ? 40 : 20);
     return report_close(&r) ? 1 : 0;
