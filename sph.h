@@ -758,6 +758,8 @@ SPH_FN int sphi_radii(sph_index n, sph_scalars radius, sph_real *mean, sph_real 
     sph_real least;
     double sum = 0;
     sph_index i;
+    *mean = *largest = SPH_R(0); /* gcc -Og does not see that nobody reads them after an error */
+    *alike = 0;
     if (!radius.p) return sphi_refuse("radius", -1, SPH_ERROR_NULL);
     least = *largest = sphi_at(radius, 0);
     for (i = 0; i < count; i++) {
@@ -815,8 +817,8 @@ SPH_FN void sphi_grid_make(int dim, sph_points sources, sph_scalars radius, sph_
 SPH_FN sph_index sph_grid_build(int dim, sph_points sources, sph_scalars radius, void *work, size_t work_size,
                                 sph_grid *grid)
 {
-    sph_real mean = 0, largest = 0; /* gcc -Og does not see that sphi_radii sets them */
-    int alike = 0, error = sphi_check_points(dim, sources);
+    sph_real mean, largest;
+    int alike, error = sphi_check_points(dim, sources);
     if (error) return error;
     if (!grid || (!work && sources.n > 0)) return sphi_refuse("work, grid", -1, SPH_ERROR_NULL);
     if (sources.n == 0) {
@@ -2220,9 +2222,9 @@ SPH_FN sph_index sph_search(int dim, sph_points points, sph_scalars radius, int 
     const size_t fixed = sph_search_size(dim, points.n, 0), work = sph_grid_workspace(dim, points.n);
     const size_t left = size > fixed ? (size - fixed) / sizeof(sph_index) : 0;
     const int64_t room = left < (size_t)SPHI_INDEX_MAX ? (int64_t)left : SPHI_INDEX_MAX;
-    sph_real mean = 0, largest = 0; /* for gcc -Og, as in sph_grid_build */
+    sph_real mean, largest;
     sph_index error, *start, *index;
-    int alike = 0;
+    int alike;
     if (!found) return sphi_refuse("found", -1, SPH_ERROR_NULL);
     found->pairs = 0;
     found->list.start = found->list.index = 0;

@@ -66,8 +66,8 @@ index_of() {
 }
 
 # Public functions: SPH_FN at the start of a line, named sph_something.
-functions_of() {
-    code "$1" | sed -n 's/^SPH_FN[^(]*[ *]\(sph_[a-z0-9_]*\)(.*/\1/p'
+functions_of() { # of code
+    printf '%s\n' "$1" | sed -n 's/^SPH_FN[^(]*[ *]\(sph_[a-z0-9_]*\)(.*/\1/p'
 }
 
 types=$(for header in $headers; do code "$header"; done | sed -n -E 's/^(typedef [^{(]*[ *]|} )(sph_[a-z0-9_]*);.*/\2/p')
@@ -77,13 +77,13 @@ for header in $headers; do
         continue
     fi
     index=$(index_of "$header" | grep -o '[A-Za-z_][A-Za-z0-9_]*')
-    functions=$(functions_of "$header")
     code=$(code "$header")
+    functions=$(functions_of "$code")
 
     [ -n "$functions" ] && good || bad "$header: no function found"
     named "$index" "$functions" "$header: not in the INDEX"
     # Names in the INDEX: macros and functions of this header, or types.
-    macros=$(printf '%s\n' "$code" | sed -n 's/^# *define \(SPH_[A-Za-z0-9_]*\).*/\1/p')
+    macros=$(printf '%s\n' "$code" | sed -n 's/^# *define \(SPH_[A-Za-z0-9_]*\)[( ].*/\1/p')
     named "$macros
 $functions
 $types" "$(printf '%s\n' "$index" | grep -E '^(sph|SPH)_' | sort -u)" "$header: the INDEX has what does not exist"

@@ -247,9 +247,9 @@ static void early(report *r, const outcome *o, int full)
                            : "Figure 8: t = 0.1, dref = 1/100 (paper: 1/200)");
     for (k = UNTREATED; k <= COLLISIONS; k++)
         distribution_rows(r, "Figure 8", methods[k].name, &o[k], full ? known[k] : NULL);
-    /* not 0: at dref = 1/200 one pair of 23000 particles is closer */
+    /* in full runs not 0: at dref = 1/200 one pair of 23000 particles is closer */
     report_range(r, "Figure 8", methods[COLLISIONS].name, "'great improvement': f(<0.5), with / without",
-                 (double)NAN, o[COLLISIONS].d.below_50 / o[UNTREATED].d.below_50, 0, 0.01);
+                 (double)NAN, o[COLLISIONS].d.below_50 / o[UNTREATED].d.below_50, 0, full ? 0.01 : 0);
     report_range(r, "Figure 8", methods[COLLISIONS].name,
                  "'the interface looks very good': void, to four decimals", (double)NAN,
                  o[COLLISIONS].d.void_share, 0, 5e-5);
