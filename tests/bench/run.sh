@@ -7,7 +7,8 @@ usage='usage: sh tests/bench/run.sh [speed|flags|compile] [OPTIONS]     from the
     -n LIST         numbers of particles, as in 1e4,1e5,1e6. Default: 1e5; flags: 64000
     -rounds N       how often everything is timed, in turns: the shortest time counts. Default: 5
     -clouds LIST    of lattice, periodic, surface, plummer, plummer-h, nested. Default: all. For speed
-    -flags TEXT     for speed. Default: "-O3 -march=native -fopenmp-simd -DSPH_SIMD=1", or without what $CC lacks
+    -flags TEXT     for speed. Default: "-O3 -march=x86-64-v3 -fopenmp-simd -DSPH_SIMD=1", where $CC and the
+                    processor know that, or -march=native, or without what $CC lacks
     -keep           write the tables to tests/bench/results, too, and those of flags into README.md
 Programs, lines of figures (CSV) and tables (Markdown) go to $BUILD/bench. CC is the compiler of speed, GCC and
 CLANG are those of flags and compile, CXX is for the other codes. What those are, and how they are found:
@@ -280,7 +281,10 @@ dam() {
 }
 speed() {
     if [ -z "$flags" ]; then
-        for flags in "-O3 -march=native $simd" "-O3 -march=native" -O3 -O2; do runs "$empty" '' $CC $flags && break; done
+        v3='int main(void) { return !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"); }'
+        flags="-O3 -march=x86-64-v3 $simd"
+        runs "$v3" '' "$CC $flags" ||
+            for flags in "-O3 -march=native $simd" "-O3 -march=native" -O3 -O2; do runs "$empty" '' $CC $flags && break; done
     fi
     # shellcheck disable=SC2086
     runs "$empty" '' $CC $flags || { echo "failed: $why"; exit 2; }
