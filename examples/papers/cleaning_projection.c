@@ -18,7 +18,7 @@
 
 #define KERNEL SPH_CUBIC_SPLINE
 
-enum { BX, BY, GX, GY, NONE_X, NONE_Y, PSI, ZERO, RATE_PSI, DIV, V, PHI, RESIDUAL, DIRECTION, IMAGE, WX, WY, ARRAYS };
+enum { BX, BY, GX, GY, NONE_X, NONE_Y, PSI, ZERO, ZERO_Y, RATE_PSI, DIV, V, PHI, RESIDUAL, DIRECTION, IMAGE, WX, WY, ARRAYS };
 typedef struct cloud {
     sph_index n;
     double h, *x[3], *rho, *a[ARRAYS];
