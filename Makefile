@@ -39,6 +39,7 @@ drivers_in = $(notdir $(basename $(wildcard $(addsuffix /$(1)_*.c,$(FOLDERS)))))
 DRIVERS = $(foreach g,$(GROUPS),$(call drivers_in,$(g)))
 # what takes longest starts first, so that nothing long is left alone at the end
 LONG_RUNS = clustering_shaft cleaning_collapse clustering_cavity elliptic_boundary_values cleaning_orszag_tang icspm_random clustering_box cleaning_disc fluids_vortices atlas_operators fluids_dam fluids_tank clustering_dam cleaning_drop gas_evrard gas_crk gas_kh gas_gresho
+SHORT_RUNS = elliptic_operators elliptic_clouds elliptic_uses elliptic_spe10 elliptic_stability elliptic_slit icspm_dimensions cleaning_shocktube gas_noh gas_sedov gas_sod
 LONG_COMPILES = atlas_cost elliptic_boundary_values icspm_dimensions cleaning_disc clustering_flows fluids_drop
 THREADED := $(notdir $(basename $(shell grep -l -e THREADS_OPTION -e '[A-Z]_OPTIONS' -e gas_begin $(addsuffix /*.c,$(FOLDERS)))))
 # those whose long runs leave restarts, and go on from them; and the tables of long runs that are kept
@@ -150,7 +151,7 @@ $(BUILD)/examples/%: %.c $(BUILD)/common/host_search.o $(COMMON) $(HEADERS)
 
 # These call many operators, and each for a moment only: they would take longer to compile than to run if all were
 # inlined, so that the compiler decides.
-$(addprefix $(BUILD)/examples/,elliptic_operators elliptic_clouds elliptic_uses elliptic_spe10 cleaning_shocktube): private override CFLAGS += -USPH_FN -DSPH_FN='static __attribute__((unused))'
+$(addprefix $(BUILD)/examples/,$(SHORT_RUNS)): private override CFLAGS += -USPH_FN -DSPH_FN='static __attribute__((unused))'
 
 # make reproduce PETSC=N: this one solves by PETSc, too, on N ranks (the program is made anew if it has been made without)
 ifdef PETSC
@@ -185,7 +186,7 @@ test: $(TEST_PROGRAMS) $(DRIVERS:%=$(BUILD)/examples/%) $(BUILD)/examples/scoreb
 # not forced inline: what the sanitizers look at does not depend on it, and they take minutes to compile the copies.
 # Two tests run flows for minutes there, of sweeps that the others call, too.
 test-sanitize:
-	$(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize CFLAGS="-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -DSPH_FN='static __attribute__((noinline, unused))'" TESTS="$(TESTS)" TESTS_FLOAT= TESTS_DOUBLE="$(filter-out liquid_flow conservation_cost,$(TESTS_DOUBLE))" DRIVERS="icspm_uniform icspm_random elliptic_slit elliptic_spe10" TEST_SCRIPTS=tests/examples.sh test
+	$(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize CFLAGS="-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -DSPH_FN='static inline'" TESTS="$(TESTS)" TESTS_FLOAT= TESTS_DOUBLE="$(filter-out liquid_flow conservation_cost,$(TESTS_DOUBLE))" DRIVERS="icspm_uniform icspm_random elliptic_slit elliptic_spe10" TEST_SCRIPTS=tests/examples.sh test
 
 $(BUILD)/tests/%-float: tests/test_%.c $(wildcard tests/*.h) $(COMMON) $(HEADERS)
 	@mkdir -p $(@D)

@@ -6,7 +6,7 @@
 # headers    alone and all together, double and float, in the oldest and (full: every) newer standard of C and C++; OpenCL C 1.2
 # code       every function of the headers compiled, not only parsed, so that warnings that need the optimiser come up, too: -O2, and -O3 -march=native -ffast-math (full: -O0, and both
 #            precisions of all)
-# sources    every test and example under the same warnings
+# sources    every test and example under the same warnings, by one compiler (full: by each)
 # calls      one call of every function that takes arrays (calls.sh), which is what users compile: C, in 2D, at -Og;
 #            sweeps.sh compiles sweeps at -O2 (full: C and C++, in every dimension and both precisions, from -Og to
 #            -Ofast, with -ffast-math and -march=native)
@@ -202,9 +202,10 @@ done
 
 # ---------------------------------------------------------------- sources
 
-for cc in $c; do
+some=${c##* } precisions=1
+[ "$full" ] && some=$c precisions="0 1"
+for cc in $some; do
     for f in $(ls tests/test_*.c | grep -v -e test_gsl -e test_common); do
-        case "$full$c, $cc" in " gcc clang, gcc") precisions=0 ;; " gcc clang, clang") precisions=1 ;; *) precisions="0 1" ;; esac
         for single in $precisions; do job "$f, $cc, SPH_SINGLE=$single" $cc -std=c99 "$basic" -DSPH_SINGLE=$single -fsyntax-only "$f"; done
     done
     for f in tests/test_common.c tests/embedded/selfcheck.c examples/*.c examples/[!h]*/*.c; do
@@ -237,13 +238,13 @@ pair "gcc C99 and g++ C++11, -O1" "gcc -std=c99 -O1 $basic" "g++ -x c++ -std=c++
 pair "clang C2x and clang++ C++20, -O1" \
     "clang -std=c2x -O1 $basic" "clang++ -x c++ -std=c++20 -O1 $basic" clang ''
 pair "tcc" "tcc -Wall -Werror" "tcc -Wall -Werror" tcc ''
-# without optimisation forced inlining is but more code to write: one copy of each function there
-echo '#define SPH_FN static __attribute__((noinline, unused))' > "$scratch/once.h"
+# without optimisation forced inlining is but more code to write
+echo '#define SPH_FN static inline' > "$scratch/once.h"
 once="-include $scratch/once.h"
 musl="musl-gcc -std=c99 $basic"
 i686="gcc -m32 -std=c99 $basic"
 pair "musl, -O0" "$musl $once" "$musl $once" musl-gcc -static
-pair "i686, x87, -O0" "$i686 $once" "$i686 $once" gcc -m32 '|qemu-i386'
+pair "i686, x87, -O1" "$i686 -O1 $once" "$i686 -O1 $once" gcc -m32 '|qemu-i386'
 if [ "$full" ]; then
     for level in -O0 -O2 "$fast"; do
         for cc in gcc clang; do
