@@ -3,9 +3,7 @@
  * test_derivatives.c - CSPM, ICSPM, weighted least squares and BIM: the numbers of the ICSPM paper (Korzilius, Schilders & Anthonissen 2017, J. Appl. Math. Phys. 5,
  * 168) and its misprints, exactness, invariances, stencil rows, and the case where kappa is 0.
  */
-#if defined(SPH_SINGLE) && SPH_SINGLE /* forced inline in double only: it is what takes the time to compile */
 #include "one_copy.h"
-#endif
 #include "../sph.h"
 #include "check.h"
 #include "clouds.h"

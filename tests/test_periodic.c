@@ -3,9 +3,7 @@
  * test_periodic.c - operators in periodic boxes: the same as on a cloud with explicit copies beyond the box, wherever the particles are said to be; fields that are linear
  * along an open axis, waves along a periodic one, and boxes that are no boxes.
  */
-#if defined(SPH_SINGLE) && SPH_SINGLE /* forced inline in double only: it is what takes the time to compile */
 #include "one_copy.h"
-#endif
 #include "sph_ops.h"
 
 #include "../examples/common/random.h"
