@@ -7,6 +7,7 @@
 #     installed TOOL ...          succeeds if all of them are
 #     needs WHAT TOOL ...         the same, and skips WHAT if not
 #     $bounded COMMAND ...        ends it after a while, where there is timeout: an emulator may wait for ever
+#     "$freely"       the flag by which the compiler inlines what it likes: half of the time to compile, or a third
 #     compiles TEXT COMPILER FLAGS ...
 #         succeeds if that makes a program of the text ($empty: of an empty one); a COMPILER may be of
 #         several words
@@ -24,6 +25,8 @@
 #         what is installed does not work
 BUILD=${BUILD:-build}
 CC=${CC:-cc}
+# shellcheck disable=SC2034
+freely='-DSPH_FN=static inline'
 scratch=$BUILD/scratch/$(basename "$0" .sh)
 rm -rf "$scratch"
 mkdir -p "$scratch" || exit 2

@@ -12,7 +12,7 @@ build() { # the cc line with this compiler, warnings as errors, into the scratch
 
 changed() { # name, what sed changes: builds that into the scratch directory, with the doctor; not forced inline, which takes longer
     sed -e 's/^#define EXAMINE 0/#define EXAMINE 1/' -e "$2" "examples/$1.c" > "$scratch/$1-changed.c"
-    $CC -std=c99 -O2 "-DSPH_FN=static inline" -I. -o "$scratch/$1-changed" "$scratch/$1-changed.c" -lm
+    $CC -std=c99 -O2 "$freely" -I. -o "$scratch/$1-changed" "$scratch/$1-changed.c" -lm
 }
 quiet() { "$@" 2>&1 > /dev/null | { ! grep .; }; }
 limited() { (ulimit -f 4 && exec "$@"); }

@@ -202,11 +202,11 @@ done
 
 # ---------------------------------------------------------------- sources
 
-some=${c##* } precisions=1
-[ "$full" ] && some=$c precisions="0 1"
+some=${c##* }
+[ "$full" ] && some=$c
 for cc in $some; do
     for f in $(ls tests/test_*.c | grep -v -e test_gsl -e test_common); do
-        for single in $precisions; do job "$f, $cc, SPH_SINGLE=$single" $cc -std=c99 "$basic" -DSPH_SINGLE=$single -fsyntax-only "$f"; done
+        for single in 0 1; do job "$f, $cc, SPH_SINGLE=$single" $cc -std=c99 "$basic" -DSPH_SINGLE=$single -fsyntax-only "$f"; done
     done
     for f in tests/test_common.c tests/embedded/selfcheck.c examples/*.c examples/[!h]*/*.c; do
         job "$f, $cc" $cc -std=c99 "$basic" "-I$scratch" -fsyntax-only "$f"
@@ -239,12 +239,12 @@ pair "clang C2x and clang++ C++20, -O1" \
     "clang -std=c2x -O1 $basic" "clang++ -x c++ -std=c++20 -O1 $basic" clang ''
 pair "tcc" "tcc -Wall -Werror" "tcc -Wall -Werror" tcc ''
 # without optimisation forced inlining is but more code to write
-echo '#define SPH_FN static inline' > "$scratch/once.h"
-once="-include $scratch/once.h"
+echo '#define SPH_FN static inline' > "$scratch/inlining.h" # $freely has a space
+inlining="-include $scratch/inlining.h"
 musl="musl-gcc -std=c99 $basic"
 i686="gcc -m32 -std=c99 $basic"
-pair "musl, -O0" "$musl $once" "$musl $once" musl-gcc -static
-pair "i686, x87, -O1" "$i686 -O1 $once" "$i686 -O1 $once" gcc -m32 '|qemu-i386'
+pair "musl, -O0" "$musl $inlining" "$musl $inlining" musl-gcc -static
+pair "i686, x87, -O1" "$i686 -O1 $inlining" "$i686 -O1 $inlining" gcc -m32 '|qemu-i386'
 if [ "$full" ]; then
     for level in -O0 -O2 "$fast"; do
         for cc in gcc clang; do

@@ -57,6 +57,7 @@ for cc in gcc clang; do
         check "$cc, for this machine, SPH_SINGLE=$single: the pairs of the portable path" same_pairs "$best" "$portable"
         # what follows takes long, and knows little of precision: one for each compiler
         case $cc-$single in gcc-0) only=0 ;; clang-1) only=1 ;; *) continue ;; esac
+        # of gcc with three threads, below
         [ $openmp ] && [ $cc = gcc ] || check "$cc, for this machine, SPH_SINGLE=$single: all pairs" "$scratch/$best"
         [ $openmp ] || continue
         # shellcheck disable=SC2086

@@ -11,8 +11,7 @@ work=$BUILD/fuzz
 search="neighbors neighbors-avx2 neighbors-avx512 neighbors-crowded neighbors-openmp"
 all="kernels $search derivatives sweeps sparse spe10 restart commands"
 sanitize="-g -fsanitize=address,undefined -fno-sanitize-recover=all"
-inlined='-DSPH_FN=static inline' # not forced inline: a third of the time to compile
-optimise=-O1                    # and this takes three times as long
+optimise=-O1 # takes three times as long to compile
 [ "$seconds" -lt 30 ] && optimise=-O0
 mkdir -p "$work/examples"
 case ${FUZZER:-libfuzzer} in
@@ -54,7 +53,7 @@ fuzz() {
 for f in examples/*.c; do
     case " ${*:-commands} " in *" commands "*) ;; *) continue ;; esac
     program=$work/examples/$(basename "$f" .c)
-    check "$f" "$CC" -std=c99 -I. "$inlined" -O0 "$f" -o "$program" -lm
+    check "$f" "$CC" -std=c99 -I. "$freely" -O0 "$f" -o "$program" -lm
 done
 FUZZ_PROGRAMS=$BUILD/examples:$work/examples
 export FUZZ_PROGRAMS
@@ -68,7 +67,7 @@ for t in ${*:-$all}; do
         for single in 0 1; do
             case $single$t in 1sparse | 1spe10 | 1restart | 1commands) continue ;; esac
             # shellcheck disable=SC2086
-            check "$t, SPH_SINGLE=$single, compiles" $CC -std=c99 -I. -O0 "$inlined" $sanitize $flags -DSPH_SINGLE=$single "$source" tests/fuzz/replay.c -o "$scratch/$t" -lm
+            check "$t, SPH_SINGLE=$single, compiles" $CC -std=c99 -I. -O0 "$freely" $sanitize $flags -DSPH_SINGLE=$single "$source" tests/fuzz/replay.c -o "$scratch/$t" -lm
             check "$t, SPH_SINGLE=$single, replays $corpus" "$scratch/$t" "$corpus"/*
         done
     fi
@@ -77,7 +76,7 @@ for t in ${*:-$all}; do
     # shellcheck disable=SC2086
     if usable "fuzzing of $t" "$empty" '' "$compiler" -fsanitize=fuzzer-no-link,address,undefined $flags; then
         # shellcheck disable=SC2086
-        check "$t with $compiler compiles" "$compiler" -std=c99 -I. -fsanitize=fuzzer $optimise "$inlined" $sanitize $flags "$source" -o "$work/$t" -lm
+        check "$t with $compiler compiles" "$compiler" -std=c99 -I. -fsanitize=fuzzer $optimise "$freely" $sanitize $flags "$source" -o "$work/$t" -lm
         if [ "$compiler" = clang ]; then
             fuzz "$t" "$work/$t" -max_total_time="$seconds" -timeout=20 -len_control=0 -max_len=600 -verbosity=0 -artifact_prefix="$work/crash-$t-" "$work/corpus/$t" "$corpus"
         else

@@ -7,7 +7,6 @@ hosts=examples/hosts
 export PYTHONDONTWRITEBYTECODE=1
 warn="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wstrict-prototypes -Wmissing-prototypes -Werror -Wno-unknown-warning-option -Wno-pass-failed"
 not_inlined='-DSPH_FN=static __attribute__((noinline, unused))' # for tests that call many copies: seconds to compile, not minutes
-as_it_likes='-DSPH_FN=static inline' # the compiler inlines what it likes: half of the time
 
 # runs a host and shows what it prints; one that ends with 77 has no device, which for OpenCL can be installed
 no_device="there is no device (Debian: pocl-opencl-icd)"
@@ -122,7 +121,7 @@ one='#include <vector>\nint main() { return std::vector<int>(1)[0]; }' # there m
 for cxx in g++ clang++; do
     usable "C++ by $cxx" "$one" '' "$cxx -x c++ $flags" || continue
     # shellcheck disable=SC2086
-    built "C++ by $cxx" "$scratch/host-$cxx" $cxx $flags "$as_it_likes" -I. $hosts/host.cpp -o "$scratch/host-$cxx" &&
+    built "C++ by $cxx" "$scratch/host-$cxx" $cxx $flags "$freely" -I. $hosts/host.cpp -o "$scratch/host-$cxx" &&
         run "C++ by $cxx" "$scratch/host-$cxx"
 done
 
@@ -148,13 +147,13 @@ opencl="OpenCL (Debian: opencl-headers ocl-icd-opencl-dev, and pocl-opencl-icd f
 if usable "$opencl" "$platforms" '' "$CC -std=c99 $warn -O2" -lOpenCL -lm; then
     for single in 0 1; do
         # shellcheck disable=SC2086
-        built OpenCL "$scratch/host_opencl-$single" $CC -std=c99 $warn -O2 "$as_it_likes" -DSPH_SINGLE=$single -I. $hosts/host_opencl.c -o "$scratch/host_opencl-$single" -lOpenCL -lm || continue
+        built OpenCL "$scratch/host_opencl-$single" $CC -std=c99 $warn -O2 "$freely" -DSPH_SINGLE=$single -I. $hosts/host_opencl.c -o "$scratch/host_opencl-$single" -lOpenCL -lm || continue
         for version in CL1.2 CL3.0; do run "OpenCL, $version, SPH_SINGLE=$single" "$scratch/host_opencl-$single" $version; done
         # shellcheck disable=SC2086
-        built "OpenCL, lists" "$scratch/lists-$single" $CC -std=c99 $warn -O2 "$as_it_likes" -DSPH_SINGLE=$single -I. $hosts/host_opencl_lists.c -o "$scratch/lists-$single" -lOpenCL -lm &&
+        built "OpenCL, lists" "$scratch/lists-$single" $CC -std=c99 $warn -O2 "$freely" -DSPH_SINGLE=$single -I. $hosts/host_opencl_lists.c -o "$scratch/lists-$single" -lOpenCL -lm &&
             run "OpenCL, lists made on the device, SPH_SINGLE=$single" "$scratch/lists-$single"
         # shellcheck disable=SC2086
-        built "OpenCL, vortex" "$scratch/vortex-$single" $CC -std=c99 $warn -O2 "$as_it_likes" -DSPH_SINGLE=$single -I. $hosts/host_opencl_vortex.c -o "$scratch/vortex-$single" -lOpenCL -lm &&
+        built "OpenCL, vortex" "$scratch/vortex-$single" $CC -std=c99 $warn -O2 "$freely" -DSPH_SINGLE=$single -I. $hosts/host_opencl_vortex.c -o "$scratch/vortex-$single" -lOpenCL -lm &&
             run "OpenCL, a vortex that stays on the device, SPH_SINGLE=$single" "$scratch/vortex-$single"
     done
 fi

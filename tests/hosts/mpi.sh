@@ -27,7 +27,7 @@ built() { # NAME PACKAGE ...
     program=$1
     shift
     # shellcheck disable=SC2046,SC2086
-    check "$program compiles" mpicc $warn -O2 "-DSPH_FN=static inline" -I. -isystem /usr/include/trilinos \
+    check "$program compiles" mpicc $warn -O2 "$freely" -I. -isystem /usr/include/trilinos \
         $hosts/$program.c tests/hosts/mpi_bytes.c -o "$scratch/$program" $([ $# -eq 0 ] || flags_of "$@") -ltrilinos_zoltan -lm
     [ -e "$scratch/$program" ]
 }
