@@ -111,7 +111,11 @@ sph_real sweep_control(sph_kernel k, const sph_real *r, int n)
 }
 END
 
-for cc in gcc "gcc -DLISTS_ALONE -fopenmp-simd -DSPH_SIMD=1" clang; do
+flagged= # gcc 12 and newer need no flag to make vectors
+[ "$(gcc -dumpversion 2> /dev/null | cut -d. -f1)" -ge 12 ] 2> /dev/null ||
+    flagged="gcc -DLISTS_ALONE -fopenmp-simd -DSPH_SIMD=1"
+for cc in gcc "$flagged" clang; do
+    [ "$cc" ] || continue
     case $cc in *LISTS*) sweeps=78 ;; *) sweeps=87 ;; esac
     usable "assembly of the sweeps by $cc" "$empty" '' "$cc -std=c99 -O2" || continue
     if [ "$($cc -dumpmachine | cut -d- -f1)" != x86_64 ]; then
