@@ -90,6 +90,9 @@ typedef struct report {
     int count[REPORT_VERDICTS];
 } report;
 
+/* CPU seconds of earlier pieces of the run, which restarts bring along */
+static double report_cpu_before;
+
 static inline const char *report_column_name(int column)
 {
     static const char *const name[REPORT_COLUMNS] = {"item",   "setting",  "quantity",  "published", "reference",
@@ -339,7 +342,7 @@ static inline void report_info(report *r, const char *item, const char *setting,
 static inline int report_close(report *r)
 {
     const double wall = difftime(time(NULL), r->wall);
-    report_info(r, "run", "", "CPU time [s]", (double)(clock() - r->cpu) / CLOCKS_PER_SEC);
+    report_info(r, "run", "", "CPU time [s]", report_cpu_before + (double)(clock() - r->cpu) / CLOCKS_PER_SEC);
     report_info(r, "run", "", "wall time [s]", wall);
 
     errno = 0;

@@ -684,7 +684,6 @@ typedef struct setting {
     double courant, skin, end;
     const char *out, *figures;
     progress show;
-    double before; /* seconds of processor time that restarts bring along */
     double work, done; /* of all runs; units of particles times steps */
 } setting;
 
@@ -772,7 +771,7 @@ static void run(setting *s, int side, const plan *c, double end, FILE *panel, ou
     vortex(&g, c, side, s->skin);
     if (s->go_on && load(s, side, c, name, &g, o)) {
         vtk_series_resume(&series, o->t);
-        s->before += o->cpu;
+        report_cpu_before += o->cpu;
     } else {
         measure_gas(&g, c, &m);
         o->energy = m.total;
@@ -1265,6 +1264,5 @@ int main(int argc, char **argv)
                                  (levels[a].o[CLEANED].at[k].error / levels[a].o[CONTROL].at[k].error),
                              0, 1);
             }
-    r.cpu -= (clock_t)(s.before * CLOCKS_PER_SEC);
     return report_close(&r) ? 1 : 0;
 }

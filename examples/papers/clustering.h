@@ -628,6 +628,7 @@ static inline void flow_save(flow *f, int64_t step)
 /* How many steps of this stage are done: 0, and nothing has happened, where there is no restart of it. */
 static inline int64_t flow_load(flow *f)
 {
+    const double spent = f->cpu;
     int64_t step = 0;
     char name[160];
     restart r;
@@ -636,7 +637,9 @@ static inline int64_t flow_load(flow *f)
     found = restart_read(&r, f->restarts, name, FLOW_MAGIC);
     if (found > 0 && !restart_end(&r, flow_transfer(&r, f, &step))) found = -1;
     if (found < 0) flow_restart_failed(f, name, r.trouble, "; remove it, or run without -continue");
-    if (found) flow_lists(f);
+    if (!found) return 0;
+    report_cpu_before += f->cpu - spent;
+    flow_lists(f);
     return step;
 }
 
