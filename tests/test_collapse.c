@@ -31,7 +31,7 @@ static heap heap_new(sph_index n, double box)
 {
     heap s;
     pcg32 g;
-    double *const block = (double *)tree_memory(NULL, 12 * (size_t)n, sizeof *block), *spare = (double *)tree_memory(NULL, (size_t)n, sizeof *spare);
+    double *const block = (double *)need(NULL, 12 * (size_t)n, sizeof *block), *spare = (double *)need(NULL, (size_t)n, sizeof *spare);
     sph_index i;
     int c;
     memset(&s, 0, sizeof s);
@@ -103,8 +103,8 @@ static void test_neighbours(void)
         const sph_points x = sph_points_periodic(sph_points_separate(s.n, s.x[0], s.x[1], s.x[2]), box, box, box);
         const sph_scalars radius = sph_scalars_array(s.radius);
         const size_t size = sph_grid_workspace(3, s.n);
-        void *const work = tree_memory(NULL, size, 1);
-        sph_index *const start = (sph_index *)tree_memory(NULL, (size_t)s.n + 1, sizeof *start), *const index = (sph_index *)tree_memory(
+        void *const work = need(NULL, size, 1);
+        sph_index *const start = (sph_index *)need(NULL, (size_t)s.n + 1, sizeof *start), *const index = (sph_index *)need(
                                                                                                      NULL, (size_t)s.rows.pairs + 1, sizeof *index);
         sph_grid grid;
         int64_t pairs = 0;
@@ -226,7 +226,7 @@ static void test_column(void)
 {
     static const sph_kernel kernels[] = {SPH_CUBIC_SPLINE, SPH_WENDLAND_C2, SPH_QUINTIC_SPLINE};
     enum { SIDE = 200 };
-    double *const pixel = (double *)tree_memory(NULL, SIDE * SIDE, sizeof *pixel);
+    double *const pixel = (double *)need(NULL, SIDE * SIDE, sizeof *pixel);
     const double x[2] = {0.1, -0.2}, y[2] = {0.05, 0.3}, h[2] = {0.2, 0.001}, weight[2] = {0.5, 2};
     column_table t;
     int k, i;
@@ -365,7 +365,7 @@ static void ball(collapse *g, const collapse_model *model, sph_index n)
 /* kinetic, thermal (P / (0.4 rho) at gamma = 1.4) and that of gravity */
 static double energy(const collapse *g)
 {
-    double *const phi = (double *)tree_memory(NULL, 4 * (size_t)g->s.n, sizeof *phi), e = 0;
+    double *const phi = (double *)need(NULL, 4 * (size_t)g->s.n, sizeof *phi), e = 0;
     const sph_vector_out a = sph_vector_out_separate(phi + g->s.n, phi + 2 * g->s.n, phi + 3 * g->s.n);
     const sph_cloud open =
         sph_cloud_of(collapse_open(g), collapse_list(g), collapse_field(g, H), sph_scalars_none());

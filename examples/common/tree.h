@@ -33,7 +33,6 @@ typedef struct tree {
     sph_index room;   /* particles that the memory is for */
 } tree;
 
-#define tree_memory(old, count, size) need(old, count, size) /* as tests/test_collapse.c calls it */
 static inline void tree_free(tree *t)
 {
     free(t->node);
