@@ -188,7 +188,8 @@ test: $(TEST_PROGRAMS) $(DRIVERS:%=$(BUILD)/examples/%) $(BUILD)/examples/scoreb
 test-sanitize:
 	$(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize CFLAGS="-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -DSPH_FN='static inline'" TESTS="$(filter-out invariance,$(TESTS))" TESTS_FLOAT= TESTS_DOUBLE="$(filter-out liquid_flow conservation_cost,$(TESTS_DOUBLE))" DRIVERS="icspm_uniform icspm_random elliptic_slit elliptic_spe10" TEST_SCRIPTS=tests/examples.sh test
 
-# These call more operators than they spend time in: one copy of each (tests/one_copy.h), whatever CFLAGS says, takes half as long to compile.
+# These call more operators than they spend time in: one copy of each (tests/one_copy.h), whatever CFLAGS says,
+# takes half as long to compile.
 ONE_COPY = contract contract_unchecked elliptic_tensor fits gas
 $(foreach t,$(ONE_COPY),$(BUILD)/tests/$(t) $(BUILD)/tests/$(t)-float): private override CFLAGS += -USPH_FN
 $(BUILD)/tests/%-float: tests/test_%.c $(wildcard tests/*.h) $(COMMON) $(HEADERS)

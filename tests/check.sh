@@ -8,6 +8,7 @@
 #     needs WHAT TOOL ...         the same, and skips WHAT if not
 #     $bounded COMMAND ...        ends it after a while, where there is timeout: an emulator may wait for ever
 #     "$freely"       the flag by which the compiler inlines what it likes: half of the time to compile, or a third
+#     "$one_copy"     and that by which it inlines nothing, for what makes many calls: seconds, not minutes
 #     compiles TEXT COMPILER FLAGS ...
 #         succeeds if that makes a program of the text ($empty: of an empty one); a COMPILER may be of
 #         several words
@@ -26,7 +27,7 @@
 BUILD=${BUILD:-build}
 CC=${CC:-cc}
 # shellcheck disable=SC2034
-freely='-DSPH_FN=static inline'
+freely='-DSPH_FN=static inline' one_copy='-DSPH_FN=static __attribute__((noinline, unused))'
 scratch=$BUILD/scratch/$(basename "$0" .sh)
 rm -rf "$scratch"
 mkdir -p "$scratch" || exit 2

@@ -7,7 +7,6 @@
 . tests/check.sh
 bin=$BUILD/examples
 reader=$scratch/read_files
-one_copy='-DSPH_FN=static __attribute__((noinline, unused))'
 warn="-Wall -Wextra -Wpedantic -Werror"
 # shellcheck disable=SC2086
 check "the reader compiles" "$CC" -std=c99 $warn -O1 tests/read_files.c -o "$reader" -lm

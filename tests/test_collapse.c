@@ -104,8 +104,8 @@ static void test_neighbours(void)
         const sph_scalars radius = sph_scalars_array(s.radius);
         const size_t size = sph_grid_workspace(3, s.n);
         void *const work = need(NULL, size, 1);
-        sph_index *const start = (sph_index *)need(NULL, (size_t)s.n + 1, sizeof *start), *const index = (sph_index *)need(
-                                                                                                     NULL, (size_t)s.rows.pairs + 1, sizeof *index);
+        sph_index *const start = (sph_index *)need(NULL, (size_t)s.n + 1, sizeof *start);
+        sph_index *const index = (sph_index *)need(NULL, (size_t)s.rows.pairs + 1, sizeof *index);
         sph_grid grid;
         int64_t pairs = 0;
         double widest = 0;

@@ -111,11 +111,9 @@ sph_real sweep_control(sph_kernel k, const sph_real *r, int n)
 }
 END
 
-flagged= # gcc 12 and newer need no flag to make vectors
-[ "$(gcc -dumpversion 2> /dev/null | cut -d. -f1)" -ge 12 ] 2> /dev/null ||
-    flagged="gcc -DLISTS_ALONE -fopenmp-simd -DSPH_SIMD=1"
-for cc in gcc "$flagged" clang; do
-    [ "$cc" ] || continue
+older= # a gcc that makes vectors with a flag only
+[ "$(gcc -dumpversion 2> /dev/null | cut -d. -f1)" -lt 12 ] 2> /dev/null && older=1
+for cc in gcc ${older:+"gcc -DLISTS_ALONE -fopenmp-simd -DSPH_SIMD=1"} clang; do
     case $cc in *LISTS*) sweeps=78 ;; *) sweeps=87 ;; esac
     usable "assembly of the sweeps by $cc" "$empty" '' "$cc -std=c99 -O2" || continue
     if [ "$($cc -dumpmachine | cut -d- -f1)" != x86_64 ]; then
@@ -128,7 +126,7 @@ for cc in gcc "$flagged" clang; do
     check "$cc: no call" obeys "$scratch/counts" '$2 == 0'
     check "$cc: no jump table" obeys "$scratch/counts" '$3 == 0'
     grep -v -e _1 "$scratch/counts" > "$scratch/counts_nd" # |x| needs no square root in 1D
-    if [ "$cc" = gcc ] && [ "$(gcc -dumpversion | cut -d. -f1)" -lt 12 ]; then
+    if [ "$cc" = gcc ] && [ $older ]; then
         skip "packed square roots by gcc without a flag" "it is older than version 12"
     else
         check "$cc: packed square roots" obeys "$scratch/counts_nd" '$4 > 0'

@@ -6,7 +6,6 @@
 hosts=examples/hosts
 export PYTHONDONTWRITEBYTECODE=1
 warn="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wstrict-prototypes -Wmissing-prototypes -Werror -Wno-unknown-warning-option -Wno-pass-failed"
-not_inlined='-DSPH_FN=static __attribute__((noinline, unused))' # for tests that call many copies: seconds to compile, not minutes
 
 # runs a host and shows what it prints; one that ends with 77 has no device, which for OpenCL can be installed
 no_device="there is no device (Debian: pocl-opencl-icd)"
@@ -30,10 +29,10 @@ built() { # what, output, command ...: removes the output first, so that what ru
 # shellcheck disable=SC2086
 if built "the shim, an object," "$scratch/sph_shim.o" $CC -std=c99 $warn -O1 -fPIC -I. -c $hosts/sph_shim.c -o "$scratch/sph_shim.o" &&
     built "the shim, a library," "$scratch/libsph_shim.so" $CC -shared "$scratch/sph_shim.o" -o "$scratch/libsph_shim.so" -lm; then
-    if built "the shim's test" "$scratch/test_shim" $CC -std=c99 $warn -O1 "$not_inlined" -I. tests/hosts/test_shim.c "$scratch/sph_shim.o" -o "$scratch/test_shim" -lm; then
+    if built "the shim's test" "$scratch/test_shim" $CC -std=c99 $warn -O1 "$one_copy" -I. tests/hosts/test_shim.c "$scratch/sph_shim.o" -o "$scratch/test_shim" -lm; then
         run "the shim, double" "$scratch/test_shim"
     fi
-    if built "the shim's test in float" "$scratch/test_shim-float" $CC -std=c99 $warn -O1 "$not_inlined" -DSPH_SINGLE=1 -I. tests/hosts/test_shim.c $hosts/sph_shim.c -o "$scratch/test_shim-float" -lm; then
+    if built "the shim's test in float" "$scratch/test_shim-float" $CC -std=c99 $warn -O1 "$one_copy" -DSPH_SINGLE=1 -I. tests/hosts/test_shim.c $hosts/sph_shim.c -o "$scratch/test_shim-float" -lm; then
         run "the shim, float" "$scratch/test_shim-float"
     fi
 
@@ -53,7 +52,7 @@ if built "the shim, an object," "$scratch/sph_shim.o" $CC -std=c99 $warn -O1 -fP
         done
         # shellcheck disable=SC2086
         if needs "Fortran against C" python3 && check "calls in Fortran and in C" python3 tests/hosts/fortran_calls.py "$scratch" &&
-            built "calls in C" "$scratch/calls.o" $CC -std=c99 $warn -O1 "$not_inlined" -I. -c "$scratch/calls.c" -o "$scratch/calls.o" &&
+            built "calls in C" "$scratch/calls.o" $CC -std=c99 $warn -O1 "$one_copy" -I. -c "$scratch/calls.c" -o "$scratch/calls.o" &&
             built "calls in Fortran" "$scratch/calls" \
                 $fortran -std=f2008 $modules "$scratch/calls.f90" "$scratch/calls.o" "$scratch/sph_shim.o" -o "$scratch/calls" -lm; then
             run "Fortran against C" "$scratch/calls"
@@ -63,7 +62,7 @@ if built "the shim, an object," "$scratch/sph_shim.o" $CC -std=c99 $warn -O1 -fP
     if needs Python python3 && works Python python3 -S -c ''; then
         # every operator: through the shim, inline, and through Python
         check "calls of every operator, in C," sh -c "python3 -S tests/hosts/shim_calls.py C > '$scratch/shim_calls.c'"
-        if built "calls of every operator" "$scratch/shim_calls" $CC -std=c99 -O1 "$not_inlined" -I. "$scratch/shim_calls.c" "$scratch/sph_shim.o" -o "$scratch/shim_calls" -lm; then
+        if built "calls of every operator" "$scratch/shim_calls" $CC -std=c99 -O1 "$one_copy" -I. "$scratch/shim_calls.c" "$scratch/sph_shim.o" -o "$scratch/shim_calls" -lm; then
             run "every operator, shim and inline" sh -c "'$scratch/shim_calls' > '$scratch/sums'"
             run "every operator, Python and inline" python3 -S tests/hosts/shim_calls.py "$scratch/libsph_shim.so" "$scratch/sums" without-numpy
         fi
@@ -110,7 +109,7 @@ if built "the shim, an object," "$scratch/sph_shim.o" $CC -std=c99 $warn -O1 -fP
             cp ./sph.h ./sph_ops.h ./sph_kernels.h pyproject.toml setup.py README.md "$scratch/source"
             cp -R $hosts/sph $hosts/sph_shim* "$scratch/source/examples/hosts"
             what="pip install"
-            check "$what" env CFLAGS="'$not_inlined' '-DSHIM_CONSTANT_KERNELS(EACH)='" "$pip" -m pip install --quiet --no-index --no-build-isolation --target "$scratch/site" "$scratch/source"
+            check "$what" env CFLAGS="'$one_copy' '-DSHIM_CONSTANT_KERNELS(EACH)='" "$pip" -m pip install --quiet --no-index --no-build-isolation --target "$scratch/site" "$scratch/source"
             run "Python, installed" sh -c "cd / && PYTHONPATH='$(cd "$scratch" && pwd)/site' '$pip' -c 'import sph; print(sph.__file__, sph.kernel_w(\"m4\", 3, 0, 1))'"
         fi
     fi

@@ -61,7 +61,6 @@ if needs "Eva (Debian: frama-c-base)" frama-c; then
     for single in 0 1; do check "Eva, SPH_SINGLE=$single" sound $single; done
 fi
 
-one_copy="-DSPH_FN=static __attribute__((noinline, unused))"
 if needs valgrind valgrind && works valgrind valgrind -q sh -c :; then
     for t in known_answers derivatives collisions gravity; do
         check "$t" $CC -std=c99 -w -O1 -g "$one_copy" -I. -o "$scratch/$t" "tests/test_$t.c" -lm

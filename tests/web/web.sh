@@ -7,7 +7,7 @@ if ! needs "$web" clang wasm-ld node || ! works "$web" node -e 0; then finish we
 check "the vector module compiles" nice sh examples/web/build.sh "$scratch/simd.wasm"
 check "the scalar module compiles" nice sh examples/web/build.sh "$scratch/scalar.wasm" scalar
 # without what tells the headers of vectors: they then add one number after the other, as the scalar module does
-check "the native program compiles" nice "$CC" -std=c99 -O1 -U__SSE2__ '-DSPH_FN=static __attribute__((noinline, unused))' -ffp-contract=off -ffreestanding -fno-math-errno -DSPH_PURE_SQRT=0 \
+check "the native program compiles" nice "$CC" -std=c99 -O1 -U__SSE2__ "$one_copy" -ffp-contract=off -ffreestanding -fno-math-errno -DSPH_PURE_SQRT=0 \
     -Iexamples/web/freestanding -I. -Wall -Wextra -Wpedantic -Werror -Wno-unknown-warning-option -Wno-pass-failed tests/web/native.c examples/web/*.c -o "$scratch/native" -lm
 for module in scalar simd; do sh examples/web/page.sh "$scratch/$module.wasm" > "$scratch/$module.html"; done
 without=
